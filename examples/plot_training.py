@@ -31,7 +31,9 @@ def curve(folder: str, tag: str) -> tuple[np.ndarray, np.ndarray]:
 
 def main(argv: list[str] | None = None) -> None:
     """Reads the command line and draws."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("runs", nargs="+", help="folders of logs, `NAME=FOLDER` or `FOLDER`")
     parser.add_argument("--tag", default="episode/score")
     parser.add_argument("--out", type=Path, default=Path("docs/training.png"))

@@ -107,7 +107,9 @@ def train(args: argparse.Namespace) -> Policy:
     writer = SummaryWriter(args.out)
     rows = (STEPS_OF_ENV, args.envs)
     observations = torch.zeros(*rows, int(np.prod(space.shape)))
-    masks = torch.ones(*rows, int(envs.single_action_space.n), dtype=torch.int8) if args.masks else None
+    masks = (
+        torch.ones(*rows, int(envs.single_action_space.n), dtype=torch.int8) if args.masks else None
+    )
     actions = torch.zeros(rows, dtype=torch.int64)
     log_probs, rewards, values, following = (torch.zeros(rows) for _ in range(4))
     ended = torch.zeros(rows)
@@ -183,13 +185,17 @@ def evaluate(policy: Policy, args: argparse.Namespace, episodes: int = 100) -> f
     Environment k plays seed 1000000 + k, once. Taking the first episodes to end would favour short
     ones.
     """
-    envs = setpiece.make_vec(args.scenario, episodes, threads=args.threads, autoreset_mode="same_step")
+    envs = setpiece.make_vec(
+        args.scenario, episodes, threads=args.threads, autoreset_mode="same_step"
+    )
     observation, infos = envs.reset(seed=1_000_000)
     score, playing = np.zeros(episodes), np.ones(episodes, bool)
     while playing.any():
         with torch.no_grad():
             masks = torch.from_numpy(infos["action_mask"]) if args.masks else None
-            actions = policy.actions(torch.from_numpy(observation).flatten(1).float(), masks).logits.argmax(-1)
+            actions = policy.actions(
+                torch.from_numpy(observation).flatten(1).float(), masks
+            ).logits.argmax(-1)
         observation, _, terminated, truncated, infos = envs.step(actions.numpy())
         over = (terminated | truncated) & playing
         if over.any():
@@ -202,15 +208,21 @@ def evaluate(policy: Policy, args: argparse.Namespace, episodes: int = 100) -> f
 
 def main(argv: list[str] | None = None) -> float:
     """Reads the command line, trains, saves and evaluates."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--scenario", default="academy_empty_goal_close", help="a name or a file")
-    parser.add_argument("--rewards", help="rewards instead of the scenario's own: scoring,checkpoints")
+    parser.add_argument(
+        "--rewards", help="rewards instead of the scenario's own: scoring,checkpoints"
+    )
     parser.add_argument("--steps", type=int, default=1_000_000)
     parser.add_argument("--envs", type=int, default=32)
     parser.add_argument("--threads", type=int, default=2, help="of the engine and of PyTorch")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--lr", type=float, default=1e-3, help="at the beginning; it falls to 0")
-    parser.add_argument("--masks", action="store_true", help="only draw actions that can change something")
+    parser.add_argument(
+        "--masks", action="store_true", help="only draw actions that can change something"
+    )
     parser.add_argument("--out", type=Path, default=Path("runs/cleanrl"))
     args = parser.parse_args(argv)
     torch.set_num_threads(args.threads)

@@ -31,7 +31,9 @@ class Terms(RLlibCallback):
 
     def on_episode_end(self, *, episode: Any, metrics_logger: Any, **_: Any) -> None:
         """Reads the last infos; those of the only agent are enough."""
-        infos = {agent: infos for agent, infos in episode.get_infos(-1).items() if "setpiece" in infos}
+        infos = {
+            agent: infos for agent, infos in episode.get_infos(-1).items() if "setpiece" in infos
+        }
         for info in infos.values():
             paid = info["setpiece"]["return"]
             values = {
@@ -42,18 +44,24 @@ class Terms(RLlibCallback):
             }
             for name, value in values.items():
                 # A metric's name is a path, so `/` would add a level.
-                metrics_logger.log_value((CURVES, name.replace("/", ":")), value, reduce="mean", window=100)
+                metrics_logger.log_value(
+                    (CURVES, name.replace("/", ":")), value, reduce="mean", window=100
+                )
 
 
 def evaluate(module: Any, args: argparse.Namespace, episodes: int = 100) -> float:
     """Returns the mean score of the likeliest actions; every environment plays one episode."""
     # As in `parallel_env`, an agent keeps its player.
-    envs = setpiece.make_vec(args.scenario, episodes, autoreset_mode="same_step", left=1, switching="fixed")
+    envs = setpiece.make_vec(
+        args.scenario, episodes, autoreset_mode="same_step", left=1, switching="fixed"
+    )
     observation, _ = envs.reset(seed=1_000_000)
     score, playing = np.zeros(episodes), np.ones(episodes, bool)
     while playing.any():
         with torch.no_grad():
-            rated = module.forward_inference({"obs": torch.from_numpy(observation)})["action_dist_inputs"]
+            rated = module.forward_inference({"obs": torch.from_numpy(observation)})[
+                "action_dist_inputs"
+            ]
         observation, _, terminated, truncated, infos = envs.step(rated.argmax(-1).numpy())
         over = (terminated | truncated) & playing
         if over.any():
@@ -66,9 +74,13 @@ def evaluate(module: Any, args: argparse.Namespace, episodes: int = 100) -> floa
 
 def main(argv: list[str] | None = None) -> float:
     """Reads the command line, trains, saves and evaluates."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--scenario", default="academy_empty_goal_close", help="a name or a file")
-    parser.add_argument("--rewards", help="rewards instead of the scenario's own: scoring,checkpoints")
+    parser.add_argument(
+        "--rewards", help="rewards instead of the scenario's own: scoring,checkpoints"
+    )
     parser.add_argument("--steps", type=int, default=1_000_000)
     parser.add_argument("--envs", type=int, default=32, help="of all runners together")
     parser.add_argument("--threads", type=int, default=2, help="how many runners play")
@@ -84,7 +96,9 @@ def main(argv: list[str] | None = None) -> float:
     setpiece.rllib.register()
     config = (
         IMPALAConfig()
-        .environment("setpiece", env_config={"scenario": args.scenario, "left": 1, "rewards": args.rewards})
+        .environment(
+            "setpiece", env_config={"scenario": args.scenario, "left": 1, "rewards": args.rewards}
+        )
         .env_runners(
             num_env_runners=args.threads,
             num_envs_per_env_runner=max(1, args.envs // args.threads),
@@ -92,7 +106,9 @@ def main(argv: list[str] | None = None) -> float:
         )
         .learners(num_learners=0)
         .multi_agent(policies={"p0"}, policy_mapping_fn=lambda *_, **__: "p0")
-        .rl_module(model_config=DefaultModelConfig(fcnet_hiddens=[128, 128], fcnet_activation="tanh"))
+        .rl_module(
+            model_config=DefaultModelConfig(fcnet_hiddens=[128, 128], fcnet_activation="tanh")
+        )
         .training(
             gamma=0.993,
             lr=args.lr,

@@ -66,15 +66,21 @@ def evaluate(model: Any, args: argparse.Namespace, episodes: int = 100) -> float
 
 def main(argv: list[str] | None = None) -> float:
     """Reads the command line, trains, saves and evaluates."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--scenario", default="academy_empty_goal_close", help="a name or a file")
-    parser.add_argument("--rewards", help="rewards instead of the scenario's own: scoring,checkpoints")
+    parser.add_argument(
+        "--rewards", help="rewards instead of the scenario's own: scoring,checkpoints"
+    )
     parser.add_argument("--steps", type=int, default=1_000_000)
     parser.add_argument("--envs", type=int, default=32)
     parser.add_argument("--threads", type=int, default=2, help="of the engine and of PyTorch")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--lr", type=float, default=1e-3, help="at the beginning; it falls to 0")
-    parser.add_argument("--masks", action="store_true", help="only draw actions that can change something")
+    parser.add_argument(
+        "--masks", action="store_true", help="only draw actions that can change something"
+    )
     parser.add_argument("--out", type=Path, default=Path("runs/sb3"))
     args = parser.parse_args(argv)
     torch.set_num_threads(args.threads)
@@ -84,7 +90,9 @@ def main(argv: list[str] | None = None) -> float:
 
         algorithm = MaskablePPO
     envs = VecMonitor(
-        setpiece.sb3.make_vec(args.scenario, args.envs, seed=args.seed, threads=args.threads, rewards=args.rewards)
+        setpiece.sb3.make_vec(
+            args.scenario, args.envs, seed=args.seed, threads=args.threads, rewards=args.rewards
+        )
     )
     # The same settings as `train_cleanrl.py`.
     model = algorithm(

@@ -1,7 +1,8 @@
-//! Embeds every file of the standard library and every page of the error codes: adding one is adding a file.
+//! Embeds every file of the standard library and every page of the error codes: adding one is
+//! adding a file.
 //!
-//! Not by the macro `include_dir`: without a build script it doesn't see that a file was added, and its files are bytes
-//! that are checked to be text at run time.
+//! Not by the macro `include_dir`: without a build script it doesn't see that a file was added, and
+//! its files are bytes that are checked to be text at run time.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -36,7 +37,10 @@ fn collect(folder: &Path, endings: &[&str], files: &mut Vec<PathBuf>) -> io::Res
         if path.is_dir() {
             println!("cargo:rerun-if-changed={}", path.display());
             collect(&path, endings, files)?;
-        } else if path.extension().is_some_and(|ending| endings.iter().any(|wanted| ending == *wanted)) {
+        } else if path
+            .extension()
+            .is_some_and(|ending| endings.iter().any(|wanted| ending == *wanted))
+        {
             files.push(path);
         }
     }

@@ -36,12 +36,23 @@ SIDES = (1, 2, 3, 5, 7, 9, 11)
 
 def measured(contest: str, player: str, case: str, seconds: float) -> float:
     """Measures one of them, in a separate process."""
-    command = [sys.executable, str(Path(__file__).parent), "--one", contest, player, case, "--seconds", str(seconds)]
+    command = [
+        sys.executable,
+        str(Path(__file__).parent),
+        "--one",
+        contest,
+        player,
+        case,
+        "--seconds",
+        str(seconds),
+    ]
     output = subprocess.run(command, check=True, capture_output=True, text=True)
     return float(output.stdout.splitlines()[-1])
 
 
-def contest_section(name: str, contest: Contest, rounds: int, seconds: float, figures_of: Figures) -> list[str]:
+def contest_section(
+    name: str, contest: Contest, rounds: int, seconds: float, figures_of: Figures
+) -> list[str]:
     """Runs a contest in turn; returns its section of the page and records the medians."""
     figures: dict[str, dict[str, list[float]]] = {
         case: {player: [] for player in contest.players} for case in contest.cases
@@ -53,7 +64,13 @@ def contest_section(name: str, contest: Contest, rounds: int, seconds: float, fi
                 print(f"{case}, {player}: {figures[-1]:,.0f}", file=sys.stderr)
     peer = next(iter(contest.players))
     versions = ", ".join(f"{package} {version(package)}" for package in contest.packages)
-    lines = [f"## {contest.title}", "", contest.text, f"{versions}; {rounds} rounds of {seconds:g} s.", ""]
+    lines = [
+        f"## {contest.title}",
+        "",
+        contest.text,
+        f"{versions}; {rounds} rounds of {seconds:g} s.",
+        "",
+    ]
     lines += [f"| | player | {contest.unit} | against {peer} |", "| --- | --- | ---: | ---: |"]
     for case, by_player in figures.items():
         for player, figures in by_player.items():
@@ -61,7 +78,9 @@ def contest_section(name: str, contest: Contest, rounds: int, seconds: float, fi
             case_word = f"`{case}`" if "_" in case else case
             ratio = statistics.median(ratios)
             ratio_word = f"{ratio:,.0f}" if ratio >= 10 else f"{ratio:.2g}"
-            lines.append(f"| {case_word} | {player} | {statistics.median(figures):,.0f} | {ratio_word} |")
+            lines.append(
+                f"| {case_word} | {player} | {statistics.median(figures):,.0f} | {ratio_word} |"
+            )
             figures_of[f"{case}, {player}"] = statistics.median(figures)
             figures_of[f"{case}, {player}, ratio"] = ratio
     return [*lines, ""]
@@ -71,10 +90,19 @@ def alone_section(seconds: float, figures_of: Figures) -> list[str]:
     """The results of `setpiece bench`: the time of each phase, and one-time costs."""
     rows = {scenario: bench(scenario, seconds, "--threads", "1")[0] for scenario in SCENARIOS}
     phases = ("draw", "bots", "reach", "movement", "play", "physics", "referee", "judge", "observe")
-    lines = ["## Where the time goes", "", "Microseconds a step, `simple115v2` written after every step.", ""]
+    lines = [
+        "## Where the time goes",
+        "",
+        "Microseconds a step, `simple115v2` written after every step.",
+        "",
+    ]
     lines += ["| | " + " | ".join(phases) + " |", "| --- |" + " ---: |" * len(phases)]
     for scenario, row in rows.items():
-        lines.append(f"| `{scenario}` | " + " | ".join(f"{row['microseconds'][name]:.2f}" for name in phases) + " |")
+        lines.append(
+            f"| `{scenario}` | "
+            + " | ".join(f"{row['microseconds'][name]:.2f}" for name in phases)
+            + " |"
+        )
     names = {
         "create": "create, first reset",
         "reset": "later reset",
@@ -99,7 +127,9 @@ def curve_sections(seconds: float, figures_of: Figures) -> list[str]:
     cores = os.cpu_count() or 1
     lines = ["## Threads, matches, players", ""]
     if cores > 1:
-        lines += [f"{cores} threads against one, 256 matches, as a share of what a loop of bare arithmetic gains:"]
+        lines += [
+            f"{cores} threads against one, 256 matches, as a share of what a loop of bare arithmetic gains:"
+        ]
         shares = []
         for scenario in SCENARIOS:
             (row,) = bench(scenario, 4 * seconds, "--threads", str(cores), "--matches", "256")
@@ -132,12 +162,32 @@ def curve_sections(seconds: float, figures_of: Figures) -> list[str]:
 
 
 BARS: tuple[tuple[str, str, str, float], ...] = (
-    ("11_vs_11_stochastic, setpiece, floats, ratio", "`11_vs_11_stochastic`, floats, times EnvPool's GRF", ">=", 200),
+    (
+        "11_vs_11_stochastic, setpiece, floats, ratio",
+        "`11_vs_11_stochastic`, floats, times EnvPool's GRF",
+        ">=",
+        200,
+    ),
     ("11_vs_11_stochastic, setpiece, ratio", "the same, super mini map", ">=", 180),
     ("11_vs_11_stochastic, setpiece.make_vec, ratio", "the same by `setpiece.make_vec`", ">=", 180),
-    ("academy_3_vs_1_with_keeper, setpiece, floats, ratio", "`academy_3_vs_1_with_keeper`, times EnvPool's", ">=", 200),
-    ("academy_3_vs_1_with_keeper, setpiece, floats", "the same, steps per CPU-second", ">=", 80_000),
-    ("academy_empty_goal_close, setpiece, floats", "`academy_empty_goal_close`, steps per CPU-second", ">=", 150_000),
+    (
+        "academy_3_vs_1_with_keeper, setpiece, floats, ratio",
+        "`academy_3_vs_1_with_keeper`, times EnvPool's",
+        ">=",
+        200,
+    ),
+    (
+        "academy_3_vs_1_with_keeper, setpiece, floats",
+        "the same, steps per CPU-second",
+        ">=",
+        80_000,
+    ),
+    (
+        "academy_empty_goal_close, setpiece, floats",
+        "`academy_empty_goal_close`, steps per CPU-second",
+        ">=",
+        150_000,
+    ),
     ("scaling", "all cores against one, share of bare arithmetic's gain, the least", ">=", 0.93),
     ("create", "create and first reset, µs", "<=", 300),
     ("reset", "later reset, µs", "<=", 20),
@@ -191,7 +241,8 @@ def processor() -> str:
     info = Path("/proc/cpuinfo")
     lines = info.read_text(encoding="utf-8").splitlines() if info.exists() else []
     return next(
-        (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), platform.processor()
+        (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")),
+        platform.processor(),
     )
 
 
@@ -216,10 +267,16 @@ def page(rounds: int, seconds: float) -> str:
 
 def main() -> None:
     """Measures in turn and writes the page."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-o", "--output", type=Path, help="where the page goes; standard output without it")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "-o", "--output", type=Path, help="where the page goes; standard output without it"
+    )
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--seconds", type=float, default=5.0, help="how long each is measured in a round")
+    parser.add_argument(
+        "--seconds", type=float, default=5.0, help="how long each is measured in a round"
+    )
     parser.add_argument("--one", nargs=3, help=argparse.SUPPRESS)
     args = parser.parse_args()
     if args.one:

@@ -46,6 +46,17 @@ def native_steps(scenario: str, seconds: float, observation: str) -> float:
 
 def bench(scenario: str, seconds: float, *options: str) -> list[dict[str, Any]]:
     """The lines of `setpiece bench SCENARIO` with some options."""
-    command = [sys.executable, "-m", "setpiece", "bench", scenario, "--seconds", str(seconds), *options]
-    output = subprocess.run([*command, "--format", "jsonl"], check=True, capture_output=True, text=True)
+    command = [
+        sys.executable,
+        "-m",
+        "setpiece",
+        "bench",
+        scenario,
+        "--seconds",
+        str(seconds),
+        *options,
+    ]
+    output = subprocess.run(
+        [*command, "--format", "jsonl"], check=True, capture_output=True, text=True
+    )
     return [json.loads(line) for line in output.stdout.splitlines()]

@@ -11,7 +11,9 @@ def envpool_steps(scenario: str, seconds: float) -> float:
     import numpy as np
 
     n = 4
-    envs = envpool.make(f"gfootball/{scenario}-v1", env_type="gymnasium", num_envs=n, num_threads=1, seed=1)
+    envs = envpool.make(
+        f"gfootball/{scenario}-v1", env_type="gymnasium", num_envs=n, num_threads=1, seed=1
+    )
     envs.reset()
     random = np.random.default_rng(0)
     return per_cpu_second(lambda: envs.step(random.integers(0, 19, n).astype(np.int32)), n, seconds)
@@ -41,7 +43,9 @@ GFOOTBALL = Contest(
     players={
         "EnvPool's GRF": envpool_steps,
         "setpiece": lambda scenario, seconds: native_steps(scenario, seconds, "smm"),
-        "setpiece, floats": lambda scenario, seconds: native_steps(scenario, seconds, "simple115v2"),
+        "setpiece, floats": lambda scenario, seconds: native_steps(
+            scenario, seconds, "simple115v2"
+        ),
         "setpiece.make_vec": vector_steps,
     },
 )

@@ -18,7 +18,9 @@ def vmas_steps(case: str, seconds: float) -> float:
 
     torch.set_num_threads(1)
     n = int(case.split()[0])
-    env = vmas.make_env("football", ENVIRONMENTS, n_blue_agents=n, n_red_agents=n, ai_red_agents=True, max_steps=400)
+    env = vmas.make_env(
+        "football", ENVIRONMENTS, n_blue_agents=n, n_red_agents=n, ai_red_agents=True, max_steps=400
+    )
     env.reset()
 
     def step() -> None:
@@ -31,7 +33,10 @@ def vmas_steps(case: str, seconds: float) -> float:
 
 def pitch(n: int) -> str:
     """A match of n a side: every left player an agent, bots on the right."""
-    rows = [f"        CM at (-{0.1 + 0.2 * (i % 4):.1f}, {0.3 * (i // 4 - 1):.1f})" for i in range(n - 1)]
+    rows = [
+        f"        CM at (-{0.1 + 0.2 * (i % 4):.1f}, {0.3 * (i // 4 - 1):.1f})"
+        for i in range(n - 1)
+    ]
     team = "\n".join(["        GK at (-1, 0)", *rows])
     mirrored = team.replace("(-", "(")
     return f"""scenario {"abcdefghijk"[n - 1]}_side {{

@@ -1,7 +1,9 @@
-//! The syntax tree: what an author wrote, with the span of every part, before any name means anything.
+//! The syntax tree: what an author wrote, with the span of every part, before any name means
+//! anything.
 //!
-//! The parser never fails: what it can't read becomes `Broken` and a problem. Constructs that the grammar has but that
-//! a stage does not support yet still have their node, so that the stage can say so.
+//! The parser never fails: what it can't read becomes `Broken` and a problem. Constructs that the
+//! grammar has but that a stage does not support yet still have their node, so that the stage can
+//! say so.
 
 mod behavior;
 mod expr;
@@ -97,7 +99,9 @@ impl ItemKind {
             ItemKind::Region(_) => "a region",
             ItemKind::Ending(_) => "an ending",
             ItemKind::Behavior(_) => "a behavior",
-            ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => "something else",
+            ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => {
+                "something else"
+            }
         }
     }
 
@@ -109,7 +113,10 @@ impl ItemKind {
             ItemKind::Formation(item) => &item.params,
             ItemKind::Fn(item) | ItemKind::Region(item) | ItemKind::Ending(item) => &item.params,
             ItemKind::Behavior(item) => &item.params,
-            ItemKind::Import { .. } | ItemKind::Const(_) | ItemKind::Reserved { .. } | ItemKind::Broken => &[],
+            ItemKind::Import { .. }
+            | ItemKind::Const(_)
+            | ItemKind::Reserved { .. }
+            | ItemKind::Broken => &[],
         }
     }
 }

@@ -7,7 +7,8 @@ use setpiece_scenario::vocabulary::Team;
 pub struct Cast {
     /// Which players it plays.
     pub target: CastTarget,
-    /// What stands behind `ai:`: `lazy`, `marker(3m)`, `script "f.rhai"`. It sees what the root file sees.
+    /// What stands behind `ai:`: `lazy`, `marker(3m)`, `script "f.rhai"`. It sees what the root
+    /// file sees.
     pub ai: String,
 }
 

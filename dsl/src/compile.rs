@@ -9,7 +9,9 @@ use crate::cast::Cast;
 use crate::lower::casting::Casting;
 use crate::lower::mirror::Mirror;
 use crate::lower::script::LoadedScripts;
-use crate::lower::{Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, start};
+use crate::lower::{
+    Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, start,
+};
 use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::facts::{Chance, Whole};
@@ -55,7 +57,9 @@ pub fn parts(text: &str) -> Option<Vec<String>> {
     let declares = |kind: &ItemKind| !matches!(kind, ItemKind::Import { .. } | ItemKind::Broken);
     file.items.iter().any(|item| declares(&item.kind)).then(|| {
         let formation = |kind: &ItemKind| match kind {
-            ItemKind::Formation(item) if item.params.iter().all(|param| param.default.is_some()) => {
+            ItemKind::Formation(item)
+                if item.params.iter().all(|param| param.default.is_some()) =>
+            {
                 Some(item.name.node.clone())
             }
             _ => None,
@@ -66,9 +70,17 @@ pub fn parts(text: &str) -> Option<Vec<String>> {
 
 /// Compiles a root file and everything it imports.
 ///
-/// Every scenario of the root that is not abstract is checked; the wanted one, or the last, comes out.
-#[allow(clippy::needless_pass_by_value, reason = "a caller has no more use for the root, which the outcome holds")]
-pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions<'_>) -> CompileOutcome {
+/// Every scenario of the root that is not abstract is checked; the wanted one, or the last, comes
+/// out.
+#[allow(
+    clippy::needless_pass_by_value,
+    reason = "a caller has no more use for the root, which the outcome holds"
+)]
+pub fn compile(
+    root: Source,
+    loader: &dyn SourceLoader,
+    options: &CompileOptions<'_>,
+) -> CompileOutcome {
     let mut problems = Vec::new();
     let texts: Vec<Source> = options.cast.iter().map(cast::source).collect();
     let (mut library, guests) = load(&root, loader, options.prelude, &texts, &mut problems);
@@ -77,7 +89,8 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     let casting = cast::read(options.cast, &guests, &library, &mut problems);
 
     let mut chosen = None;
-    let root_items: Vec<_> = library.files.first().map_or(&[][..], |file| &file.items).iter().collect();
+    let root_items: Vec<_> =
+        library.files.first().map_or(&[][..], |file| &file.items).iter().collect();
     let mut candidates: Vec<(&ScenarioItem, &str)> = Vec::new();
     for item in root_items {
         match &item.kind {
@@ -94,7 +107,9 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
             let mut found = Vec::new();
             compile_one(&library, &scripts, &[], item, doc, &effort, &mut found, &mut unused);
             // What is missing, a child may bring.
-            found.retain(|problem| !problem.code().may_be_echo() && problem.code() != Code::UnknownName);
+            found.retain(|problem| {
+                !problem.code().may_be_echo() && problem.code() != Code::UnknownName
+            });
             problems.append(&mut found);
             if is_enough(&effort, item, &mut problems) {
                 break;
@@ -103,7 +118,16 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
         }
         let is_wanted = wanted.is_some_and(|wanted| std::ptr::eq(wanted, *item));
         let casting = if is_wanted { casting.as_slice() } else { &[] };
-        let lowered = compile_one(&library, &scripts, casting, item, doc, &effort, &mut problems, &mut unused);
+        let lowered = compile_one(
+            &library,
+            &scripts,
+            casting,
+            item,
+            doc,
+            &effort,
+            &mut problems,
+            &mut unused,
+        );
         if is_wanted {
             chosen = Some(lowered);
         }
@@ -131,14 +155,21 @@ pub fn compile(root: Source, loader: &dyn SourceLoader, options: &CompileOptions
     {
         // Only a program beyond every bound gets here: what is small enough passes by construction.
         let span = origins.scenario.unwrap_or(Span { file: FileId(0), start: 0, end: 0 });
-        problems.push(Problem::new(span, Whole::CantRun { scenario: scenario.name.clone(), fault }));
+        problems
+            .push(Problem::new(span, Whole::CantRun { scenario: scenario.name.clone(), fault }));
     }
     let failed = has_errors(&problems);
     let (scenario, origins) = match chosen {
         Some((scenario, origins)) => ((!failed).then_some(scenario), origins),
         None => (None, Origins::default()),
     };
-    CompileOutcome { scenario, problems, inputs: library.inputs.clone(), sources: library.sources, origins }
+    CompileOutcome {
+        scenario,
+        problems,
+        inputs: library.inputs.clone(),
+        sources: library.sources,
+        origins,
+    }
 }
 
 /// What a scenario costs above its limits, reported where most of it stands.
@@ -186,9 +217,10 @@ fn pick<'a>(
             let guess = Guess::similar_or_all(wanted, &names);
             Problem::new(start, Whole::NoSuchScenario { file, wanted: wanted.to_owned(), guess })
         }
-        (_, Some((item, _))) => {
-            Problem::new(item.name.span, Whole::OnlyAbstract { file, first: item.name.node.clone() })
-        }
+        (_, Some((item, _))) => Problem::new(
+            item.name.span,
+            Whole::OnlyAbstract { file, first: item.name.node.clone() },
+        ),
         (_, None) => Problem::new(start, Whole::NoScenario { file }),
     });
     None
@@ -211,7 +243,10 @@ fn is_enough(effort: &Effort, item: &ScenarioItem, problems: &mut Vec<Problem>) 
     effort.is_spent() || (problems.len() > ENOUGH_PROBLEMS && has_errors(problems))
 }
 
-#[allow(clippy::too_many_arguments, reason = "what a scenario is made of, and where its findings go")]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "what a scenario is made of, and where its findings go"
+)]
 fn compile_one<'a>(
     library: &'a Library,
     scripts: &'a LoadedScripts<'a>,
@@ -272,12 +307,14 @@ fn compile_one<'a>(
         observation,
         behaviors,
     };
-    problems.extend(world.problems.take().into_iter().map(|problem| located_in_child(&world, problem)));
+    problems
+        .extend(world.problems.take().into_iter().map(|problem| located_in_child(&world, problem)));
     unused.use_all(world.used.take());
     (scenario, origins)
 }
 
-/// Points from a problem in what is inherited to what the scenario itself declares and is named there.
+/// Points from a problem in what is inherited to what the scenario itself declares and is named
+/// there.
 fn located_in_child(world: &World<'_>, problem: Problem) -> Problem {
     let span = problem.place();
     if !world.flat.is_inherited(span) {
@@ -291,9 +328,15 @@ fn located_in_child(world: &World<'_>, problem: Problem) -> Problem {
         && problem.code() == Code::NotConstant
     {
         let because = Box::new(problem.fact().clone());
-        return Problem::new(argument.span, Chance::ArgumentDrawn { name: name.node.clone(), because, used: span });
+        return Problem::new(
+            argument.span,
+            Chance::ArgumentDrawn { name: name.node.clone(), because, used: span },
+        );
     }
-    let own = words.into_iter().filter_map(|word| world.declaration(word)).find(|at| world.flat.is_own(*at));
+    let own = words
+        .into_iter()
+        .filter_map(|word| world.declaration(word))
+        .find(|at| world.flat.is_own(*at));
     match own {
         Some(at) => problem.declared_at(at),
         None => problem,

@@ -1,11 +1,13 @@
 //! Formatting: the same tokens and comments, laid out in one way.
 //!
 //! 1. `pieces` takes the author's text apart into tokens and comments, as the grammar sees them.
-//! 2. `layout` decides where lines end: statements of an open block stand on lines of their own, an author's other line
-//!    breaks stay where they read well, and what is too wide is opened or wrapped.
+//! 2. `layout` decides where lines end: statements of an open block stand on lines of their own, an
+//!    author's other line breaks stay where they read well, and what is too wide is opened or
+//!    wrapped.
 //! 3. `print` writes the lines, with columns where the author began them.
 //!
-//! The result is compared with the text it came from (`same`), so that formatting never changes what a file says.
+//! The result is compared with the text it came from (`same`), so that formatting never changes
+//! what a file says.
 
 mod layout;
 mod pieces;
@@ -21,8 +23,9 @@ pub const WIDTH: usize = 120;
 /// Blanks per block.
 pub const INDENT: usize = 4;
 
-/// The text in the one layout. Comments, line breaks that read well and single empty lines are kept; four blanks indent
-/// a block. The result reads as the same syntax tree and is its own format.
+/// The text in the one layout. Comments, line breaks that read well and single empty lines are
+/// kept; four blanks indent a block. The result reads as the same syntax tree and is its own
+/// format.
 ///
 /// # Errors
 /// The problems of a text that can't be read: it is left alone.

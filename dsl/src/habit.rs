@@ -37,10 +37,13 @@ pub(crate) enum HabitPlace {
 /// A row of the table.
 struct Habit {
     place: HabitPlace,
-    /// The tokens; `|` stands before the one that can't be read, `^ |` where the unreadable text begins.
+    /// The tokens; `|` stands before the one that can't be read, `^ |` where the unreadable text
+    /// begins.
     ///
-    /// `_` is a name, `""` a string, `9` a number, `9a` a number with letters, `é` a word of other letters, `ROLE` a
-    /// role, `EVENT` an event, `␣(` a bracket behind a blank, `a¦b` one of two, `a*` what begins with `a`, `*` any token and `\*` that sign, `…` any number of them, `$` the end.
+    /// `_` is a name, `""` a string, `9` a number, `9a` a number with letters, `é` a word of other
+    /// letters, `ROLE` a role, `EVENT` an event, `␣(` a bracket behind a blank, `a¦b` one of two,
+    /// `a*` what begins with `a`, `*` any token and `\*` that sign, `…` any number of them, `$` the
+    /// end.
     seen: &'static str,
     /// What to write; `{1}` is the first that was not spelt out in `seen`.
     write: &'static str,
@@ -72,16 +75,27 @@ pub(crate) fn of_name(name: &str) -> Option<String> {
     habits.find_map(|habit| habit.at(&[], &[name], true)).map(|found| found.help)
 }
 
-/// What to write where the tokens of a statement stop making sense at one of them; the unreadable begins at `first`.
-/// Gives the token, too, that the habit is seen at.
-pub(crate) fn of_text(place: HabitPlace, tokens: &[&str], at: usize, first: usize) -> Option<(usize, FoundHabit)> {
-    let habits = HABITS.iter().filter(|habit| habit.place == place || habit.place == HabitPlace::Anywhere);
+/// What to write where the tokens of a statement stop making sense at one of them; the unreadable
+/// begins at `first`. Gives the token, too, that the habit is seen at.
+pub(crate) fn of_text(
+    place: HabitPlace,
+    tokens: &[&str],
+    at: usize,
+    first: usize,
+) -> Option<(usize, FoundHabit)> {
+    let habits =
+        HABITS.iter().filter(|habit| habit.place == place || habit.place == HabitPlace::Anywhere);
     // A sign is only wrong where nothing fits.
-    let word = |token: &&str| token.starts_with(|char: char| char.is_alphanumeric() || "_\"".contains(char));
+    let word = |token: &&str| {
+        token.starts_with(|char: char| char.is_alphanumeric() || "_\"".contains(char))
+    };
     let first = if tokens.get(first).is_some_and(word) { first } else { at };
     habits.flat_map(|habit| [(habit, at), (habit, first)]).find_map(|(habit, at)| {
         let (before, behind) = tokens.split_at_checked(at)?;
-        let near = (before.get(before.len().saturating_sub(WINDOW)..)?, behind.get(..behind.len().min(WINDOW))?);
+        let near = (
+            before.get(before.len().saturating_sub(WINDOW)..)?,
+            behind.get(..behind.len().min(WINDOW))?,
+        );
         Some((at, habit.at(near.0, near.1, at == first)?))
     })
 }
@@ -126,7 +140,9 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -
                 tokens.get(skipped..).is_some_and(|rest| matches(pattern, rest, found))
             });
     }
-    let Some((token, tokens)) = tokens.split_first() else { return *wanted == "$" && matches(pattern, tokens, found) };
+    let Some((token, tokens)) = tokens.split_first() else {
+        return *wanted == "$" && matches(pattern, tokens, found);
+    };
     let digits = token.starts_with(|char: char| char.is_ascii_digit());
     let letters = token.contains(|char: char| char.is_alphabetic() || char == '_');
     let meant = match *wanted {
@@ -146,7 +162,10 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -
         }
         literals if literals.contains('¦') => literals.split('¦').any(|literal| literal == *token),
         "␣(" => return *token == BRACKET_APART && matches(pattern, tokens, found),
-        literal => return literal.trim_start_matches('\\') == token.trim_start() && matches(pattern, tokens, found),
+        literal => {
+            return literal.trim_start_matches('\\') == token.trim_start()
+                && matches(pattern, tokens, found);
+        }
     };
     if meant {
         found.push(token);
@@ -159,12 +178,16 @@ mod tests {
     use super::*;
 
     fn text(place: HabitPlace, tokens: &str, at: usize) -> Option<String> {
-        of_text(place, &tokens.split_whitespace().collect::<Vec<_>>(), at, 0).map(|(_, found)| found.help)
+        of_text(place, &tokens.split_whitespace().collect::<Vec<_>>(), at, 0)
+            .map(|(_, found)| found.help)
     }
 
     #[test]
     fn what_is_left_open_is_filled_in() {
-        assert_eq!(text(HabitPlace::Fields, "offside = off", 1).as_deref(), Some("write `offside: off`"));
+        assert_eq!(
+            text(HabitPlace::Fields, "offside = off", 1).as_deref(),
+            Some("write `offside: off`")
+        );
         assert_eq!(text(HabitPlace::Reward, "x += 1", 1).as_deref(), Some("write `x = x + …`"));
         assert_eq!(of_name("e_PlayerRole_CM").as_deref(), Some("write `CM`"));
     }
@@ -180,7 +203,12 @@ mod tests {
     fn every_row_can_be_met() {
         for habit in HABITS {
             assert!(!habit.write.is_empty() && !habit.seen.trim().is_empty());
-            assert_eq!(habit.place == HabitPlace::Name, !habit.seen.contains('|'), "{}", habit.seen);
+            assert_eq!(
+                habit.place == HabitPlace::Name,
+                !habit.seen.contains('|'),
+                "{}",
+                habit.seen
+            );
             let open = habit.seen.split_whitespace().filter(|token| {
                 ["_", "*", "9", "9a", "é", "\"\"", "ROLE", "EVENT"].contains(token)
                     || token.contains('¦')
@@ -188,7 +216,11 @@ mod tests {
             });
             let open = open.count();
             for index in 1..9 {
-                assert!(index <= open || !habit.write.contains(&format!("{{{index}}}")), "{}", habit.seen);
+                assert!(
+                    index <= open || !habit.write.contains(&format!("{{{index}}}")),
+                    "{}",
+                    habit.seen
+                );
             }
         }
     }

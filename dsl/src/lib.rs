@@ -1,7 +1,7 @@
 //! The compiler: everything with a span.
 //!
-//! `parse` → `resolve` → `check` → `lower`: no stage stops at the first problem. Types are checked while a tree is
-//! lowered, as a typed value is its registers and its type; see [`compile()`].
+//! `parse` → `resolve` → `check` → `lower`: no stage stops at the first problem. Types are checked
+//! while a tree is lowered, as a typed value is its registers and its type; see [`compile()`].
 
 pub mod ast;
 mod cast;

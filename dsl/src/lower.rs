@@ -1,7 +1,9 @@
-//! Trees to programs: expressions are typed and lowered in one pass, so that a value is its type and its registers.
+//! Trees to programs: expressions are typed and lowered in one pass, so that a value is its type
+//! and its registers.
 //!
-//! A broken part yields a value of type `Error`, which agrees with everything; as soon as one problem is an error no
-//! scenario comes out, so what such a value's registers hold does not matter.
+//! A broken part yields a value of type `Error`, which agrees with everything; as soon as one
+//! problem is an error no scenario comes out, so what such a value's registers hold does not
+//! matter.
 
 pub(crate) mod agents;
 pub(crate) mod behavior;
@@ -44,7 +46,8 @@ use start::{StartState, Streams};
 use step::StepWorld;
 use value::{LiteralFrame, Repr, Scope, Value};
 
-/// What kind of program is written, which decides what it may read; with what this kind alone keeps.
+/// What kind of program is written, which decides what it may read; with what this kind alone
+/// keeps.
 pub(crate) enum ProgramStage<'w> {
     /// Nothing but constants.
     Constant,
@@ -60,8 +63,8 @@ pub(crate) enum ProgramStage<'w> {
     Record(Remembered<'w>),
     /// The scenario's observation, after every step and reset.
     Observation,
-    /// What a scripted player does, at every step; with the draws of the statement that is being written, `None` where
-    /// nothing may be drawn.
+    /// What a scripted player does, at every step; with the draws of the statement that is being
+    /// written, `None` where nothing may be drawn.
     Behavior(Option<Vec<behavior::Draw>>),
 }
 
@@ -82,7 +85,10 @@ impl ProgramStage<'_> {
     pub(crate) fn has_me(&self) -> bool {
         matches!(
             self,
-            ProgramStage::Reward | ProgramStage::Record(_) | ProgramStage::Observation | ProgramStage::Behavior(_)
+            ProgramStage::Reward
+                | ProgramStage::Record(_)
+                | ProgramStage::Observation
+                | ProgramStage::Behavior(_)
         )
     }
 }
@@ -126,7 +132,11 @@ impl<'c, 'w> Lower<'c, 'w> {
     }
 
     /// An empty program of what is drawn or computed at the start.
-    pub(crate) fn of_start(world: &'c World<'w>, scope: Scope<'w>, state: StartState<'w>) -> Lower<'c, 'w> {
+    pub(crate) fn of_start(
+        world: &'c World<'w>,
+        scope: Scope<'w>,
+        state: StartState<'w>,
+    ) -> Lower<'c, 'w> {
         Lower::new(world, None, ProgramStage::Start(state), scope)
     }
 
@@ -147,7 +157,11 @@ impl<'c, 'w> Lower<'c, 'w> {
     }
 
     /// An empty program of a step, or of what is kept from step to step.
-    pub(crate) fn in_step(step: &'c StepWorld<'c, 'w>, stage: ProgramStage<'w>, scope: Scope<'w>) -> Lower<'c, 'w> {
+    pub(crate) fn in_step(
+        step: &'c StepWorld<'c, 'w>,
+        stage: ProgramStage<'w>,
+        scope: Scope<'w>,
+    ) -> Lower<'c, 'w> {
         debug_assert!(stage.is_step() || matches!(stage, ProgramStage::Init));
         Lower::new(step.world, Some(step), stage, scope)
     }
@@ -186,7 +200,8 @@ impl<'c, 'w> Lower<'c, 'w> {
         Value::error()
     }
 
-    /// Pays for an expression and for the instructions since the last one; `false` once too much was lowered.
+    /// Pays for an expression and for the instructions since the last one; `false` once too much
+    /// was lowered.
     fn pay(&mut self) -> bool {
         let made = self.code.len();
         let new = made.saturating_sub(self.paid);
@@ -211,11 +226,19 @@ impl<'c, 'w> Lower<'c, 'w> {
     }
 
     /// Guards against definitions that use themselves, and against programs without bounds.
-    pub(crate) fn inline<T>(&mut self, item: Span, at: Span, f: impl FnOnce(&mut Self) -> T) -> Option<T> {
+    pub(crate) fn inline<T>(
+        &mut self,
+        item: Span,
+        at: Span,
+        f: impl FnOnce(&mut Self) -> T,
+    ) -> Option<T> {
         self.inlined += 1;
         let text = self.world.text(item);
         if self.inlining.contains(&item) {
-            self.report(Problem::new(at, Names::Recursion { name: text, declared: Some(item), is_behavior: false }));
+            self.report(Problem::new(
+                at,
+                Names::Recursion { name: text, declared: Some(item), is_behavior: false },
+            ));
             return None;
         }
         if self.inlined > INLINED_MAX {
@@ -290,7 +313,8 @@ impl<'c, 'w> Lower<'c, 'w> {
             }
             // A whole constant is a whole number, however it was computed.
             (Ty::Int, Repr::One(reg))
-                if value.ty == Ty::Number && self.code.constant_of(*reg).is_some_and(|v| v.fract() == 0.0) =>
+                if value.ty == Ty::Number
+                    && self.code.constant_of(*reg).is_some_and(|v| v.fract() == 0.0) =>
             {
                 return Value::one(Ty::Int, *reg);
             }
@@ -308,14 +332,22 @@ impl<'c, 'w> Lower<'c, 'w> {
     }
 
     /// The same with a better form to write.
-    pub(crate) fn mismatch_with(&self, found: Ty, wanted: Ty, span: Span, instead: Instead) -> Problem {
+    pub(crate) fn mismatch_with(
+        &self,
+        found: Ty,
+        wanted: Ty,
+        span: Span,
+        instead: Instead,
+    ) -> Problem {
         Problem::new(span, Types::Mismatch { wanted, found, text: self.world.text(span), instead })
     }
 
     /// +1 or -1 where the own frame is read, `None` where it is the world's.
     pub(crate) fn side(&mut self) -> Option<Reg> {
         match (self.scope.frame, self.team, self.world.mirror) {
-            (LiteralFrame::Own, Some(team), _) => Some(self.code.unary(setpiece_scenario::UnaryOp::Side, team)),
+            (LiteralFrame::Own, Some(team), _) => {
+                Some(self.code.unary(setpiece_scenario::UnaryOp::Side, team))
+            }
             (_, _, Mirror::Ends) => Some(self.code.constant(-1.0)),
             _ => None,
         }
@@ -331,9 +363,16 @@ impl<'c, 'w> Lower<'c, 'w> {
         interval::never_holds(&self.code, reg, &self.world.ranges(), self.longest())
     }
 
-    /// Reports a value that may be outside its range; what isn't known now becomes a requirement of the draw. `false`
-    /// after a report.
-    pub(crate) fn check_range(&mut self, reg: Reg, range: Interval, what: &str, span: Span, shown: &str) -> bool {
+    /// Reports a value that may be outside its range; what isn't known now becomes a requirement of
+    /// the draw. `false` after a report.
+    pub(crate) fn check_range(
+        &mut self,
+        reg: Reg,
+        range: Interval,
+        what: &str,
+        span: Span,
+        shown: &str,
+    ) -> bool {
         match self.interval(reg) {
             Some((low, high)) if low >= range.0 && high <= range.1 => {}
             Some(_) => {
@@ -356,15 +395,25 @@ impl<'c, 'w> Lower<'c, 'w> {
         true
     }
 
-    /// Reports a velocity above the greatest speed, m/s; what isn't known now becomes a requirement of the draw.
-    pub(crate) fn check_speed(&mut self, (x, y, z): (Reg, Reg, Reg), greatest: f64, what: &str, span: Span) {
+    /// Reports a velocity above the greatest speed, m/s; what isn't known now becomes a requirement
+    /// of the draw.
+    pub(crate) fn check_speed(
+        &mut self,
+        (x, y, z): (Reg, Reg, Reg),
+        greatest: f64,
+        what: &str,
+        span: Span,
+    ) {
         let ground = self.code.binary(BinaryOp::Hypot, x, y);
         let speed = self.code.binary(BinaryOp::Hypot, ground, z);
         if self.interval(speed).is_some_and(|(_, high)| high <= greatest) {
             return;
         }
         if self.interval(speed).is_some_and(|(low, _)| low > greatest) {
-            self.report(Problem::new(span, Bounds::TooFast { what: what.to_owned(), most_mps: greatest }));
+            self.report(Problem::new(
+                span,
+                Bounds::TooFast { what: what.to_owned(), most_mps: greatest },
+            ));
             return;
         }
         let limit = self.code.constant(greatest);
@@ -373,11 +422,13 @@ impl<'c, 'w> Lower<'c, 'w> {
         self.imply(slower, &implied, Some(span));
     }
 
-    /// Makes a condition a requirement of the draw, unless it is known to hold; outside the start there is none.
+    /// Makes a condition a requirement of the draw, unless it is known to hold; outside the start
+    /// there is none.
     ///
     /// - `span`: the part that implies it, where it is one part.
     pub(crate) fn imply(&mut self, condition: Reg, implied: &Implied, span: Option<Span>) {
-        let known = self.code.is_unknown(condition) || self.code.constant_of(condition) == Some(1.0);
+        let known =
+            self.code.is_unknown(condition) || self.code.constant_of(condition) == Some(1.0);
         if let Some(start) = self.start_mut().filter(|_| !known) {
             let require = Require { condition, probability: None, label: implied.label() };
             start.implied.push((require, RequireOrigin { span, help: Some(implied.help()) }));
@@ -387,7 +438,10 @@ impl<'c, 'w> Lower<'c, 'w> {
     /// Reports a value that must be known before the start but is drawn.
     pub(crate) fn check_not_drawn(&self, reg: Reg, what: &str, span: Span) {
         let drawn = |instr: &setpiece_scenario::Instr| {
-            matches!(instr, setpiece_scenario::Instr::Random { .. } | setpiece_scenario::Instr::EpisodeIndex)
+            matches!(
+                instr,
+                setpiece_scenario::Instr::Random { .. } | setpiece_scenario::Instr::EpisodeIndex
+            )
         };
         if self.code.depends(reg, &drawn) {
             self.report(Problem::new(span, Chance::Drawn { what: what.to_owned() }));

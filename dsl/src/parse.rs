@@ -1,9 +1,11 @@
 //! Parsing: text to a syntax tree. Never fails: what can't be read becomes `Broken` and a problem.
 //!
-//! 1. `scan` looks at brackets, strings and comments alone, reports the unclosed and mends them in a copy of the same
-//!    length, so that every later offset holds for the author's text.
-//! 2. One run of the grammar reads the whole file; lists of statements take junk where no statement can be read.
-//! 3. The pairs become the tree (one file here per construct); `recover` re-reads junk to say what was expected.
+//! 1. `scan` looks at brackets, strings and comments alone, reports the unclosed and mends them in
+//!    a copy of the same length, so that every later offset holds for the author's text.
+//! 2. One run of the grammar reads the whole file; lists of statements take junk where no statement
+//!    can be read.
+//! 3. The pairs become the tree (one file here per construct); `recover` re-reads junk to say what
+//!    was expected.
 
 mod behavior;
 mod event;
@@ -40,12 +42,12 @@ pub const MAX_BLOCKS: u32 = 64;
 /// A stage of compilation reports no more problems of one file.
 pub const MAX_PROBLEMS: usize = 500;
 
-/// A file may have this many words and signs, comments apart. Scenarios have some hundreds; a tree of so many takes
-/// some hundred milliseconds and 100 MB, whatever the text is.
+/// A file may have this many words and signs, comments apart. Scenarios have some hundreds; a tree
+/// of so many takes some hundred milliseconds and 100 MB, whatever the text is.
 pub const MAX_TOKENS: usize = 100_000;
 
-/// A list may be this long: statements of a block, items of a file, arguments, parameters, names, values. Nobody writes
-/// so many, and looking one up in a list takes time.
+/// A list may be this long: statements of a block, items of a file, arguments, parameters, names,
+/// values. Nobody writes so many, and looking one up in a list takes time.
 pub const MAX_LIST: usize = 4_096;
 
 /// Bytes of a file that may be looked at again to say what is wrong, beyond twice its length.

@@ -1,7 +1,8 @@
 //! Problems: facts that a stage finds, each with a stable code, a place and, at last, words.
 //!
-//! A stage makes a [`Problem`] from a fact (`facts/`), which has data and no words. Later stages move, sort and drop
-//! problems by their facts and codes. Words are made when a report is rendered ([`Problem::words`]).
+//! A stage makes a [`Problem`] from a fact (`facts/`), which has data and no words. Later stages
+//! move, sort and drop problems by their facts and codes. Words are made when a report is rendered
+//! ([`Problem::words`]).
 
 mod code;
 pub(crate) mod facts;
@@ -94,7 +95,8 @@ pub(crate) fn has_errors(problems: &[Problem]) -> bool {
     problems.iter().any(Problem::is_error)
 }
 
-/// How a word is written, from its line of documentation: what stands before the first `: ` outside of brackets.
+/// How a word is written, from its line of documentation: what stands before the first `: ` outside
+/// of brackets.
 pub(crate) fn signature(doc: &str) -> &str {
     let mut depth = 0_i32;
     let end = doc.char_indices().find(|(at, sign)| {

@@ -34,15 +34,14 @@ pub fn render(problems: &[Problem], sources: &Sources, format: Format) -> String
     let sorted = sorted(problems);
     match format {
         Format::Human { color, width } => human::render(&sorted, sources, color, width),
-        Format::Json => {
-            serde_json::to_string_pretty(&diagnostics(problems, sources)).unwrap_or_else(|_| "[]".to_owned())
-        }
+        Format::Json => serde_json::to_string_pretty(&diagnostics(problems, sources))
+            .unwrap_or_else(|_| "[]".to_owned()),
         Format::Short => short(&sorted, sources),
     }
 }
 
-/// A text as a terminal may show it: control characters become their pictures, `␛`, but for ends of lines, tabs and,
-/// where colours are wanted, the sequences that set them.
+/// A text as a terminal may show it: control characters become their pictures, `␛`, but for ends of
+/// lines, tabs and, where colours are wanted, the sequences that set them.
 pub fn printable(text: &str, colours: bool) -> Cow<'_, str> {
     let is_plain = |char: char| !is_control(char);
     if text.chars().all(is_plain) {
@@ -64,7 +63,8 @@ pub fn printable(text: &str, colours: bool) -> Cow<'_, str> {
 
 /// Whether a character steers a terminal, or the direction of its text.
 fn is_control(char: char) -> bool {
-    let directs = matches!(char, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}' | '\u{200E}' | '\u{200F}');
+    let directs =
+        matches!(char, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}' | '\u{200E}' | '\u{200F}');
     directs || (char.is_control() && !matches!(char, '\n' | '\t'))
 }
 
@@ -96,10 +96,12 @@ fn sorted(problems: &[Problem]) -> Vec<&Problem> {
 
 fn short(problems: &[&Problem], sources: &Sources) -> String {
     let mut text = String::new();
-    let owned: Vec<Problem> = problems.iter().take(MAX_SHOWN).map(|problem| (*problem).clone()).collect();
+    let owned: Vec<Problem> =
+        problems.iter().take(MAX_SHOWN).map(|problem| (*problem).clone()).collect();
     for diagnostic in diagnostics(&owned, sources) {
         if let Some(label) = diagnostic.labels.first() {
-            let _ = write!(text, "{}:{}:{}: ", printable(&label.file, false), label.line, label.column);
+            let _ =
+                write!(text, "{}:{}:{}: ", printable(&label.file, false), label.line, label.column);
         }
         let message = printable(&diagnostic.message, false);
         let _ = writeln!(text, "{} {}: {message}", diagnostic.severity, diagnostic.code);
@@ -112,7 +114,8 @@ fn short(problems: &[&Problem], sources: &Sources) -> String {
 fn count(problems: &[&Problem]) -> String {
     let errors = problems.iter().filter(|problem| problem.severity() == Severity::Error).count();
     let warnings = problems.len() - errors;
-    let say = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let say =
+        |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let reported = match (errors, warnings) {
         (0, 0) => return String::new(),
         (_, 0) => say(errors, "error"),

@@ -1,7 +1,7 @@
 //! Files to names: which items a file sees, and what a scenario, reward or formation inherits.
 //!
-//! Nothing here looks into expressions; a name in an expression is resolved when it is lowered, against the
-//! [`Library`] of the file in which it stands.
+//! Nothing here looks into expressions; a name in an expression is resolved when it is lowered,
+//! against the [`Library`] of the file in which it stands.
 
 mod flatten;
 mod load;

@@ -44,20 +44,24 @@ impl Source {
     pub fn line_column(&self, offset: u32) -> (u32, u32) {
         let before = self.text.get(..offset as usize).unwrap_or(&self.text);
         let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        let column = before.get(line_start..).map_or(0, |line| line.chars().filter(|char| *char != '\u{FEFF}').count());
+        let column = before
+            .get(line_start..)
+            .map_or(0, |line| line.chars().filter(|char| *char != '\u{FEFF}').count());
         (before.matches('\n').count() as u32 + 1, column as u32 + 1)
     }
 }
 
 /// Finds the sources that a file names; the compiler itself reads no file.
 pub trait SourceLoader {
-    /// Loads what `path` names, seen from the file called `from`: an `import` (relative, or `std/…`) or a script.
+    /// Loads what `path` names, seen from the file called `from`: an `import` (relative, or
+    /// `std/…`) or a script.
     ///
     /// # Errors
     /// A [`LoadError`] that the report shows.
     fn load(&self, path: &str, from: &str) -> Result<Source, LoadError>;
 
-    /// Names of scenarios that every file may extend without an import, with the path each is loaded by.
+    /// Names of scenarios that every file may extend without an import, with the path each is
+    /// loaded by.
     fn scenarios(&self) -> Vec<(String, String)> {
         Vec::new()
     }
@@ -94,7 +98,9 @@ impl Sources {
 
     /// The text of a span; empty if the span is of no file.
     pub fn text(&self, span: Span) -> &str {
-        self.get(span.file).and_then(|file| file.text.get(span.start as usize..span.end as usize)).unwrap_or_default()
+        self.get(span.file)
+            .and_then(|file| file.text.get(span.start as usize..span.end as usize))
+            .unwrap_or_default()
     }
 
     /// Every file with its id.

@@ -1,6 +1,12 @@
-//! Texts of up to 1 MiB that repeat, nest, chain or break whatever can be: each is answered with few reports and a
-//! bounded scenario. What is counted is sizes: a step that takes the square of a text's length would never finish here.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+//! Texts of up to 1 MiB that repeat, nest, chain or break whatever can be: each is answered with
+//! few reports and a bounded scenario. What is counted is sizes: a step that takes the square of a
+//! text's length would never finish here.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece_dsl::problem::{Code, Severity, nearest};
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
@@ -27,7 +33,11 @@ impl SourceLoader for Endless {
     fn load(&self, path: &str, from: &str) -> Result<Source, LoadError> {
         self.asked.set(self.asked.get() + 1);
         if path.starts_with("std/") || path.starts_with("missing") {
-            return Err(LoadError { message: format!("no file `{path}`"), similar: vec![], awaited: None });
+            return Err(LoadError {
+                message: format!("no file `{path}`"),
+                similar: vec![],
+                awaited: None,
+            });
         }
         let name = format!("{from}/{path}");
         let next = if path.starts_with("deep") { "import \"deep.pitch\"\n" } else { "" };
@@ -72,11 +82,20 @@ fn count(outcome: &CompileOutcome, code: Code) -> usize {
 #[track_caller]
 fn is_too_much(outcome: &CompileOutcome, message: &str) {
     let found = outcome.problems.iter().find(|problem| problem.code() == Code::TooMuch);
-    let found = found.unwrap_or_else(|| panic!("{:#?}", outcome.problems.iter().take(3).collect::<Vec<_>>()));
+    let found = found
+        .unwrap_or_else(|| panic!("{:#?}", outcome.problems.iter().take(3).collect::<Vec<_>>()));
     assert!(found.words().message.contains(message), "{}", found.words().message);
     assert!(outcome.scenario.is_none());
     let label = found.place();
-    assert!(outcome.sources.get(label.file).unwrap().text.get(label.start as usize..label.end as usize).is_some());
+    assert!(
+        outcome
+            .sources
+            .get(label.file)
+            .unwrap()
+            .text
+            .get(label.start as usize..label.end as usize)
+            .is_some()
+    );
 }
 
 #[test]
@@ -116,10 +135,18 @@ fn a_full_text_of_anything_is_answered_in_few_words() {
         "\n",
     ];
     for part in parts {
-        for head in ["", HEAD, "scenario s { team left {", "reward r {", "behavior b {", "scenario s { rules {"] {
+        for head in [
+            "",
+            HEAD,
+            "scenario s { team left {",
+            "reward r {",
+            "behavior b {",
+            "scenario s { rules {",
+        ] {
             let outcome = outcome(&full(head, |_| part.to_owned(), ""));
             assert!(outcome.problems.len() <= 3 * SOME, "{part:?}: {}", outcome.problems.len());
-            let failed = outcome.problems.iter().any(|problem| problem.severity() == Severity::Error);
+            let failed =
+                outcome.problems.iter().any(|problem| problem.severity() == Severity::Error);
             assert_eq!(outcome.scenario.is_none(), failed, "{part:?}");
         }
     }
@@ -148,8 +175,14 @@ fn lists_have_a_limit() {
     let many = 4_097;
     let options = repeated(&format!("{HEAD} rules {{"), many, |i| format!("k{i}: 1\n"), "}}");
     is_too_much(&outcome(&options), "more than 4096 options");
-    is_too_much(&outcome(&repeated(HEAD, many, |i| format!("let a{i} = {i}\n"), "}")), "more than 4096 statements");
-    is_too_much(&outcome(&repeated("", many, |i| format!("const a{i} = {i}\n"), "")), "more than 4096 items");
+    is_too_much(
+        &outcome(&repeated(HEAD, many, |i| format!("let a{i} = {i}\n"), "}")),
+        "more than 4096 statements",
+    );
+    is_too_much(
+        &outcome(&repeated("", many, |i| format!("const a{i} = {i}\n"), "")),
+        "more than 4096 items",
+    );
     let args = repeated(&format!("{HEAD} let a = choice("), many, |_| "1, ".to_owned(), "1) }");
     is_too_much(&outcome(&args), "more than 4096 arguments");
     let params = repeated("fn f(", many, |i| format!("a{i}, "), "z) = 1\n");
@@ -163,7 +196,11 @@ fn a_shuffle_mixes_so_many_values() {
     let text = |n: usize| {
         let names: Vec<String> = (0..n).map(|i| format!("_a{i}")).collect();
         let values: Vec<&str> = vec!["uniform(0, 1)"; n];
-        format!("{HEAD} team left {{ CM at (0, 0) }} let ({}) = shuffle({}) }}", names.join(", "), values.join(", "))
+        format!(
+            "{HEAD} team left {{ CM at (0, 0) }} let ({}) = shuffle({}) }}",
+            names.join(", "),
+            values.join(", ")
+        )
     };
     assert_eq!(count(&outcome(&text(64)), Code::TooMuch), 0);
     is_too_much(&outcome(&text(65)), "more than 64 values");
@@ -181,16 +218,26 @@ fn parents_have_a_limit() {
     assert_eq!(count(&outcome(&chain(32)), Code::TooMuch), 0);
     is_too_much(&outcome(&chain(33)), "more than 32 parents");
     assert!(outcome(&chain(4_000)).problems.len() < 20 * SOME);
-    let rewards = repeated("reward r0 {}\n", 4_000, |i| format!("reward r{} extends r{i} {{}}\n", i + 1), HEAD);
+    let rewards = repeated(
+        "reward r0 {}\n",
+        4_000,
+        |i| format!("reward r{} extends r{i} {{}}\n", i + 1),
+        HEAD,
+    );
     is_too_much(&outcome(&(rewards + "reward r4000 }")), "more than 32 parents");
 }
 
 #[test]
 fn a_team_writes_so_many_players() {
-    let text = repeated(&format!("{HEAD} team left {{"), 4_000, |_| "CM at (0, 0)\n".to_owned(), "}}");
+    let text =
+        repeated(&format!("{HEAD} team left {{"), 4_000, |_| "CM at (0, 0)\n".to_owned(), "}}");
     let outcome = outcome(&text);
     let too_many = outcome.problems.iter().filter(|problem| problem.code() == Code::TooManyPlayers);
-    assert!(too_many.map(|problem| problem.words().message).any(|message| message.contains("more than 44 players")));
+    assert!(
+        too_many
+            .map(|problem| problem.words().message)
+            .any(|message| message.contains("more than 44 players"))
+    );
     assert!(outcome.problems.len() < 3 * SOME);
 }
 
@@ -208,7 +255,8 @@ fn imports_have_limits() {
     assert!(loader.asked.get() < 140, "{} files", loader.asked.get());
     let loader = Endless { filler: "// much\n".repeat(1 << 15), ..Endless::default() };
     is_too_much(&outcome_with("import \"deep.pitch\"\n", &loader), "larger than 1 MiB together");
-    let scripts = repeated(HEAD, 200, |i| format!("reward script \"missing{i}.rhai\" as \"r{i}\"\n"), "}");
+    let scripts =
+        repeated(HEAD, 200, |i| format!("reward script \"missing{i}.rhai\" as \"r{i}\"\n"), "}");
     is_too_much(&outcome(&scripts), "more than 128 script files");
 }
 
@@ -221,15 +269,19 @@ fn what_multiplies_has_a_limit() {
     let big = repeated("reward big { ", 4_000, |i| format!("give {i}\n"), "}\n");
     let uses = repeated(&(big + HEAD), 4_000, |i| format!("reward big as \"r{i}\"\n"), "}");
     is_too_much(&outcome(&uses), "400000 expressions");
-    let behavior = repeated("behavior b { ", 4_000, |i| format!("do move_to((ball.x + {i}m, 0m))\n"), "}\n");
-    let team = "team left { 11 CM in left.box { ai: b } } team right { 11 CM in right.box { ai: b } } }";
+    let behavior =
+        repeated("behavior b { ", 4_000, |i| format!("do move_to((ball.x + {i}m, 0m))\n"), "}\n");
+    let team =
+        "team left { 11 CM in left.box { ai: b } } team right { 11 CM in right.box { ai: b } } }";
     is_too_much(&outcome(&format!("{behavior}{HEAD}{team}")), "400000 expressions");
 }
 
 #[test]
 fn names_are_looked_up_in_thousands() {
     let lets = repeated(HEAD, 4_000, |i| format!("let a{i} = uniform(0, 1)\n"), "");
-    let uses = |i: usize| format!("give a{} + a{} * a{}\n", (i * 7) % 4_000, (i * 11) % 4_000, (i * 13) % 4_000);
+    let uses = |i: usize| {
+        format!("give a{} + a{} * a{}\n", (i * 7) % 4_000, (i * 11) % 4_000, (i * 13) % 4_000)
+    };
     let found = outcome(&repeated(&(lets + "reward r {"), 4_000, uses, "}}"));
     assert_eq!(count(&found, Code::TooMuch) + count(&found, Code::UnknownName), 0);
     let unknown = repeated(HEAD, 4_000, |i| format!("let abcdefgh{i} = abcdefg{i}x\n"), "}");
@@ -253,8 +305,14 @@ fn a_similar_name_is_looked_for_among_so_many() {
 #[test]
 fn what_is_tried_out_takes_no_room_of_what_is_told() {
     let head = format!("reward r(x = nope) {{ give x }}\n{HEAD}");
-    let uses = repeated(&head, 600, |i| format!("reward r(x: 1) as \"r{i}\"\n"), "end lost when another\n}");
+    let uses = repeated(
+        &head,
+        600,
+        |i| format!("reward r(x: 1) as \"r{i}\"\n"),
+        "end lost when another\n}",
+    );
     let found = outcome(&uses);
-    let reported = |name: &str| found.problems.iter().any(|problem| problem.words().message.contains(name));
+    let reported =
+        |name: &str| found.problems.iter().any(|problem| problem.words().message.contains(name));
     assert!(reported("`another`"), "{:#?}", found.problems.iter().take(3).collect::<Vec<_>>());
 }

@@ -1,5 +1,10 @@
 //! Formatting: what it keeps, what it changes, and that it never changes what a file says.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use proptest::prelude::*;
 use setpiece_dsl::format::{WIDTH, format};
@@ -37,7 +42,8 @@ fn root() -> PathBuf {
 }
 
 fn collect(folder: &Path, texts: &mut Vec<(String, String)>) {
-    let mut paths: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut paths: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.sort();
     for path in paths {
         if path.is_dir() {
@@ -78,7 +84,8 @@ fn readable() -> &'static [(String, String)] {
     &TEXTS
 }
 
-/// Whether a text has a body that the grammar doesn't take apart, which stays as it is to the last blank.
+/// Whether a text has a body that the grammar doesn't take apart, which stays as it is to the last
+/// blank.
 fn is_opaque(text: &str) -> bool {
     ["behavior ", "curriculum ", "suite ", "check "].iter().any(|word| text.contains(word))
 }
@@ -87,7 +94,10 @@ fn is_opaque(text: &str) -> bool {
 fn assert_well_formed(name: &str, text: &str, result: &str) {
     assert_eq!(formatted(result), result, "{name} is not its own format");
     assert_eq!(tree(text), tree(result), "{name} says something else:\n{result}");
-    assert!(result.is_empty() || (result.ends_with('\n') && !result.ends_with("\n\n")), "{name}: {result:?}");
+    assert!(
+        result.is_empty() || (result.ends_with('\n') && !result.ends_with("\n\n")),
+        "{name}: {result:?}"
+    );
     if is_opaque(result) {
         return;
     }
@@ -114,7 +124,8 @@ fn the_library_and_the_examples_stand_in_the_format() {
     }
 }
 
-/// The text with other blanks between its tokens: more of them, tabs, line ends and semicolons where they mean nothing.
+/// The text with other blanks between its tokens: more of them, tabs, line ends and semicolons
+/// where they mean nothing.
 fn mangled(text: &str, dice: &[u8]) -> String {
     let (mut out, mut dice) = (String::new(), dice.iter().copied().cycle());
     let mut rest = text;
@@ -154,7 +165,11 @@ fn mangled(text: &str, dice: &[u8]) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 400,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn blanks_of_an_author_change_neither_tree_nor_layout(
@@ -241,9 +256,15 @@ fn what_is_too_wide_is_opened_and_wrapped() {
     let result = formatted(&format!("scenario s {{ team left {{ {players}}} }}"));
     assert_eq!(result.lines().count(), 2 + 2 + 9, "{result}");
     let sum = (0..40).map(|i| format!("speed_{i}")).collect::<Vec<_>>().join(" + ");
-    let long = format!("fn f(a: number) = {sum}\nregion r = polygon({})\n", ["(0.5, 0.25)"; 30].join(", "));
+    let long = format!(
+        "fn f(a: number) = {sum}\nregion r = polygon({})\n",
+        ["(0.5, 0.25)"; 30].join(", ")
+    );
     let result = formatted(&long);
     assert!(result.lines().all(|line| line.chars().count() <= WIDTH), "{result}");
-    assert!(result.lines().skip(1).all(|line| line.starts_with("    ") || line.starts_with("region")), "{result}");
+    assert!(
+        result.lines().skip(1).all(|line| line.starts_with("    ") || line.starts_with("region")),
+        "{result}"
+    );
     assert_well_formed("the long lines", &long, &result);
 }

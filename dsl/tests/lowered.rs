@@ -1,5 +1,10 @@
 //! The programs that the standard rewards and a scenario become.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
 use setpiece_dsl::{CompileOptions, compile};
@@ -11,7 +16,9 @@ struct Std;
 impl SourceLoader for Std {
     fn load(&self, path: &str, _from: &str) -> Result<Source, LoadError> {
         let inner = path.strip_prefix("std/").unwrap_or(path);
-        let full = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../stdlib-scenarios").join(inner);
+        let full = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../stdlib-scenarios")
+            .join(inner);
         let text = std::fs::read_to_string(full).map_err(|_| LoadError {
             message: format!("no file `{path}`"),
             similar: vec![],
@@ -37,7 +44,12 @@ fn step(text: &str) -> String {
     let lines = |code: &[setpiece_scenario::Instr]| {
         code.iter().enumerate().map(|(i, instr)| format!("{i}: {instr:?}\n")).collect::<String>()
     };
-    format!("terms {terms:?}, {} cells\ninit\n{}step\n{}", step.cells, lines(&init.code), lines(&step.code))
+    format!(
+        "terms {terms:?}, {} cells\ninit\n{}step\n{}",
+        step.cells,
+        lines(&init.code),
+        lines(&step.code)
+    )
 }
 
 #[test]
@@ -60,8 +72,9 @@ fn what_does_not_depend_on_the_event_stands_before_the_loop() {
 
 #[test]
 fn a_let_sees_no_assignment_of_its_step() {
-    let text =
-        format!("{CLOSE} reward r {{ state n = 0  n = n + 1  let before = n  give before  give n  give prev(n) }} }}");
+    let text = format!(
+        "{CLOSE} reward r {{ state n = 0  n = n + 1  let before = n  give before  give n  give prev(n) }} }}"
+    );
     insta::assert_snapshot!(step(&text));
 }
 

@@ -1,5 +1,10 @@
 //! Parsing: every construct, every trap, and the words of every report.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 #[path = "parse/robust.rs"]
 mod robust;
@@ -18,13 +23,18 @@ const EVERYTHING: &str = include_str!("parse/everything.pitch");
 
 fn read(text: &str) -> (File, Vec<Problem>) {
     let mut problems = Vec::new();
-    let file = parse(&Source { name: "test.pitch".into(), text: text.into() }, FileId(0), &mut problems);
+    let file =
+        parse(&Source { name: "test.pitch".into(), text: text.into() }, FileId(0), &mut problems);
     (file, problems)
 }
 
 /// The problems as `SP0101 message`.
 fn reported(text: &str) -> Vec<String> {
-    read(text).1.iter().map(|problem| format!("{} {}", problem.code(), problem.words().message)).collect()
+    read(text)
+        .1
+        .iter()
+        .map(|problem| format!("{} {}", problem.code(), problem.words().message))
+        .collect()
 }
 
 fn sources(text: &str) -> Sources {
@@ -45,7 +55,11 @@ fn scenario(body: &str) -> Vec<ScenarioStmt> {
 }
 
 fn team(body: &str) -> Vec<TeamStmt> {
-    match scenario(&format!("team left {{\n{body}\n}}")).into_iter().next().map(|statement| statement.kind) {
+    match scenario(&format!("team left {{\n{body}\n}}"))
+        .into_iter()
+        .next()
+        .map(|statement| statement.kind)
+    {
         Some(ScenarioStmtKind::Team { body, .. }) => body,
         other => panic!("no team: {other:?}"),
     }
@@ -82,7 +96,11 @@ fn every_event_and_qualifier_of_the_vocabulary_is_read() {
     for event in EventKind::ALL {
         assert_eq!(reward(&format!("give 1 on {event} when a")).len(), 1, "{event}");
         for qualifier in event.qualifiers() {
-            assert_eq!(reward(&format!("give 1 on {event} {qualifier} when a")).len(), 1, "{event} {qualifier}");
+            assert_eq!(
+                reward(&format!("give 1 on {event} {qualifier} when a")).len(),
+                1,
+                "{event} {qualifier}"
+            );
         }
     }
     assert_eq!(Qualifier::ALL.len(), 9);

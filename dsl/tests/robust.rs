@@ -1,5 +1,11 @@
-//! Broken sources: whatever is cut out of a good one, the compiler answers with problems, never with a panic.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+//! Broken sources: whatever is cut out of a good one, the compiler answers with problems, never
+//! with a panic.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece_dsl::problem::Severity;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
@@ -28,7 +34,11 @@ fn outcome(text: &str) -> CompileOutcome {
     let root = Source { name: "case.pitch".to_owned(), text: text.into() };
     let outcome = compile(root, &Std, &CompileOptions::default());
     let failed = outcome.problems.iter().any(|problem| problem.severity() == Severity::Error);
-    assert_eq!(outcome.scenario.is_none(), failed, "a scenario comes out exactly when nothing is wrong:\n{text}");
+    assert_eq!(
+        outcome.scenario.is_none(),
+        failed,
+        "a scenario comes out exactly when nothing is wrong:\n{text}"
+    );
     for problem in &outcome.problems {
         for label in &problem.words().labels {
             let source = outcome.sources.get(label.span.file).expect("a label in a file");
@@ -78,7 +88,8 @@ fn the_sound_source_compiles() {
 fn a_missing_word_is_no_panic() {
     let words: Vec<&str> = GOOD.split_inclusive(char::is_whitespace).collect();
     for cut in 0..words.len() {
-        let text: String = words.iter().enumerate().filter(|(i, _)| *i != cut).map(|(_, word)| *word).collect();
+        let text: String =
+            words.iter().enumerate().filter(|(i, _)| *i != cut).map(|(_, word)| *word).collect();
         outcome(&text);
     }
 }
@@ -124,7 +135,8 @@ fn definitions_that_double_are_refused_in_time() {
     assert!(outcome(&text).scenario.is_none());
 }
 
-/// A good source without its brackets and quotes one by one: what follows from the lost one is not reported.
+/// A good source without its brackets and quotes one by one: what follows from the lost one is not
+/// reported.
 #[test]
 fn a_lost_bracket_or_quote_is_a_few_problems() {
     let mut wrong = Vec::new();
@@ -148,7 +160,8 @@ fn three_mistakes_of_three_stages_are_three_problems() {
          reward scorin\n end success soon when elapsed > 3m\n}\n",
     )
     .problems;
-    let reported: Vec<_> = problems.iter().map(|problem| (problem.code().to_string(), problem.words().help)).collect();
+    let reported: Vec<_> =
+        problems.iter().map(|problem| (problem.code().to_string(), problem.words().help)).collect();
     let wanted = [
         ("SP0203", Some("did you mean `CB`?")),
         ("SP0201", Some("did you mean `scoring`?")),

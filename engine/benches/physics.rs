@@ -14,17 +14,29 @@ use setpiece_engine::physics::{BallObstacle, Scratch, advance_ball, predict::pla
 use std::hint::black_box;
 use std::time::Duration;
 
-const FLYING: Ball =
-    Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::new(20.0, 3.0, 4.0), spin: Vec3::new(2.0, -15.0, 8.0) };
-const ROLLING: Ball = Ball { pos: Vec3::new(0.0, 0.0, 0.11), vel: Vec3::new(12.0, 3.0, 0.0), spin: Vec3::ZERO };
-const AT_POST: Ball = Ball { pos: Vec3::new(54.8, 3.7, 1.0), vel: Vec3::new(25.0, 0.0, 0.0), spin: Vec3::ZERO };
-const IN_MOUTH: Ball = Ball { pos: Vec3::new(55.5, 0.0, 1.0), vel: Vec3::new(25.0, 0.0, 0.0), spin: Vec3::ZERO };
+const FLYING: Ball = Ball {
+    pos: Vec3::new(0.0, 0.0, 1.0),
+    vel: Vec3::new(20.0, 3.0, 4.0),
+    spin: Vec3::new(2.0, -15.0, 8.0),
+};
+const ROLLING: Ball =
+    Ball { pos: Vec3::new(0.0, 0.0, 0.11), vel: Vec3::new(12.0, 3.0, 0.0), spin: Vec3::ZERO };
+const AT_POST: Ball =
+    Ball { pos: Vec3::new(54.8, 3.7, 1.0), vel: Vec3::new(25.0, 0.0, 0.0), spin: Vec3::ZERO };
+const IN_MOUTH: Ball =
+    Ball { pos: Vec3::new(55.5, 0.0, 1.0), vel: Vec3::new(25.0, 0.0, 0.0), spin: Vec3::ZERO };
 
 fn standing(id: u8, x: f32, y: f32) -> BallObstacle {
     BallObstacle { id, pos: Vec2::new(x, y), vel: Vec2::new(3.0, 1.0), height_m: 1.8 }
 }
 
-fn one_tick(c: &mut BenchmarkGroup<'_, CpuTime>, name: &str, ball: Ball, bodies: &[BallObstacle], full: bool) {
+fn one_tick(
+    c: &mut BenchmarkGroup<'_, CpuTime>,
+    name: &str,
+    ball: Ball,
+    bodies: &[BallObstacle],
+    full: bool,
+) {
     let mut scratch = Scratch::default();
     c.bench_function(name, |b| {
         b.iter(|| {
@@ -44,13 +56,20 @@ fn ticks(c: &mut Criterion<CpuTime>) {
     one_tick(c, "tick/gated/in_the_goal_mouth", IN_MOUTH, &[], false);
     one_tick(c, "tick/gated/at_the_post", AT_POST, &[], false);
     one_tick(c, "tick/full/flying", FLYING, &[], true);
-    let at =
-        |count: u8| -> Vec<BallObstacle> { (0..count).map(|i| standing(i, 0.4 + 0.1 * f32::from(i), 0.0)).collect() };
+    let at = |count: u8| -> Vec<BallObstacle> {
+        (0..count).map(|i| standing(i, 0.4 + 0.1 * f32::from(i), 0.0)).collect()
+    };
     for count in 1..=4u8 {
-        let ball = Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::new(20.0, 0.0, 0.0), spin: Vec3::ZERO };
+        let ball = Ball {
+            pos: Vec3::new(0.0, 0.0, 1.0),
+            vel: Vec3::new(20.0, 0.0, 0.0),
+            spin: Vec3::ZERO,
+        };
         one_tick(c, &format!("tick/gated/bodies_{count}"), ball, &at(count), false);
     }
-    c.bench_function("forecast/300_ticks", |b| b.iter(|| places(black_box(&FLYING), 10).take(30).last()));
+    c.bench_function("forecast/300_ticks", |b| {
+        b.iter(|| places(black_box(&FLYING), 10).take(30).last())
+    });
 }
 
 criterion_group! {

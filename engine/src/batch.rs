@@ -113,7 +113,10 @@ pub struct BatchError {
 }
 
 fn pool(threads: usize) -> Result<ThreadPool, BatchError> {
-    ThreadPoolBuilder::new().num_threads(threads).build().map_err(|source| BatchError { threads, source })
+    ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|source| BatchError { threads, source })
 }
 
 /// Plays one episode to its end.
@@ -141,7 +144,8 @@ pub fn run_episode(
         }
     }
     let outcome = environment.outcome();
-    let terms: Vec<Vec<f64>> = (0..n_agents).map(|agent| environment.term_sums(agent).to_vec()).collect();
+    let terms: Vec<Vec<f64>> =
+        (0..n_agents).map(|agent| environment.term_sums(agent).to_vec()).collect();
     Ok(EpisodeSummary {
         index,
         outcome: outcome.map(|outcome| outcome.label.to_string()).unwrap_or_default(),
@@ -241,7 +245,11 @@ impl<L: Send> Batch<L> {
     /// Each thread processes its own share first. The caller's share is always the first one, whose
     /// lanes its cache may still hold. Then the thread helps the others from the end of their
     /// shares. So nobody waits longer than one lane's work.
-    pub fn each<R: Send>(&mut self, rows: Vec<R>, work: impl Fn(usize, &mut L, R, &mut Scratch) + Sync) {
+    pub fn each<R: Send>(
+        &mut self,
+        rows: Vec<R>,
+        work: impl Fn(usize, &mut L, R, &mut Scratch) + Sync,
+    ) {
         let length = self.lanes.len().div_ceil(self.scratches.len()).max(1);
         let mut lanes = self.lanes.iter_mut().zip(rows).enumerate();
         let share = |_: &Scratch| Mutex::new(lanes.by_ref().take(length).collect::<VecDeque<_>>());
@@ -281,7 +289,8 @@ mod tests {
     use std::sync::Arc;
 
     fn prototype() -> Environment {
-        let mut scenario = scenario(&[(Team::Left, Role::CF, 0.5, 0.0), (Team::Right, Role::GK, 50.0, 0.0)]);
+        let mut scenario =
+            scenario(&[(Team::Left, Role::CF, 0.5, 0.0), (Team::Right, Role::GK, 50.0, 0.0)]);
         scenario.players[0].controllable = true;
         scenario.rewards.push(scoring());
         Environment::new(Arc::new(scenario), EnvironmentOptions::default()).unwrap()
@@ -294,7 +303,12 @@ mod tests {
         let (one, three) = (run(1), run(3));
         assert_eq!(one, three);
         let summaries: Vec<_> = one.into_iter().map(Result::unwrap).collect();
-        assert!(summaries.iter().enumerate().all(|(k, summary)| summary.index == k as u64 && summary.length <= 50));
+        assert!(
+            summaries
+                .iter()
+                .enumerate()
+                .all(|(k, summary)| summary.index == k as u64 && summary.length <= 50)
+        );
     }
 
     #[test]
@@ -316,7 +330,9 @@ mod tests {
     fn the_size_of_a_batch_and_its_threads_change_nothing() {
         let digests = |lanes: usize, threads: usize| -> Vec<u64> {
             let mut batch = Batch::new(vec![prototype(); lanes], threads).unwrap();
-            batch.each((0..).take(lanes).collect(), |_, lane, seed, _| lane.reset(Some(seed), None).unwrap());
+            batch.each((0..).take(lanes).collect(), |_, lane, seed, _| {
+                lane.reset(Some(seed), None).unwrap()
+            });
             for _ in 0..30 {
                 batch.each(vec![Action::Right; lanes], |_, lane, action, scratch| {
                     lane.step(&[action], scratch).unwrap();
@@ -342,7 +358,8 @@ mod tests {
             batch.each(vec![Action::Right; 4], |_, lane, action, scratch| {
                 lane.step(&[action], scratch).unwrap();
             });
-            let found: Vec<_> = batch.lanes().iter().map(|lane| (lane.index(), lane.steps())).collect();
+            let found: Vec<_> =
+                batch.lanes().iter().map(|lane| (lane.index(), lane.steps())).collect();
             assert_eq!(found, [(0, 1), (1, 1), (2, 1), (3, 1), (4, 0)]);
         }
     }

@@ -51,8 +51,11 @@ pub fn bot_actions(game: &mut Match) -> ArrayVec<Action, PLAYERS_MAX> {
     let handed = [Action::BuiltinAi; PLAYERS_MAX];
     let before = decide(game, &handed, &mut Events::new());
     let press = |(slot, held): (&AgentSlot, &u16)| {
-        let Some(id) = slot.player.filter(|id| game.player(*id).active) else { return Action::Idle };
-        let scripted = game.play.acting[id.index()].played.filter(|action| *action != Action::BuiltinAi);
+        let Some(id) = slot.player.filter(|id| game.player(*id).active) else {
+            return Action::Idle;
+        };
+        let scripted =
+            game.play.acting[id.index()].played.filter(|action| *action != Action::BuiltinAi);
         scripted.unwrap_or_else(|| tell::tell(game, &before, id, *held).press)
     };
     game.agents.iter().zip(&held).map(press).collect()
@@ -87,21 +90,29 @@ fn decide(game: &mut Match, actions: &[Action], events: &mut Events) -> BeforeBo
             game.play.driven |= 1 << id.0;
         }
     }
-    for (team, slot) in game.teams().into_iter().flat_map(|team| (0..slots).map(move |slot| (team, slot))) {
+    for (team, slot) in
+        game.teams().into_iter().flat_map(|team| (0..slots).map(move |slot| (team, slot)))
+    {
         let agent = game.agents[slot];
         if agent.team != team {
             continue;
         }
         let action = actions.get(slot).copied().unwrap_or(Action::Idle);
-        if let Some(id) = agent.player.filter(|id| action != Action::BuiltinAi && game.player(*id).active) {
+        if let Some(id) =
+            agent.player.filter(|id| action != Action::BuiltinAi && game.player(*id).active)
+        {
             let acting = &mut game.play.acting[id.index()];
-            *acting = Acting { played: Some(action), key: None, sticky: agent.sticky, chosen: None };
+            *acting =
+                Acting { played: Some(action), key: None, sticky: agent.sticky, chosen: None };
             let held = driver::Held { sticky: agent.sticky, steer: agent.steer, key: agent.key };
-            game.agents[slot].key = driver::drive(game, events, id, held, hurry(game, id, action, held.key));
+            game.agents[slot].key =
+                driver::drive(game, events, id, held, hurry(game, id, action, held.key));
         } else {
             game.agents[slot].key = None;
             // A player handed to the bot holds no key.
-            if let Some(plan) = agent.player.and_then(|id| game.players[id.index()].body.kick.as_mut()) {
+            if let Some(plan) =
+                agent.player.and_then(|id| game.players[id.index()].body.kick.as_mut())
+            {
                 plan.held = false;
             }
         }
@@ -132,7 +143,8 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
             let held = acting.sticky;
             game.play.driven |= 1 << id.0;
             let held = driver::Held { sticky: held, steer: None, key: game.play.acting[i].key };
-            game.play.acting[i].key = driver::drive(game, events, id, held, hurry(game, id, action, held.key));
+            game.play.acting[i].key =
+                driver::drive(game, events, id, held, hurry(game, id, action, held.key));
         }
     }
 }
@@ -141,7 +153,10 @@ fn drive_scripted(game: &mut Match, events: &mut Events) {
 /// that was already down is released first. `key`: the kick whose key is down.
 fn hurry(game: &Match, id: PlayerId, action: Action, key: Option<KickKind>) -> Action {
     let asked = game.player(id).body.kick.is_some();
-    let waiting = game.play.set_piece.filter(|set_piece| set_piece.taker == id && game.rule(Rule::AntiStalling));
+    let waiting = game
+        .play
+        .set_piece
+        .filter(|set_piece| set_piece.taker == id && game.rule(Rule::AntiStalling));
     match waiting.map_or(0, |set_piece| set_piece.waited_steps) {
         ..STALLING_STEPS => action,
         STALLING_STEPS if asked || key.is_none() => Action::ShortPass,

@@ -21,7 +21,8 @@ impl Digest {
     /// Adds whole numbers.
     #[must_use]
     pub fn whole(self, value: u64) -> Digest {
-        let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        let step =
+            |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         Digest(value.to_le_bytes().into_iter().fold(self.0, step))
     }
 
@@ -75,7 +76,10 @@ pub fn of_match(game: &Match) -> u64 {
             digest = digest.floats(steer.way.to_array()).float(steer.power);
         }
     }
-    digest.whole(game.play_random.clone().bits().into()).whole(game.bot_random.clone().bits().into()).value()
+    digest
+        .whole(game.play_random.clone().bits().into())
+        .whole(game.bot_random.clone().bits().into())
+        .value()
 }
 
 /// One digest of many, in order.

@@ -19,7 +19,8 @@ use crate::state::PlayerId;
 use glam::{Vec2, Vec3};
 use setpiece_scenario::bounds::start_work;
 use setpiece_scenario::pitch::{
-    BALL_RADIUS_M, GOALS_MAX, LONGEST_S, PLAYERS_MAX, RIM_X_M, RIM_Y_M, STEPS_PER_S, YELLOW_CARDS_MAX,
+    BALL_RADIUS_M, GOALS_MAX, LONGEST_S, PLAYERS_MAX, RIM_X_M, RIM_Y_M, STEPS_PER_S,
+    YELLOW_CARDS_MAX,
 };
 use setpiece_scenario::vocabulary::{Rule, Team};
 use setpiece_scenario::{Bindings, Reg, Scenario};
@@ -71,7 +72,9 @@ impl DrawError {
         let DrawError { requirement, failures, attempts, .. } = self;
         match attempts {
             1 => format!("no start: `{requirement}` does not hold"),
-            _ => format!("no start in {attempts} attempts: `{requirement}` failed in {failures} of them"),
+            _ => format!(
+                "no start in {attempts} attempts: `{requirement}` failed in {failures} of them"
+            ),
         }
     }
 }
@@ -97,7 +100,9 @@ impl Drawer {
         let mut random: Vec<bool> = Vec::with_capacity(program.code.len());
         for instr in &program.code {
             let mut tainted = matches!(instr, setpiece_scenario::Instr::Random { .. });
-            instr.operands(&mut |reg| tainted |= random.get(reg.index()).copied().unwrap_or_default());
+            instr.operands(&mut |reg| {
+                tainted |= random.get(reg.index()).copied().unwrap_or_default()
+            });
             random.push(tainted);
         }
         Drawer {
@@ -190,13 +195,20 @@ impl Drawer {
             .fold((0, 0), |best, (which, n)| if n > best.1 { (which, n) } else { best });
         let requirement = match scenario.start.requires.get(which) {
             Some(require) => require.label.clone(),
-            None => place::PlaceFault::ALL[which - scenario.start.requires.len()].words().to_owned(),
+            None => {
+                place::PlaceFault::ALL[which - scenario.start.requires.len()].words().to_owned()
+            }
         };
         DrawError { requirement, failures, attempts, seed, index }
     }
 
     /// A start that wasn't checked against the requirements, for use before the first episode.
-    pub fn draw_unchecked(&mut self, scenario: &Scenario, bindings: &Bindings, roster: &Roster) -> Drawn {
+    pub fn draw_unchecked(
+        &mut self,
+        scenario: &Scenario,
+        bindings: &Bindings,
+        roster: &Roster,
+    ) -> Drawn {
         let draws = DrawKey { seed: 0, index: 0, attempt: 0 };
         self.begin(bindings, draws);
         self.run(bindings, draws);
@@ -216,7 +228,12 @@ impl Drawer {
     }
 
     /// The machine of the start program. Its values are in the registers afterwards.
-    fn machine<'a>(&'a mut self, bindings: &'a Bindings, draws: DrawKey, faults: &'a mut u32) -> Machine<'a> {
+    fn machine<'a>(
+        &'a mut self,
+        bindings: &'a Bindings,
+        draws: DrawKey,
+        faults: &'a mut u32,
+    ) -> Machine<'a> {
         let (plan, regs) = self.regs.parts();
         Machine {
             input: Input {
@@ -250,7 +267,9 @@ impl Drawer {
             });
             asked && !truth(self.value(require.condition))
         });
-        own.or_else(|| self.misplaced(scenario, roster).map(|fault| requires.len() + fault as usize))
+        own.or_else(|| {
+            self.misplaced(scenario, roster).map(|fault| requires.len() + fault as usize)
+        })
     }
 
     fn value(&self, reg: Reg) -> f64 {
@@ -276,8 +295,9 @@ impl Drawer {
     }
 
     fn vector(&self, vector: Option<(Reg, Reg, Reg)>) -> Vec3 {
-        vector
-            .map_or(Vec3::ZERO, |(x, y, z)| Vec3::new(self.value(x) as f32, self.value(y) as f32, self.value(z) as f32))
+        vector.map_or(Vec3::ZERO, |(x, y, z)| {
+            Vec3::new(self.value(x) as f32, self.value(y) as f32, self.value(z) as f32)
+        })
     }
 
     fn share(&self, reg: Reg) -> f32 {
@@ -293,7 +313,8 @@ impl Drawer {
     /// The concrete start that the registers describe.
     fn start(&self, scenario: &Scenario, roster: &Roster, seed: u64, index: u64) -> Drawn {
         let start = &scenario.start;
-        let mut rules: [f64; Rule::ALL.len()] = std::array::from_fn(|i| Rule::ALL[i].default_value());
+        let mut rules: [f64; Rule::ALL.len()] =
+            std::array::from_fn(|i| Rule::ALL[i].default_value());
         for setting in &start.rules {
             rules[setting.rule.index()] = self.value(setting.value);
         }
@@ -313,7 +334,10 @@ impl Drawer {
             }),
             kind: start.kind,
             taker: start.taker.and_then(|taker| team_of_number(self.value(taker))),
-            first_kickoff: start.kickoff.as_ref().and_then(|kickoff| team_of_number(self.value(kickoff.first))),
+            first_kickoff: start
+                .kickoff
+                .as_ref()
+                .and_then(|kickoff| team_of_number(self.value(kickoff.first))),
             score: start.score.map_or([0; 2], |(left, right)| [goals(left), goals(right)]),
             elapsed_steps: start.elapsed.map_or(0, |elapsed| self.steps(elapsed)),
             difficulty,
@@ -336,7 +360,8 @@ impl Drawer {
         for team in Team::ALL {
             for (id, slot) in scenario.team(*team) {
                 // In roster order, as the places are.
-                let kickoff = place_of.next().map(|at| [self.place(at.kicking), self.place(at.receiving)]);
+                let kickoff =
+                    place_of.next().map(|at| [self.place(at.kicking), self.place(at.receiving)]);
                 if id >= PLAYERS_MAX || !roster.present[id] {
                     continue;
                 }
@@ -350,7 +375,9 @@ impl Drawer {
                     heading_rad: start.heading.map(|heading| self.value(heading) as f32),
                     fatigue: start.fatigue.map_or(0.0, |fatigue| self.share(fatigue)),
                     yellow_cards: (self.optional(start.yellow_cards) as u8).min(YELLOW_CARDS_MAX),
-                    difficulty: start.difficulty.map_or(difficulty[team.index()], |own| self.share(own)),
+                    difficulty: start
+                        .difficulty
+                        .map_or(difficulty[team.index()], |own| self.share(own)),
                     stats: slot.stats.iter().map(|&(stat, reg)| (stat, self.share(reg))).collect(),
                     kickoff,
                 });

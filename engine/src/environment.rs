@@ -104,8 +104,8 @@ pub struct Environment {
 
 clone_in_place! {
     Environment {
-        scenario, scenario_digest, options, past, bindings, roster, ids, drawer, game, stopped, judge, actors,
-        events, judged, statistics, running, begun, started, outcome, seed, index,
+        scenario, scenario_digest, options, past, bindings, roster, ids, drawer, game, stopped,
+        judge, actors, events, judged, statistics, running, begun, started, outcome, seed, index,
     }
 }
 
@@ -116,7 +116,10 @@ impl Environment {
     /// [`EnvironmentError`] for a reward, parameter or number of agents that the scenario doesn't
     /// have, a script that isn't valid Rhai, or an unusable snapshot (unreadable, or with other
     /// players or agents).
-    pub fn new(scenario: Arc<Scenario>, options: EnvironmentOptions) -> Result<Environment, EnvironmentError> {
+    pub fn new(
+        scenario: Arc<Scenario>,
+        options: EnvironmentOptions,
+    ) -> Result<Environment, EnvironmentError> {
         let bindings = bound(&scenario, options.bindings.as_ref())?;
         let scripts = Scripts::compile(&scenario)?;
         let rewards = chosen_rewards(&scenario, options.rewards.as_deref())?;
@@ -170,7 +173,12 @@ impl Environment {
     }
 
     /// Begins an episode at a start that the scenario draws, or in an old state.
-    fn begin(&mut self, seed: Option<u64>, index: Option<u64>, past: Option<&Match>) -> Result<(), DrawError> {
+    fn begin(
+        &mut self,
+        seed: Option<u64>,
+        index: Option<u64>,
+        past: Option<&Match>,
+    ) -> Result<(), DrawError> {
         self.index = match (seed, index) {
             (_, Some(index)) => index,
             (Some(_), None) => 0,
@@ -190,7 +198,12 @@ impl Environment {
             self.game = hindsight::begin_from(past, &self.game);
         }
         self.started = true;
-        let given = Given { seed: self.seed, index: self.index, params: &self.bindings.0, lets: &drawn.lets };
+        let given = Given {
+            seed: self.seed,
+            index: self.index,
+            params: &self.bindings.0,
+            lets: &drawn.lets,
+        };
         self.judge.reset(&self.game, &given);
         self.actors.reset(&self.game, &given);
         self.statistics = Statistics::begin(&self.game);
@@ -203,12 +216,19 @@ impl Environment {
     /// # Errors
     /// [`StepError`] if the episode has ended or has not begun, if there isn't one action per agent
     /// (then nothing is played), or if a script failed (which ends the episode).
-    pub fn step(&mut self, actions: &[Action], scratch: &mut Scratch) -> Result<StepResult, StepError> {
+    pub fn step(
+        &mut self,
+        actions: &[Action],
+        scratch: &mut Scratch,
+    ) -> Result<StepResult, StepError> {
         if !self.running {
             return Err(StepError::NotRunning { begun: self.begun });
         }
         if actions.len() != self.game.agents.len() {
-            return Err(StepError::Actions { found: actions.len(), expected: self.game.agents.len() });
+            return Err(StepError::Actions {
+                found: actions.len(),
+                expected: self.game.agents.len(),
+            });
         }
         scratch.laps().start();
         let before = self.events.as_slice().get(..self.judged).unwrap_or_default();
@@ -269,7 +289,8 @@ impl Environment {
         if scenario.scripts.len() != self.scenario.scripts.len() {
             return Ok(false);
         }
-        let same = Scenario { scripts: self.scenario.scripts.clone(), ..Scenario::clone(scenario) } == *self.scenario;
+        let same = Scenario { scripts: self.scenario.scripts.clone(), ..Scenario::clone(scenario) }
+            == *self.scenario;
         if same {
             let scripts = Scripts::compile(scenario)?;
             self.actors.adopt(scripts.clone());
@@ -422,14 +443,21 @@ impl Environment {
     ///
     /// # Errors
     /// [`ObserveError`] for unknown agents, or an `out` of another length.
-    pub fn observe(&mut self, floats: Floats, agent: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+    pub fn observe(
+        &mut self,
+        floats: Floats,
+        agent: usize,
+        out: &mut [f32],
+    ) -> Result<(), ObserveError> {
         match floats {
             Floats::Simple115 => observe::simple115(&self.game, agent, out),
             Floats::Simple115v2 => observe::simple115v2(&self.game, agent, out),
             Floats::Simple115v2Sticky => observe::simple115v2_sticky(&self.game, agent, out),
             Floats::Egocentric => observe::egocentric(&self.game, agent, self.larger_team(), out),
             Floats::Vector => self.observe_vector(agent, out),
-            Floats::Scaled(scaled) => observe::scaled(&self.game, agent, scaled, self.larger_team(), out),
+            Floats::Scaled(scaled) => {
+                observe::scaled(&self.game, agent, scaled, self.larger_team(), out)
+            }
         }
     }
 
@@ -558,16 +586,26 @@ fn bound(scenario: &Scenario, bindings: Option<&Bindings>) -> Result<Bindings, E
     Ok(bindings.clone())
 }
 
-fn chosen_rewards(scenario: &Scenario, names: Option<&[String]>) -> Result<Arc<[Reward]>, EnvironmentError> {
+fn chosen_rewards(
+    scenario: &Scenario,
+    names: Option<&[String]>,
+) -> Result<Arc<[Reward]>, EnvironmentError> {
     let Some(names) = names else { return Ok(scenario.rewards.clone().into()) };
-    if let Some(twice) = names.iter().enumerate().find(|(at, name)| names.iter().take(*at).any(|other| other == *name))
+    if let Some(twice) = names
+        .iter()
+        .enumerate()
+        .find(|(at, name)| names.iter().take(*at).any(|other| other == *name))
     {
         return Err(EnvironmentError::RewardTwice(twice.1.clone()));
     }
     let chosen = names.iter().map(|name| {
         scenario.reward(name).cloned().ok_or_else(|| {
-            let mut known: Vec<String> =
-                scenario.library.iter().chain(&scenario.rewards).map(|reward| reward.name.clone()).collect();
+            let mut known: Vec<String> = scenario
+                .library
+                .iter()
+                .chain(&scenario.rewards)
+                .map(|reward| reward.name.clone())
+                .collect();
             known.sort();
             known.dedup();
             EnvironmentError::Reward { name: name.clone(), known }

@@ -6,7 +6,10 @@ use serde::{Deserializer, Serializer};
 use std::fmt;
 
 /// Writes four bytes each.
-pub(crate) fn serialize<S: Serializer, const N: usize>(floats: &[f32; N], serializer: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn serialize<S: Serializer, const N: usize>(
+    floats: &[f32; N],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
     if serializer.is_human_readable() {
         return serializer.collect_seq(floats);
     }
@@ -14,7 +17,9 @@ pub(crate) fn serialize<S: Serializer, const N: usize>(floats: &[f32; N], serial
 }
 
 /// Reads exactly as many.
-pub(crate) fn deserialize<'de, D: Deserializer<'de>, const N: usize>(deserializer: D) -> Result<[f32; N], D::Error> {
+pub(crate) fn deserialize<'de, D: Deserializer<'de>, const N: usize>(
+    deserializer: D,
+) -> Result<[f32; N], D::Error> {
     deserializer.deserialize_bytes(Bytes)
 }
 

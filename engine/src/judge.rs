@@ -63,7 +63,12 @@ clone_in_place! {
 
 impl Judge {
     /// Prepares a judge that pays `rewards` to this many agents.
-    pub fn new(scenario: &Scenario, rewards: Arc<[Reward]>, scripts: Scripts, n_agents: usize) -> Judge {
+    pub fn new(
+        scenario: &Scenario,
+        rewards: Arc<[Reward]>,
+        scripts: Scripts,
+        n_agents: usize,
+    ) -> Judge {
         let endings: Arc<Endings> = Arc::new(scenario.endings.clone());
         let scripted = rewards.iter().any(|reward| !reward.body.hooks.is_empty())
             || endings.list.iter().any(|ending| ending.script.is_some());
@@ -128,7 +133,11 @@ impl Judge {
     }
 
     /// Writes or reads an episode's memory; on the way in [`Self::reset`] has come before.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+    pub(crate) fn archive(
+        &mut self,
+        archive: &mut Archive<'_>,
+        shelf: &mut Shelf,
+    ) -> Result<(), SnapshotError> {
         self.prev.archive("prev", self.memory, archive)?;
         if self.observation.is_some() {
             self.before.archive("before", self.memory, archive)?;
@@ -149,17 +158,27 @@ impl Judge {
     ///
     /// # Errors
     /// A hook that failed; the episode can't continue.
-    pub fn step(&mut self, game: &Match, events: &mut Events) -> Result<Option<Outcome>, ScriptError> {
+    pub fn step(
+        &mut self,
+        game: &Match,
+        events: &mut Events,
+    ) -> Result<Option<Outcome>, ScriptError> {
         let side = endings::judged_side(game);
         let mut scene = self.known.show(|| MatchView::of(game), &self.prev, events.as_slice());
-        let input = Input { events: events.as_slice(), ..self.known.input(Sight::Live(game), &self.prev, side) };
+        let input = Input {
+            events: events.as_slice(),
+            ..self.known.input(Sight::Live(game), &self.prev, side)
+        };
         let outcome = self.endings.step(game, &input, shown(&self.known, scene.as_ref()))?;
         if let Some(outcome) = &outcome {
             endings::announce(outcome, game, events);
             drop(scene);
             scene = self.known.show(|| MatchView::of(game), &self.prev, events.as_slice());
         }
-        let input = Input { events: events.as_slice(), ..self.known.input(Sight::Live(game), &self.prev, side) };
+        let input = Input {
+            events: events.as_slice(),
+            ..self.known.input(Sight::Live(game), &self.prev, side)
+        };
         self.rewards.step(game, &input, shown(&self.known, scene.as_ref()))?;
         self.records.step(game, &input);
         Ok(outcome)
@@ -175,7 +194,10 @@ impl Judge {
 }
 
 /// What a judge's scripts may read.
-fn shown<'a>(known: &'a Known, scene: Option<&'a Arc<HookScene>>) -> Option<(&'a Scripts, &'a Arc<HookScene>)> {
+fn shown<'a>(
+    known: &'a Known,
+    scene: Option<&'a Arc<HookScene>>,
+) -> Option<(&'a Scripts, &'a Arc<HookScene>)> {
     scene.map(|scene| (known.scripts(), scene))
 }
 
@@ -183,7 +205,8 @@ fn shown<'a>(known: &'a Known, scene: Option<&'a Arc<HookScene>>) -> Option<(&'a
 fn memory(scenario: &Scenario, rewards: &[Reward]) -> ViewMemory {
     let of = |reward: &Reward| ViewMemory::of(&reward.body.step);
     let programs = scenario.records.iter().map(|record| &record.program);
-    let programs = programs.chain(scenario.observation.iter().map(|observation| &observation.program));
+    let programs =
+        programs.chain(scenario.observation.iter().map(|observation| &observation.program));
     let programs = programs.chain([&scenario.endings.program]);
     programs.map(ViewMemory::of).chain(rewards.iter().map(of)).max().unwrap_or_default()
 }

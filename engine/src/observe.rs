@@ -100,7 +100,10 @@ pub enum ObserveError {
 }
 
 fn slot(game: &Match, agent: usize) -> Result<AgentSlot, ObserveError> {
-    game.agents.get(agent).copied().ok_or(ObserveError::Agent { agent, n_agents: game.agents.len() })
+    game.agents
+        .get(agent)
+        .copied()
+        .ok_or(ObserveError::Agent { agent, n_agents: game.agents.len() })
 }
 
 fn check_size(found: usize, expected: usize) -> Result<(), ObserveError> {

@@ -50,7 +50,12 @@ pub enum Contact {
 ///
 /// `full` always runs rapier. Otherwise rapier runs only if the swept ball comes near something
 /// hard.
-pub fn advance_ball(ball: &mut Ball, bodies: &[BallObstacle], full: bool, scratch: &mut Scratch) -> Option<Contact> {
+pub fn advance_ball(
+    ball: &mut Ball,
+    bodies: &[BallObstacle],
+    full: bool,
+    scratch: &mut Scratch,
+) -> Option<Contact> {
     let bodies = gate::near_bodies(ball, bodies);
     if bodies.is_empty() && flight::lies_still(ball) {
         return None;

@@ -44,7 +44,11 @@ impl Stream {
 
     /// The stream of one draw of one attempt. `key` is the draw's own, from the scenario.
     pub fn of_draw(seed: u64, index: u64, attempt: u32, key: u64) -> Stream {
-        Stream::new(mix(seed ^ mix(key)), index.wrapping_add(u64::from(attempt) << 40), Purpose::Draw)
+        Stream::new(
+            mix(seed ^ mix(key)),
+            index.wrapping_add(u64::from(attempt) << 40),
+            Purpose::Draw,
+        )
     }
 
     /// The next 32 bits.
@@ -136,11 +140,16 @@ mod tests {
     /// Mean and standard deviation of many draws.
     fn moments(mean: f64, sd: f64, low: f64, high: f64) -> (f64, f64) {
         let mut stream = Stream::new(3, 5, Purpose::Draw);
-        let draws: Vec<f64> = (0..20_000).map(|_| stream.truncated_normal(mean, sd, low, high)).collect();
+        let draws: Vec<f64> =
+            (0..20_000).map(|_| stream.truncated_normal(mean, sd, low, high)).collect();
         assert!(draws.iter().all(|draw| (low..=high).contains(draw)));
-        assert!(draws.iter().filter(|draw| **draw == low || **draw == high).count() < 2, "no atom at an end");
+        assert!(
+            draws.iter().filter(|draw| **draw == low || **draw == high).count() < 2,
+            "no atom at an end"
+        );
         let average = draws.iter().sum::<f64>() / draws.len() as f64;
-        let spread = draws.iter().map(|draw| (draw - average).powi(2)).sum::<f64>() / draws.len() as f64;
+        let spread =
+            draws.iter().map(|draw| (draw - average).powi(2)).sum::<f64>() / draws.len() as f64;
         (average, spread.sqrt())
     }
 
@@ -186,13 +195,19 @@ mod tests {
             (0.6, 2.0),
             (30.0, 31.0),
         ] {
-            let ((mean, sd), (wanted_mean, wanted_sd)) = (moments(0.0, 1.0, low, high), expected(low, high));
-            assert!((mean - wanted_mean).abs() < 0.04 * wanted_sd, "{low}..{high}: mean {mean}, not {wanted_mean}");
+            let ((mean, sd), (wanted_mean, wanted_sd)) =
+                (moments(0.0, 1.0, low, high), expected(low, high));
+            assert!(
+                (mean - wanted_mean).abs() < 0.04 * wanted_sd,
+                "{low}..{high}: mean {mean}, not {wanted_mean}"
+            );
             assert!((sd / wanted_sd - 1.0).abs() < 0.04, "{low}..{high}: sd {sd}, not {wanted_sd}");
         }
         let (mean, sd) = moments(10.0, 2.0, 14.0, 18.0);
         let (wanted_mean, wanted_sd) = expected(2.0, 4.0);
-        assert!((mean - 10.0 - 2.0 * wanted_mean).abs() < 0.05 && (sd - 2.0 * wanted_sd).abs() < 0.05);
+        assert!(
+            (mean - 10.0 - 2.0 * wanted_mean).abs() < 0.05 && (sd - 2.0 * wanted_sd).abs() < 0.05
+        );
     }
 
     #[test]

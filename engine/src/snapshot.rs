@@ -1,12 +1,14 @@
 //! Snapshots: a whole match as bytes, at any moment, and back.
 //!
-//! A snapshot holds the match with its streams of random numbers, and what its judge and its scripted players remember:
-//! everything a later step depends on. It begins with a [head](setpiece_scenario::container), says what it is of (the scenario's
-//! digest, the rewards), then holds the match, which any scenario of the same roster can begin an episode from, and
-//! last the episode around it, which only the same scenario can go on with.
+//! A snapshot holds the match with its streams of random numbers, and what its judge and its
+//! scripted players remember: everything a later step depends on. It begins with a
+//! [head](setpiece_scenario::container), says what it is of (the scenario's digest, the rewards),
+//! then holds the match, which any scenario of the same roster can begin an episode from, and last
+//! the episode around it, which only the same scenario can go on with.
 //!
-//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be impossible;
-//!   [`floats`](crate::floats): many numbers at once; [`bounded`](mod@bounded): no list may be endless.
+//! - [`archive`]: writing and reading, in one; [`walk`](mod@walk): no number read may be
+//!   impossible; [`floats`](crate::floats): many numbers at once; [`bounded`](mod@bounded): no list
+//!   may be endless.
 //!
 //! [`Environment`](crate::environment::Environment) offers what can be done with a snapshot.
 

@@ -69,8 +69,8 @@ pub struct Match {
 
 clone_in_place! {
     Match {
-        tick, step, elapsed_at_start, limit_steps, score, ball, squad, players, owner, possession, last_touch,
-        mode, dead, rules, difficulty, agents, play_random, bot_random, play,
+        tick, step, elapsed_at_start, limit_steps, score, ball, squad, players, owner, possession,
+        last_touch, mode, dead, rules, difficulty, agents, play_random, bot_random, play,
     }
 }
 

@@ -141,7 +141,9 @@ impl Statistics {
         let third = (HALF_LENGTH_M / 3.0) as f32;
         self.thirds[usize::from(ball.x > -third) + usize::from(ball.x > third)] += 1;
         let (mut outfield, mut near) = (0u32, 0u32);
-        for (id, player) in game.squad.ids().map(|id| (id, game.player(id))).filter(|(_, player)| player.active) {
+        for (id, player) in
+            game.squad.ids().map(|id| (id, game.player(id))).filter(|(_, player)| player.active)
+        {
             if player.role != Role::GK {
                 outfield += 1;
                 near += u32::from(player.pos.distance(ball) < CROWD_M);
@@ -209,8 +211,11 @@ impl MatchStatistics {
     pub fn mean(of: &[MatchStatistics]) -> MatchMeans {
         let n = of.len().max(1) as f64;
         // An empty sum of floats is -0.
-        let mean = |figure: &dyn Fn(&MatchStatistics) -> f64| of.iter().map(figure).sum::<f64>() / n + 0.0;
-        let team = |side: usize, figure: fn(&TeamStatistics) -> u32| mean(&|m| f64::from(figure(&m.teams[side])));
+        let mean =
+            |figure: &dyn Fn(&MatchStatistics) -> f64| of.iter().map(figure).sum::<f64>() / n + 0.0;
+        let team = |side: usize, figure: fn(&TeamStatistics) -> u32| {
+            mean(&|m| f64::from(figure(&m.teams[side])))
+        };
         let sides = |figure: fn(&TeamStatistics) -> u32| [team(0, figure), team(1, figure)];
         let minutes = |m: &MatchStatistics| f64::from(m.steps) / STEPS_PER_S;
         MatchMeans {
@@ -218,7 +223,8 @@ impl MatchStatistics {
             seconds: mean(&minutes),
             passes: mean(&|m| m.passes.into()),
             pass_completion: {
-                let completed: f64 = mean(&|m| m.teams.iter().map(|team| f64::from(team.passes_completed)).sum());
+                let completed: f64 =
+                    mean(&|m| m.teams.iter().map(|team| f64::from(team.passes_completed)).sum());
                 let attempted = mean(&|m| m.passes.into());
                 if attempted > 0.0 { completed / attempted } else { 0.0 }
             },

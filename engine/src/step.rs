@@ -17,7 +17,8 @@ use setpiece_scenario::vocabulary::Action;
 /// Builds the match of a drawn start, ready for its first step.
 pub fn begin(drawn: &Drawn) -> Match {
     let mut game = begin::begin(drawn);
-    // Each agent's first action is for the player that the start gives it, wherever the ball is. (GRF's.)
+    // Each agent's first action is for the player that the start gives it, wherever the ball is.
+    // (GRF's.)
     look_ahead(&mut game);
     game
 }
@@ -55,7 +56,7 @@ pub fn play(game: &mut Match, actions: &[Action], events: &mut Events, scratch: 
     }
     clock::end_step(game, events);
     if from == 0 && !game.dead {
-        switching::update(game);
+        switching::after_first_step(game);
     }
 }
 

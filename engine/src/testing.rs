@@ -122,7 +122,8 @@ pub(crate) fn event(kind: EventKind, team: Option<Team>, by: Option<u8>) -> Even
 /// A view with the left keeper at the goal and players 1 and 12 at the given places, metres.
 pub(crate) fn view(left: [f32; 2], right: [f32; 2], ball: [f32; 3]) -> MatchView {
     let mut view = MatchView { ball, ..MatchView::EMPTY };
-    for (id, pos, role) in [(0, [-55.0, 0.0], Role::GK), (1, left, Role::CM), (12, right, Role::CB)] {
+    for (id, pos, role) in [(0, [-55.0, 0.0], Role::GK), (1, left, Role::CM), (12, right, Role::CB)]
+    {
         let player = &mut view.players[id];
         (player.present, player.active, player.pos, player.role) = (true, true, pos, role);
     }
@@ -172,7 +173,14 @@ pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
         start: Start {
             program: code.program,
             lets: Vec::new(),
-            ball: BallStart { x: zero, y: zero, height: None, velocity: None, spin: None, owner: None },
+            ball: BallStart {
+                x: zero,
+                y: zero,
+                height: None,
+                velocity: None,
+                spin: None,
+                owner: None,
+            },
             kind: StartKind::Open,
             taker: None,
             score: None,
@@ -250,7 +258,8 @@ pub(crate) fn checkpoints() -> Reward {
     let value = code.binary(BinaryOp::Mul, n, each);
     code.push(Instr::Give { term: 0, value, guard });
     code.push(Instr::Assign { cell: collected, value: reached, guard });
-    let filter = EventFilter { kind: EventKind::Goal, qualifier: None, by: Some(Who::Team(us)), to: None };
+    let filter =
+        EventFilter { kind: EventKind::Goal, qualifier: None, by: Some(Who::Team(us)), to: None };
     let fold = Fold { kind: FoldKind::Nothing, value: None, guard: None };
     code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 5, fold })));
     let before = code.push(Instr::Cell(collected));

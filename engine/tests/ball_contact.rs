@@ -1,5 +1,10 @@
 //! The ball against hard objects (woodwork, nets, bodies), and the fast mode against the full one.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use glam::{Vec2, Vec3};
 use setpiece_engine::physics::Ball;
@@ -20,7 +25,11 @@ impl Draw {
     }
 
     fn point(&mut self, low: [f32; 3], high: [f32; 3]) -> Vec3 {
-        Vec3::new(self.within(low[0], high[0]), self.within(low[1], high[1]), self.within(low[2], high[2]))
+        Vec3::new(
+            self.within(low[0], high[0]),
+            self.within(low[1], high[1]),
+            self.within(low[2], high[2]),
+        )
     }
 
     fn sign(&mut self) -> f32 {
@@ -57,10 +66,19 @@ fn shot(kind: usize, draw: &mut Draw) -> Shot {
     let speed = draw.within(14.0, 36.0);
     let mut bodies = Vec::new();
     let ball = match kind {
-        0 => Ball { pos: from, vel: (mouth - from).truncate().normalize().extend(0.0) * speed, spin: Vec3::ZERO },
+        0 => Ball {
+            pos: from,
+            vel: (mouth - from).truncate().normalize().extend(0.0) * speed,
+            spin: Vec3::ZERO,
+        },
         1 => aimed(from, mouth, speed, Vec3::ZERO),
         2 => aimed(from, mouth, speed, draw.point([-20.0, -20.0, -60.0], [20.0, 20.0, 60.0])),
-        3 => aimed(from, Vec3::new(55.0, post_y + draw.within(-0.2, 0.2), mouth.z), speed, Vec3::ZERO),
+        3 => aimed(
+            from,
+            Vec3::new(55.0, post_y + draw.within(-0.2, 0.2), mouth.z),
+            speed,
+            Vec3::ZERO,
+        ),
         4 => aimed(from, Vec3::new(55.0, mouth.y, 2.5 + draw.within(-0.2, 0.2)), speed, Vec3::ZERO),
         5 => {
             // Nets from outside: from behind the goal line.
@@ -76,7 +94,11 @@ fn shot(kind: usize, draw: &mut Draw) -> Shot {
         }
         _ => {
             let anywhere = draw.point([-52.0, -34.0, BALL_RADIUS], [52.0, 34.0, 2.0]);
-            Ball { pos: anywhere, vel: draw.point([-30.0, -30.0, -5.0], [30.0, 30.0, 15.0]), spin: Vec3::ZERO }
+            Ball {
+                pos: anywhere,
+                vel: draw.point([-30.0, -30.0, -5.0], [30.0, 30.0, 15.0]),
+                spin: Vec3::ZERO,
+            }
         }
     };
     let turn = |v: Vec3| Vec3::new(v.x * side, v.y * side, v.z);
@@ -100,7 +122,10 @@ fn the_fast_mode_agrees_with_the_full_one_over_2400_shots() {
             let before = (fast.pos, exact.pos);
             let one = advance_ball(&mut fast, bodies, false, &mut gated);
             let other = advance_ball(&mut exact, bodies, true, &mut full);
-            assert!(fast.pos.is_finite() && fast.vel.is_finite() && fast.spin.is_finite(), "{fast:?}");
+            assert!(
+                fast.pos.is_finite() && fast.vel.is_finite() && fast.spin.is_finite(),
+                "{fast:?}"
+            );
             fast_goal = fast_goal.or(crossed_goal_line(before.0, fast.pos));
             exact_goal = exact_goal.or(crossed_goal_line(before.1, exact.pos));
             if free && (one.is_some() || other.is_some()) {
@@ -109,8 +134,14 @@ fn the_fast_mode_agrees_with_the_full_one_over_2400_shots() {
                 free = false;
             }
             if free {
-                assert!((fast.pos - exact.pos).length() < 0.10, "shot {i}, tick {tick}: {fast:?} {exact:?}");
-                assert!((fast.vel - exact.vel).length() < 0.3, "shot {i}, tick {tick}: {fast:?} {exact:?}");
+                assert!(
+                    (fast.pos - exact.pos).length() < 0.10,
+                    "shot {i}, tick {tick}: {fast:?} {exact:?}"
+                );
+                assert!(
+                    (fast.vel - exact.vel).length() < 0.3,
+                    "shot {i}, tick {tick}: {fast:?} {exact:?}"
+                );
             }
             if fast.vel == Vec3::ZERO && exact.vel == Vec3::ZERO || fast.pos.x.abs() > 70.0 {
                 break;
@@ -120,7 +151,10 @@ fn the_fast_mode_agrees_with_the_full_one_over_2400_shots() {
         different += usize::from(fast_goal != exact_goal);
     }
     println!("{met} met something, {goals} goals, {different} different verdicts");
-    assert!(met > 1000 && goals > 400, "the shots must test something: {met} met something, {goals} goals");
+    assert!(
+        met > 1000 && goals > 400,
+        "the shots must test something: {met} met something, {goals} goals"
+    );
     assert!(different * 100 <= shots.len(), "{different} of {} verdicts differ", shots.len());
 }
 
@@ -151,7 +185,8 @@ fn both_goals_are_alike_to_the_bit() {
         let turn = |v: Vec3| Vec3::new(-v.x, -v.y, v.z);
         let mut one = start;
         let mut other = Ball { pos: turn(start.pos), vel: turn(start.vel), spin: turn(start.spin) };
-        let turned: Vec<BallObstacle> = bodies.iter().map(|body| BallObstacle { pos: -body.pos, ..*body }).collect();
+        let turned: Vec<BallObstacle> =
+            bodies.iter().map(|body| BallObstacle { pos: -body.pos, ..*body }).collect();
         for _ in 0..200 {
             let touched = advance_ball(&mut one, &bodies, false, &mut scratch);
             assert_eq!(touched, advance_ball(&mut other, &turned, false, &mut scratch));
@@ -164,7 +199,8 @@ fn both_goals_are_alike_to_the_bit() {
 fn woodwork_gives_back_four_fifths_of_the_speed() {
     let mut scratch = Scratch::default();
     for speed in [8.0f32, 15.0, 25.0, 35.0, 45.0] {
-        for (what, at) in [("post", Vec3::new(55.0, 3.7, 1.2)), ("bar", Vec3::new(55.0, 1.0, 2.5))] {
+        for (what, at) in [("post", Vec3::new(55.0, 3.7, 1.2)), ("bar", Vec3::new(55.0, 1.0, 2.5))]
+        {
             let from = at - Vec3::X * 0.4;
             let mut ball = Ball { pos: from, vel: Vec3::X * speed, spin: Vec3::ZERO };
             let mut touched = None;
@@ -235,7 +271,8 @@ fn a_ball_from_behind_never_gets_into_the_goal() {
 fn a_body_stops_and_damps_the_ball_and_is_named() {
     let mut scratch = Scratch::default();
     for speed in [5.0f32, 15.0, 30.0, 45.0] {
-        let mut ball = Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::X * speed, spin: Vec3::ZERO };
+        let mut ball =
+            Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::X * speed, spin: Vec3::ZERO };
         let bodies = [standing(7, Vec2::new(9.0, 0.0)), standing(14, Vec2::new(1.5, 0.05))];
         let mut touched = None;
         for _ in 0..60 {
@@ -250,9 +287,13 @@ fn a_body_stops_and_damps_the_ball_and_is_named() {
 #[test]
 fn a_ball_over_the_head_passes() {
     let mut scratch = Scratch::default();
-    let mut ball = Ball { pos: Vec3::new(0.0, 0.0, 2.2), vel: Vec3::new(25.0, 0.0, 1.0), spin: Vec3::ZERO };
+    let mut ball =
+        Ball { pos: Vec3::new(0.0, 0.0, 2.2), vel: Vec3::new(25.0, 0.0, 1.0), spin: Vec3::ZERO };
     for _ in 0..20 {
-        assert_eq!(advance_ball(&mut ball, &[standing(3, Vec2::new(2.0, 0.0))], false, &mut scratch), None);
+        assert_eq!(
+            advance_ball(&mut ball, &[standing(3, Vec2::new(2.0, 0.0))], false, &mut scratch),
+            None
+        );
     }
     assert!(ball.pos.x > 4.0);
 }
@@ -260,8 +301,10 @@ fn a_ball_over_the_head_passes() {
 #[test]
 fn a_running_body_takes_a_resting_ball_along() {
     let mut scratch = Scratch::default();
-    let mut ball = Ball { pos: Vec3::new(0.0, 0.0, BALL_RADIUS), vel: Vec3::ZERO, spin: Vec3::ZERO };
-    let mut body = BallObstacle { id: 4, pos: Vec2::new(-1.0, 0.0), vel: Vec2::new(6.0, 0.0), height_m: 1.8 };
+    let mut ball =
+        Ball { pos: Vec3::new(0.0, 0.0, BALL_RADIUS), vel: Vec3::ZERO, spin: Vec3::ZERO };
+    let mut body =
+        BallObstacle { id: 4, pos: Vec2::new(-1.0, 0.0), vel: Vec2::new(6.0, 0.0), height_m: 1.8 };
     let mut touched = None;
     for _ in 0..30 {
         touched = touched.or(advance_ball(&mut ball, &[body], false, &mut scratch));
@@ -279,7 +322,8 @@ fn a_body_cannot_press_the_ball_through_the_net() {
         let from = draw.point([56.0, -3.0, 0.11], [57.0, 3.0, 0.11]);
         let mut ball = Ball { pos: from, vel: Vec3::ZERO, spin: Vec3::ZERO };
         let vel = Vec2::new(draw.within(1.0, 8.0), draw.within(-4.0, 4.0));
-        let mut body = BallObstacle { id: 2, pos: from.truncate() - vel.normalize(), vel, height_m: 1.85 };
+        let mut body =
+            BallObstacle { id: 2, pos: from.truncate() - vel.normalize(), vel, height_m: 1.85 };
         for _ in 0..150 {
             advance_ball(&mut ball, &[body], false, &mut scratch);
             body.pos += body.vel * 0.01;
@@ -309,14 +353,22 @@ fn a_thousand_balls_left_at_net_and_posts_lie_still_for_a_minute() {
             let start = ball;
             advance_ball(&mut ball, &[], false, &mut scratch);
             ticks += 1;
-            assert!(ball.pos.is_finite() && ball.vel.is_finite(), "ball {i}: {start:?} -> {ball:?}");
+            assert!(
+                ball.pos.is_finite() && ball.vel.is_finite(),
+                "ball {i}: {start:?} -> {ball:?}"
+            );
             assert!(ticks < 2000, "ball {i} from {from} with {vel} finds no rest: {ball:?}");
         }
         let rest = ball.pos;
-        at_hard_parts += usize::from(rest.x.abs() > 54.8 && rest.x.abs() < 57.8 && rest.y.abs() < 4.0);
+        at_hard_parts +=
+            usize::from(rest.x.abs() > 54.8 && rest.x.abs() < 57.8 && rest.y.abs() < 4.0);
         for _ in 0..6000 {
             advance_ball(&mut ball, &[], false, &mut scratch);
-            assert!((ball.pos - rest).length() < 0.01, "ball {i} crept from {rest} to {}", ball.pos);
+            assert!(
+                (ball.pos - rest).length() < 0.01,
+                "ball {i} crept from {rest} to {}",
+                ball.pos
+            );
         }
     }
     assert!(at_hard_parts > 400, "{at_hard_parts} rested at the goal");
@@ -338,7 +390,10 @@ fn hard_things_add_no_energy() {
             let touched = advance_ball(&mut ball, &bodies, false, &mut scratch);
             let after = energy(&ball);
             // Pushed out of an overlap of millimetres, the ball may gain that much height.
-            assert!(after <= before * 1.001 + 0.1, "shot {i}, tick {tick}, {touched:?}: {before} -> {after}");
+            assert!(
+                after <= before * 1.001 + 0.1,
+                "shot {i}, tick {tick}, {touched:?}: {before} -> {after}"
+            );
         }
     }
 }

@@ -1,6 +1,11 @@
 //! The ball's free motion against figures measured on Google Research Football's ball (means, and
 //! the series it is drawn from): speeds within 8 %, heights within 25 %.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
@@ -17,7 +22,11 @@ fn kicked(speed_x: f32, speed_z: f32, backspin: f32) -> Ball {
 
 fn advance(ball: &mut Ball, ticks: usize, scratch: &mut Scratch) {
     for _ in 0..ticks {
-        assert_eq!(advance_ball(ball, &[], false, scratch), None, "nothing hard stands on the open pitch");
+        assert_eq!(
+            advance_ball(ball, &[], false, scratch),
+            None,
+            "nothing hard stands on the open pitch"
+        );
     }
 }
 
@@ -56,11 +65,13 @@ fn assert_heights(ours: &[(f32, f32)], measured: &[f32]) {
 fn a_standing_shot_flies_bounces_and_rolls_as_measured() {
     // stand_nomate:shot, from the step after the release.
     let speeds = [
-        28.8, 27.6, 26.5, 25.5, 24.5, 23.7, 21.4, 19.4, 18.8, 17.2, 16.0, 14.1, 12.7, 11.8, 10.9, 10.1, 9.5, 8.8, 8.3,
-        7.8, 7.3, 6.9,
+        28.8, 27.6, 26.5, 25.5, 24.5, 23.7, 21.4, 19.4, 18.8, 17.2, 16.0, 14.1, 12.7, 11.8, 10.9,
+        10.1, 9.5, 8.8, 8.3, 7.8, 7.3, 6.9,
     ];
-    let heights = [0.38, 0.49, 0.52, 0.49, 0.38, 0.21, 0.17, 0.21, 0.15, 0.14, 0.12, 0.12, 0.11, 0.11];
-    let ours = steps(Ball { pos: Vec3::new(0.0, 0.0, 0.2), ..kicked(29.7, 2.4, 12.0) }, speeds.len());
+    let heights =
+        [0.38, 0.49, 0.52, 0.49, 0.38, 0.21, 0.17, 0.21, 0.15, 0.14, 0.12, 0.12, 0.11, 0.11];
+    let ours =
+        steps(Ball { pos: Vec3::new(0.0, 0.0, 0.2), ..kicked(29.7, 2.4, 12.0) }, speeds.len());
     assert_speeds(&ours, &speeds);
     assert_heights(&ours, &heights);
 }
@@ -69,14 +80,15 @@ fn a_standing_shot_flies_bounces_and_rolls_as_measured() {
 fn a_long_high_pass_flies_as_measured() {
     // stand_mate_0.8_ahead:high_pass, until the mate meets it.
     let speeds = [
-        31.9, 30.2, 28.7, 27.4, 26.2, 25.1, 24.2, 23.2, 22.4, 21.7, 20.9, 20.3, 19.7, 19.1, 18.6, 18.1, 17.7, 17.2,
-        16.8, 16.4, 16.0, 15.7, 15.3, 15.0, 14.7,
+        31.9, 30.2, 28.7, 27.4, 26.2, 25.1, 24.2, 23.2, 22.4, 21.7, 20.9, 20.3, 19.7, 19.1, 18.6,
+        18.1, 17.7, 17.2, 16.8, 16.4, 16.0, 15.7, 15.3, 15.0, 14.7,
     ];
     let heights = [
-        1.64, 2.60, 3.46, 4.21, 4.87, 5.43, 5.91, 6.30, 6.60, 6.82, 6.96, 7.01, 6.99, 6.89, 6.71, 6.45, 6.13, 5.72,
-        5.25, 4.70, 4.08, 3.40, 2.65, 1.83, 0.95,
+        1.64, 2.60, 3.46, 4.21, 4.87, 5.43, 5.91, 6.30, 6.60, 6.82, 6.96, 7.01, 6.99, 6.89, 6.71,
+        6.45, 6.13, 5.72, 5.25, 4.70, 4.08, 3.40, 2.65, 1.83, 0.95,
     ];
-    let ours = steps(Ball { pos: Vec3::new(0.0, 0.0, 0.57), ..kicked(32.9, 11.3, 17.0) }, speeds.len());
+    let ours =
+        steps(Ball { pos: Vec3::new(0.0, 0.0, 0.57), ..kicked(32.9, 11.3, 17.0) }, speeds.len());
     assert_speeds(&ours, &speeds);
     assert_heights(&ours, &heights);
 }
@@ -86,7 +98,8 @@ fn a_middling_high_pass_flies_as_measured() {
     // stand_mate_0.4_ahead:high_pass.
     let speeds = [17.7, 17.2, 16.6, 16.3, 15.8, 15.4, 15.1, 14.7, 14.4, 14.1, 13.9, 13.5, 13.3];
     let heights = [1.04, 1.59, 2.04, 2.39, 2.65, 2.82, 2.90, 2.89, 2.79, 2.60, 2.33, 1.98, 1.55];
-    let ours = steps(Ball { pos: Vec3::new(0.0, 0.0, 0.40), ..kicked(18.1, 7.1, 10.0) }, speeds.len());
+    let ours =
+        steps(Ball { pos: Vec3::new(0.0, 0.0, 0.40), ..kicked(18.1, 7.1, 10.0) }, speeds.len());
     assert_speeds(&ours, &speeds);
     assert_heights(&ours, &heights);
 }
@@ -130,7 +143,8 @@ fn a_dropped_ball_bounces_to_the_measured_share_of_its_height() {
 
 #[test]
 fn a_steep_bounce_keeps_the_measured_share_of_the_ground_speed() {
-    let mut ball = Ball { pos: Vec3::new(0.0, 0.0, 0.15), vel: Vec3::new(14.0, 0.0, -8.0), spin: Vec3::ZERO };
+    let mut ball =
+        Ball { pos: Vec3::new(0.0, 0.0, 0.15), vel: Vec3::new(14.0, 0.0, -8.0), spin: Vec3::ZERO };
     advance(&mut ball, 1, &mut Scratch::default());
     assert!(ball.vel.z > 4.0, "it has bounced: {}", ball.vel.z);
     assert_near("ground speed kept", ball.vel.x / 14.0, 0.77, 0.03, 0.0);
@@ -189,7 +203,8 @@ proptest! {
     ) {
         let height = if on_ground { BALL_RADIUS } else { height };
         let rise = if on_ground { vel[2].max(0.0) } else { vel[2] };
-        let ball = Ball { pos: Vec3::new(0.0, 0.0, height), vel: Vec3::new(vel[0], vel[1], rise), spin: spin.into() };
+        let (pos, vel) = (Vec3::new(0.0, 0.0, height), Vec3::new(vel[0], vel[1], rise));
+        let ball = Ball { pos, vel, spin: spin.into() };
         let (mut flown, mut scratch) = (ball, Scratch::default());
         for (i, place) in places(&ball, 5).take(64).enumerate() {
             advance(&mut flown, 5, &mut scratch);
@@ -204,7 +219,8 @@ proptest! {
         vel in prop::array::uniform3(-30.0f32..30.0),
         spin in prop::array::uniform3(-90.0f32..90.0),
     ) {
-        let mut ball = Ball { pos: Vec3::new(0.0, 0.0, height), vel: vel.into(), spin: spin.into() };
+        let pos = Vec3::new(0.0, 0.0, height);
+        let mut ball = Ball { pos, vel: vel.into(), spin: spin.into() };
         let mut scratch = Scratch::default();
         let mut before = energy(&ball);
         for tick in 0..400 {

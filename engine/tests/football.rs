@@ -1,7 +1,12 @@
 //! The game as a whole: movement against the measured curves, the referee's cases, agents on
 //! scenarios, full matches.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "helpers of tests fail by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "helpers of tests fail by panicking"
+)]
 
 #[path = "football/layouts.rs"]
 mod layouts;

@@ -75,8 +75,10 @@ proptest! {
             prop_assert_eq!(found, expected);
         } else {
             // Nowhere in time: the player runs to the path's end, and is late.
-            let way: Vec<_> = forecast.from(tick).take_while(|(_, point)| left_pitch(*point).is_none()).collect();
-            let end = way.last().map_or((player.pos, 0.0), |(time_s, point)| (point.truncate(), *time_s));
+            let inside = |(_, point): &(f32, Vec3)| left_pitch(*point).is_none();
+            let way: Vec<_> = forecast.from(tick).take_while(inside).collect();
+            let end = way.last().map(|(time_s, point)| (point.truncate(), *time_s));
+            let end = end.unwrap_or((player.pos, 0.0));
             prop_assert!(found.0 == end.0 && (found.1 >= end.1 || found.1.is_nan()), "{found:?} {end:?}");
         }
     }

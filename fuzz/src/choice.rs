@@ -4,8 +4,8 @@ use arbitrary::Unstructured;
 
 /// Reads choices from bytes; behind their end every choice is the first.
 ///
-/// [`Unstructured`], whose errors can't arise here: it gives zeros where it has no more bytes, and nothing is chosen from
-/// an empty range.
+/// [`Unstructured`], whose errors can't arise here: it gives zeros where it has no more bytes, and
+/// nothing is chosen from an empty range.
 #[derive(Debug)]
 pub struct Choices<'a>(Unstructured<'a>);
 
@@ -75,6 +75,9 @@ mod tests {
         assert_eq!(choices.rest(), [3, 4]);
         assert!(choices.is_empty());
         assert_eq!((choices.byte(), choices.below(9), choices.one(&["a", "b"])), (0, 0, "a"));
-        assert_eq!((choices.below(0), choices.between(1.0, 2.0), choices.rarely(3)), (0, 1.0, false));
+        assert_eq!(
+            (choices.below(0), choices.between(1.0, 2.0), choices.rarely(3)),
+            (0, 1.0, false)
+        );
     }
 }

@@ -8,7 +8,8 @@ const EDITS_MAX: usize = 12;
 /// A scenario with more values isn't edited.
 const VALUES_MAX: usize = 20_000;
 /// Numbers at which behaviour may change.
-const WHOLE: &[i64] = &[0, 1, -1, 2, 10, 11, 21, 22, 64, 255, 256, 100_000, 2_147_483_648, 4_294_967_295, i64::MAX];
+const WHOLE: &[i64] =
+    &[0, 1, -1, 2, 10, 11, 21, 22, 64, 255, 256, 100_000, 2_147_483_648, 4_294_967_295, i64::MAX];
 const FLOATS: &[f64] = &[0.0, -0.0, 0.5, -1.0, 1e-300, 1e9, 3.5e38, -1e300, f64::MAX, 55.0, -36.0];
 
 /// Applies edits until the bytes are used up.
@@ -37,7 +38,9 @@ fn change(node: &mut Value, other: Value, choices: &mut Choices<'_>) {
         (1, Value::Number(number)) => *number = choices.one(WHOLE).into(),
         (_, Value::Number(number)) => match number.as_i64() {
             Some(whole) => *number = whole.wrapping_add(i64::from(choices.byte() as i8) / 8).into(),
-            None => *number = Number::from_f64(choices.between(-60.0, 60.0)).unwrap_or_else(|| 0.into()),
+            None => {
+                *number = Number::from_f64(choices.between(-60.0, 60.0)).unwrap_or_else(|| 0.into())
+            }
         },
         (1..3, Value::Array(list)) if !list.is_empty() => {
             let at = usize::from(choices.word()) % list.len();
@@ -48,7 +51,10 @@ fn change(node: &mut Value, other: Value, choices: &mut Choices<'_>) {
             list.insert(at, list[at].clone());
         }
         (5..7, Value::Array(list)) if list.len() > 1 => {
-            let (a, b) = (usize::from(choices.word()) % list.len(), usize::from(choices.word()) % list.len());
+            let (a, b) = (
+                usize::from(choices.word()) % list.len(),
+                usize::from(choices.word()) % list.len(),
+            );
             list.swap(a, b);
         }
         (_, Value::Array(list)) => list.push(other),

@@ -56,7 +56,8 @@ impl View {
 /// Generates the text of a scenario from choices.
 pub fn scenario(choices: &mut Choices<'_>) -> String {
     let (squads, numbers) = (Default::default(), Vec::new());
-    let mut writer = Writer { choices, out: String::new(), squads, numbers, regions: vec![], behaviors: vec![] };
+    let mut writer =
+        Writer { choices, out: String::new(), squads, numbers, regions: vec![], behaviors: vec![] };
     writer.file();
     writer.out
 }
@@ -167,7 +168,9 @@ impl Writer<'_, '_> {
             let who = match self.choices.below(5) {
                 0 => usize::from(side == 0).min(n).to_string(),
                 1 => "all".to_owned(),
-                2 if n > 0 => format!("[{}]", self.squads[side][..=self.choices.below(n)].join(", ")),
+                2 if n > 0 => {
+                    format!("[{}]", self.squads[side][..=self.choices.below(n)].join(", "))
+                }
                 3 => self.choices.below(n + 1).to_string(),
                 _ => "0".to_owned(),
             };

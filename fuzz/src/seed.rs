@@ -42,7 +42,9 @@ pub fn write(target: &str) {
 pub fn scenarios() -> &'static [Arc<Scenario>] {
     static SCENARIOS: OnceLock<Vec<Arc<Scenario>>> = OnceLock::new();
     SCENARIOS.get_or_init(|| {
-        let compile = |text: String| setpiece::compile_text(&text, "<seed>").ok().map(|loaded| loaded.scenario);
+        let compile = |text: String| {
+            setpiece::compile_text(&text, "<seed>").ok().map(|loaded| loaded.scenario)
+        };
         texts().into_iter().filter_map(compile).collect()
     })
 }
@@ -59,7 +61,8 @@ pub fn pick(choices: &mut Choices<'_>) -> &'static Scenario {
 }
 
 fn loads() -> Vec<Vec<u8>> {
-    let mut seeds: Vec<Vec<u8>> = (0..RANDOM).map(|n| [&[load::EDITS], &*random(n, 40)].concat()).collect();
+    let mut seeds: Vec<Vec<u8>> =
+        (0..RANDOM).map(|n| [&[load::EDITS], &*random(n, 40)].concat()).collect();
     for (n, scenario) in scenarios().iter().enumerate() {
         let body = body(scenario);
         if body.len() > BODY_MAX {
@@ -106,7 +109,9 @@ fn files(folder: &str, ending: &str) -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let (mut folders, mut paths) = (vec![root.join(folder)], Vec::new());
     while let Some(folder) = folders.pop() {
-        for path in std::fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+        for path in
+            std::fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path())
+        {
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|found| found == ending) {
@@ -122,7 +127,8 @@ fn files(folder: &str, ending: &str) -> Vec<String> {
 fn random(n: u64, len: usize) -> Vec<u8> {
     let mut state = n;
     let mut byte = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 56) as u8
     };
     (0..len).map(|_| byte()).collect()

@@ -20,7 +20,8 @@ fuzz_target!(init: setpiece_fuzz::seed::write("compile"), |data: &[u8]| {
             Some(loaded.scenario)
         }
         Err(Error::Compile(failure)) => {
-            let failed = failure.problems.iter().any(|problem| problem.severity() == Severity::Error);
+            let is_error = |problem: &Problem| problem.severity() == Severity::Error;
+            let failed = failure.problems.iter().any(is_error);
             assert!(failed, "no scenario, and no error says why");
             report(&failure.problems, &failure.sources);
             None
@@ -68,5 +69,9 @@ fn survives(scenario: &Scenario) {
     verify::verify(scenario).expect("a compiled scenario holds");
     let text = file::to_json(scenario).expect("a compiled scenario can be written");
     let again = file::from_json(&text).expect("a written scenario can be read");
-    assert_eq!(file::to_json(&again).as_ref(), Ok(&text), "a scenario that was read is what was written");
+    assert_eq!(
+        file::to_json(&again).as_ref(),
+        Ok(&text),
+        "a scenario that was read is what was written"
+    );
 }

@@ -48,7 +48,10 @@ fn scenario(hooks: [bool; 3]) -> &'static Scenario {
                  end limit 50 steps\n\
              }}",
             when(act, "ai: script rhai \"\"\" fn act(ctx, me, now) { \"idle\" } \"\"\""),
-            when(reward, "reward script rhai \"\"\" fn reward(ctx, now, prev, events) { 0.0 } \"\"\""),
+            when(
+                reward,
+                "reward script rhai \"\"\" fn reward(ctx, now, prev, events) { 0.0 } \"\"\""
+            ),
             when(done, "end script rhai \"\"\" fn done(ctx, now, prev, events) { false } \"\"\""),
         );
         let loaded = setpiece::compile_text(&text, "<fuzz>").expect("a scenario with scripts");

@@ -3,7 +3,11 @@
 use crate::Rule;
 
 /// An author's name for what a rule parses, with its article: "a point, for example `(0.5, 0)`".
-#[allow(clippy::too_many_lines, clippy::match_same_arms, reason = "one flat match, in the grammar's order")]
+#[allow(
+    clippy::too_many_lines,
+    clippy::match_same_arms,
+    reason = "one flat match, in the grammar's order"
+)]
 pub const fn noun(rule: Rule) -> &'static str {
     match rule {
         Rule::kw_abstract => "`abstract`",
@@ -169,7 +173,9 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::binder => "`for`",
         Rule::filter => "`where`",
         Rule::condition => "a condition, for example `ball in right.box`",
-        Rule::events | Rule::any_event | Rule::event | Rule::event_name => "an event, for example `goal by us`",
+        Rule::events | Rule::any_event | Rule::event | Rule::event_name => {
+            "an event, for example `goal by us`"
+        }
         Rule::end_event | Rule::end => "`end`",
         Rule::event_by => "`by`",
         Rule::event_to => "`to`",
@@ -214,7 +220,11 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::end_limit => "`limit`",
         Rule::end_when => "a name or a condition, for example `when goal by left`",
         Rule::verdict => "`success` or `failure`",
-        Rule::trigger | Rule::player_when | Rule::give_when | Rule::block_when | Rule::when_block => "`when`",
+        Rule::trigger
+        | Rule::player_when
+        | Rule::give_when
+        | Rule::block_when
+        | Rule::when_block => "`when`",
         Rule::reward_use | Rule::reward_item => "`reward`",
         Rule::inline_reward => "a reward",
         Rule::label => "`as`",

@@ -40,7 +40,10 @@ class Game:
         settings.end_episode_on_out_of_play = False
         settings.end_episode_on_possession_change = False
         builder.SetBallPosition(*stage["ball"])
-        teams = (libgame.e_Team.e_Left, 1, stage["left"]), (libgame.e_Team.e_Right, -1, stage["right"])
+        teams = (
+            (libgame.e_Team.e_Left, 1, stage["left"]),
+            (libgame.e_Team.e_Right, -1, stage["right"]),
+        )
         for team, side, players in teams:
             builder.SetTeam(team)
             for role, x, y, flags in players:
@@ -67,11 +70,19 @@ class Game:
         ball = [x * SCALE[0], y * SCALE[1], z]
         speed = 0.0
         if before:
-            speed = ((ball[0] - before["ball"][0]) ** 2 + (ball[1] - before["ball"][1]) ** 2) ** 0.5 * 10
-        left, right = ([[x * SCALE[0], y * SCALE[1]] for x, y in seen[team]] for team in ("left_team", "right_team"))
+            speed = (
+                (ball[0] - before["ball"][0]) ** 2 + (ball[1] - before["ball"][1]) ** 2
+            ) ** 0.5 * 10
+        left, right = (
+            [[x * SCALE[0], y * SCALE[1]] for x, y in seen[team]]
+            for team in ("left_team", "right_team")
+        )
         return {
             "ball": ball,
-            "vel": [seen["ball_direction"][0] * SCALE[0] * 10, seen["ball_direction"][1] * SCALE[1] * 10],
+            "vel": [
+                seen["ball_direction"][0] * SCALE[0] * 10,
+                seen["ball_direction"][1] * SCALE[1] * 10,
+            ],
             "speed": speed,
             "owner": seen["ball_owned_team"],
             "who": seen["ball_owned_player"],

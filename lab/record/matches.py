@@ -43,7 +43,15 @@ def tally(game, left, right, number, seed):
     """Counts a match."""
     view = game.reset(stage(left, right, number % 2 == 0), seed)
     counts = dict.fromkeys(SET_PIECES.values(), 0)
-    sums = {"nobody": 0, "stopped": 0, "high": 0, "left_third": 0, "middle_third": 0, "right_third": 0, "owned_left": 0}
+    sums = {
+        "nobody": 0,
+        "stopped": 0,
+        "high": 0,
+        "left_third": 0,
+        "middle_third": 0,
+        "right_third": 0,
+        "owned_left": 0,
+    }
     spells, team, metres = 0, -1, 0.0
     for _ in range(3000):
         before, view = view, game.step(["builtin_ai"], view)

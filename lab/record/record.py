@@ -32,7 +32,10 @@ def stage(scene, row, episode):
         return x + (offset[0] if moved else 0), mirror * (y + (offset[1] if moved else 0))
 
     def team(name):
-        return [(role, *place(x, y, "jitter" in flags.split()), flags.split()) for role, x, y, flags in scene[name]]
+        return [
+            (role, *place(x, y, "jitter" in flags.split()), flags.split())
+            for role, x, y, flags in scene[name]
+        ]
 
     return {
         "ball": place(*scene["ball"], scene.get("ball_jitter", True)),
@@ -60,7 +63,9 @@ def stops(trace, words):
         number = int(number or 0)
         if word in ("lost", "won"):
             team = 1 if word == "lost" else 0
-            holds = past(next((i for i in range(1, now + 1) if trace[i]["owner"] == team), None), number)
+            holds = past(
+                next((i for i in range(1, now + 1) if trace[i]["owner"] == team), None), number
+            )
         elif word == "over":
             begins = next((i for i in range(now + 1) if trace[i]["mode"] != 0), None)
             over = None
@@ -68,7 +73,10 @@ def stops(trace, words):
                 over = next((i for i in range(begins, now + 1) if trace[i]["mode"] == 0), None)
             holds = past(over, number)
         else:
-            holds = {"goal": trace[now]["score"] != trace[0]["score"], "out": trace[now]["mode"] != 0}[word]
+            holds = {
+                "goal": trace[now]["score"] != trace[0]["score"],
+                "out": trace[now]["mode"] != 0,
+            }[word]
         if holds:
             return True
     return False
@@ -78,7 +86,10 @@ def play(game, scene, plans, row, episode, seed):
     """Plays an episode; returns its views."""
     trace = [game.reset(stage(scene, row, episode), seed)]
     left = scene["agents"][0]
-    hands = [Keys(plan, agent, int(agent >= left), mirrored(scene, episode)) for agent, plan in enumerate(plans)]
+    hands = [
+        Keys(plan, agent, int(agent >= left), mirrored(scene, episode))
+        for agent, plan in enumerate(plans)
+    ]
     for _ in range(row["steps"]):
         trace.append(game.step([hand.press(trace[-1]) for hand in hands], trace[-1]))
         if stops(trace, row.get("stop", [])):
@@ -91,7 +102,14 @@ def packed(view):
     flat = [*view["ball"], *view["vel"]]
     teams = [[round(v, 3) for place in team for v in place] for team in view["teams"]]
     whose = [view["owner"], view["who"], view["mode"]]
-    return [[round(v, 3) for v in flat], whose, teams, view["pressed"], view["active"], view["score"]]
+    return [
+        [round(v, 3) for v in flat],
+        whose,
+        teams,
+        view["pressed"],
+        view["active"],
+        view["score"],
+    ]
 
 
 def record(name, games, args):
@@ -107,8 +125,18 @@ def record(name, games, args):
                 games[agents] = Game(agents)
             seeds = random.Random(f"{name} {number} {args.first}")
             for episode in range(args.first, args.first + (args.count or row["n"])):
-                trace = play(games[agents], scene, file["plans"][row["plan"]], row, episode, seeds.randrange(2**31))
-                into.write(json.dumps([number, [packed(view) for view in trace]], separators=(",", ":")) + "\n")
+                trace = play(
+                    games[agents],
+                    scene,
+                    file["plans"][row["plan"]],
+                    row,
+                    episode,
+                    seeds.randrange(2**31),
+                )
+                into.write(
+                    json.dumps([number, [packed(view) for view in trace]], separators=(",", ":"))
+                    + "\n"
+                )
 
 
 def main():

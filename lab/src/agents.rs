@@ -48,18 +48,33 @@ pub(crate) fn measure(episodes: Option<u64>) -> Result<Section, LabError> {
         let ours = play(name, Agent::RunAndShoot, episodes)?;
         section.within(format!("{name}: score, scripted"), short(scripted[0]), score, goals(&ours));
         if let Some(length) = length {
-            section.within(format!("{name}: steps, scripted"), short(scripted[1]), length, ours.mean_length);
+            section.within(
+                format!("{name}: steps, scripted"),
+                short(scripted[1]),
+                length,
+                ours.mean_length,
+            );
         } else {
-            section.notes.push(format!("Steps, {name}, scripted: {:.0}; theirs {:.0}.", ours.mean_length, scripted[1]));
+            section.notes.push(format!(
+                "Steps, {name}, scripted: {:.0}; theirs {:.0}.",
+                ours.mean_length, scripted[1]
+            ));
         }
         let ours = play(name, Agent::Random, episodes)?;
         let [low, high] = [random[0] - 0.1, random[0] + 0.1];
-        section.within(format!("{name}: score, random"), short(random[0]), [low, high], goals(&ours));
+        section.within(
+            format!("{name}: score, random"),
+            short(random[0]),
+            [low, high],
+            goals(&ours),
+        );
         section.near(format!("{name}: steps, random"), random[1], 0.3, ours.mean_length);
         let ends: Vec<String> = ours
             .outcomes
             .iter()
-            .map(|(label, _, count)| format!("{label} {:.0} %", f64::from(*count) * 100.0 / episodes as f64))
+            .map(|(label, _, count)| {
+                format!("{label} {:.0} %", f64::from(*count) * 100.0 / episodes as f64)
+            })
             .collect();
         section.notes.push(format!("Ends, {name}, random: {}.", ends.join(", ")));
     }

@@ -68,13 +68,18 @@ fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, L
             RunUp::Stand => trial.steps(Action::Idle, 12)?,
             RunUp::Walk | RunUp::Sprint => {
                 trial.step(Action::Right)?;
-                trial.step(if matches!(run_up, RunUp::Sprint) { Action::Sprint } else { Action::Idle })?;
+                trial.step(if matches!(run_up, RunUp::Sprint) {
+                    Action::Sprint
+                } else {
+                    Action::Idle
+                })?;
                 // Long enough for the gait. The length varies, so that the ball isn't always at the
                 // same foot.
                 trial.steps(Action::Idle, 20 + (seed % 6) as usize)?;
             }
         }
-        let mut kick = Kick { leaves_after: f64::INFINITY, top_mps: 0.0, peak_m: 0.0, aside_deg: 0.0 };
+        let mut kick =
+            Kick { leaves_after: f64::INFINITY, top_mps: 0.0, peak_m: 0.0, aside_deg: 0.0 };
         let mut before = trial.ball();
         for step in 0..30 {
             let on = trial.step(if step == 0 { action } else { Action::Idle })?;
@@ -82,14 +87,18 @@ fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, L
                 // The restart has moved the ball.
                 break;
             }
-            let struck = trial.events().iter().any(|e| matches!(e.kind, EventKind::Pass | EventKind::Shot));
+            let struck =
+                trial.events().iter().any(|e| matches!(e.kind, EventKind::Pass | EventKind::Shot));
             let way = (trial.ball() - before).truncate();
             let speed = f64::from(way.length()) * 10.0;
 
             if struck && kick.leaves_after.is_infinite() {
                 kick.leaves_after = f64::from(step);
             }
-            if kick.leaves_after.is_finite() && f64::from(step) > kick.leaves_after && kick.aside_deg == 0.0 {
+            if kick.leaves_after.is_finite()
+                && f64::from(step) > kick.leaves_after
+                && kick.aside_deg == 0.0
+            {
                 kick.aside_deg = f64::from(way.y.atan2(way.x)).to_degrees();
             }
             // After a contact with a teammate or the frame, the kick no longer counts.
@@ -110,18 +119,126 @@ fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, L
 fn kicks(section: &mut Section) -> Result<(), LabError> {
     use Action::{HighPass, LongPass, ShortPass, Shot};
     let cases = [
-        ("shot, standing", Shot, None, RunUp::Stand, [3.0, 3.0], [26.0, 27.5], [0.7, 1.2], "0.9–2.6"),
-        ("shot, walking", Shot, None, RunUp::Walk, [3.5, 3.5], [30.0, 30.0], [0.32, 0.32], "1.5–1.8"),
-        ("shot, sprinting", Shot, None, RunUp::Sprint, [2.0, 5.4], [30.0, 30.0], [0.36, 0.36], "1.5–1.8"),
-        ("short pass, 0.2", ShortPass, Some(0.2), RunUp::Stand, [4.0; 2], [15.0; 2], [0.26; 2], "<0.1"),
-        ("short pass, 0.4", ShortPass, Some(0.4), RunUp::Stand, [4.0; 2], [23.8; 2], [0.83; 2], "<0.1"),
-        ("short pass, 0.8", ShortPass, Some(0.8), RunUp::Stand, [4.0; 2], [24.3; 2], [2.1; 2], "<0.1"),
-        ("long pass, 0.2", LongPass, Some(0.2), RunUp::Stand, [4.0; 2], [16.3; 2], [0.30; 2], "<0.1"),
-        ("long pass, 0.4", LongPass, Some(0.4), RunUp::Stand, [4.0; 2], [24.3; 2], [1.3; 2], "<0.1"),
-        ("long pass, 0.8", LongPass, Some(0.8), RunUp::Stand, [4.0; 2], [24.3; 2], [2.1; 2], "<0.1"),
-        ("high pass, 0.2", HighPass, Some(0.2), RunUp::Stand, [3.0; 2], [12.4; 2], [1.5; 2], "<0.1"),
-        ("high pass, 0.4", HighPass, Some(0.4), RunUp::Stand, [3.0; 2], [17.8; 2], [2.5; 2], "<0.1"),
-        ("high pass, 0.8", HighPass, Some(0.8), RunUp::Stand, [3.0; 2], [32.1; 2], [5.4; 2], "<0.1"),
+        (
+            "shot, standing",
+            Shot,
+            None,
+            RunUp::Stand,
+            [3.0, 3.0],
+            [26.0, 27.5],
+            [0.7, 1.2],
+            "0.9–2.6",
+        ),
+        (
+            "shot, walking",
+            Shot,
+            None,
+            RunUp::Walk,
+            [3.5, 3.5],
+            [30.0, 30.0],
+            [0.32, 0.32],
+            "1.5–1.8",
+        ),
+        (
+            "shot, sprinting",
+            Shot,
+            None,
+            RunUp::Sprint,
+            [2.0, 5.4],
+            [30.0, 30.0],
+            [0.36, 0.36],
+            "1.5–1.8",
+        ),
+        (
+            "short pass, 0.2",
+            ShortPass,
+            Some(0.2),
+            RunUp::Stand,
+            [4.0; 2],
+            [15.0; 2],
+            [0.26; 2],
+            "<0.1",
+        ),
+        (
+            "short pass, 0.4",
+            ShortPass,
+            Some(0.4),
+            RunUp::Stand,
+            [4.0; 2],
+            [23.8; 2],
+            [0.83; 2],
+            "<0.1",
+        ),
+        (
+            "short pass, 0.8",
+            ShortPass,
+            Some(0.8),
+            RunUp::Stand,
+            [4.0; 2],
+            [24.3; 2],
+            [2.1; 2],
+            "<0.1",
+        ),
+        (
+            "long pass, 0.2",
+            LongPass,
+            Some(0.2),
+            RunUp::Stand,
+            [4.0; 2],
+            [16.3; 2],
+            [0.30; 2],
+            "<0.1",
+        ),
+        (
+            "long pass, 0.4",
+            LongPass,
+            Some(0.4),
+            RunUp::Stand,
+            [4.0; 2],
+            [24.3; 2],
+            [1.3; 2],
+            "<0.1",
+        ),
+        (
+            "long pass, 0.8",
+            LongPass,
+            Some(0.8),
+            RunUp::Stand,
+            [4.0; 2],
+            [24.3; 2],
+            [2.1; 2],
+            "<0.1",
+        ),
+        (
+            "high pass, 0.2",
+            HighPass,
+            Some(0.2),
+            RunUp::Stand,
+            [3.0; 2],
+            [12.4; 2],
+            [1.5; 2],
+            "<0.1",
+        ),
+        (
+            "high pass, 0.4",
+            HighPass,
+            Some(0.4),
+            RunUp::Stand,
+            [3.0; 2],
+            [17.8; 2],
+            [2.5; 2],
+            "<0.1",
+        ),
+        (
+            "high pass, 0.8",
+            HighPass,
+            Some(0.8),
+            RunUp::Stand,
+            [3.0; 2],
+            [32.1; 2],
+            [5.4; 2],
+            "<0.1",
+        ),
     ];
     for (name, action, mate, run_up, leaves, speed, peak, aside) in cases {
         let kicks = kick(action, mate, run_up)?;
@@ -133,8 +250,18 @@ fn kicks(section: &mut Section) -> Result<(), LabError> {
             [leaves[0] - 1.0, leaves[1] + 1.0],
             mean(&after),
         );
-        section.within(format!("{name}: top speed, m/s"), span(speed), [speed[0] * 0.92, speed[1] * 1.08], mean(&top));
-        section.within(format!("{name}: peak height, m"), span(peak), [peak[0] * 0.75, peak[1] * 1.25], mean(&high));
+        section.within(
+            format!("{name}: top speed, m/s"),
+            span(speed),
+            [speed[0] * 0.92, speed[1] * 1.08],
+            mean(&top),
+        );
+        section.within(
+            format!("{name}: peak height, m"),
+            span(peak),
+            [peak[0] * 0.75, peak[1] * 1.25],
+            mean(&high),
+        );
         section.notes.push(format!(
             "Scatter, {name}: speed ±{:.2} m/s, direction ±{:.1}° (theirs {aside}°), height ±{:.2} m.",
             deviation(&top),
@@ -162,8 +289,10 @@ const FREE: &str = "scenario free {
 
 /// A ball released with a horizontal speed from a height.
 fn let_go(x: f64, speed: f64, height: f64) -> Result<Trial, LabError> {
-    let source =
-        FREE.replace('X', &x.to_string()).replace('V', &format!("{speed}m/s")).replace('Z', &format!("{height}m"));
+    let source = FREE
+        .replace('X', &x.to_string())
+        .replace('V', &format!("{speed}m/s"))
+        .replace('Z', &format!("{height}m"));
     Trial::new(text(&source)?, 0)
 }
 
@@ -177,7 +306,12 @@ fn motion(section: &mut Section) -> Result<(), LabError> {
         let after = level(&trial);
         let at = (before + after) * 0.5;
         let theirs = 1.7 + 0.060 * at * at;
-        section.near(format!("rolling at {speed:.0} m/s slows by, m/s²"), theirs, 0.08, (before - after) * 10.0);
+        section.near(
+            format!("rolling at {speed:.0} m/s slows by, m/s²"),
+            theirs,
+            0.08,
+            (before - after) * 10.0,
+        );
     }
     for speed in [12.0, 20.0, 30.0] {
         let mut trial = let_go(-0.5, speed, 9.0)?;
@@ -198,7 +332,8 @@ fn motion(section: &mut Section) -> Result<(), LabError> {
         trial.step(Action::Idle)?;
         let ball = trial.state().ball;
         if ball.vel.z > 0.0 {
-            let height = f64::from(ball.pos.z - 0.11) + f64::from(ball.vel.z).powi(2) / (2.0 * 9.81);
+            let height =
+                f64::from(ball.pos.z - 0.11) + f64::from(ball.vel.z).powi(2) / (2.0 * 9.81);
             rebound = f64::max(rebound, height);
         }
     }

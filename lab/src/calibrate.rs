@@ -61,10 +61,22 @@ fn verdict(sections: &[Section], whole: bool, check: bool) -> Result<(), LabErro
     let mut bad = Vec::new();
     for section in sections {
         let (all, outside) = (section.figures.len(), section.outside().count());
-        let open: Vec<_> = section.outside().filter(|(_, figure)| explained::explanation(figure).is_none()).collect();
-        println!("section {}: {outside} of {all} outside, {} of them explained", section.number, outside - open.len());
+        let open: Vec<_> = section
+            .outside()
+            .filter(|(_, figure)| explained::explanation(figure).is_none())
+            .collect();
+        println!(
+            "section {}: {outside} of {all} outside, {} of them explained",
+            section.number,
+            outside - open.len()
+        );
         for (id, figure) in open {
-            bad.push(format!("C-{id} {}: {}, wanted {}", figure.what, figure.ours(), figure.wanted()));
+            bad.push(format!(
+                "C-{id} {}: {}, wanted {}",
+                figure.what,
+                figure.ours(),
+                figure.wanted()
+            ));
         }
     }
     if whole {
@@ -73,5 +85,9 @@ fn verdict(sections: &[Section], whole: bool, check: bool) -> Result<(), LabErro
     for line in &bad {
         println!("  {line}");
     }
-    if check && !bad.is_empty() { Err(format!("{} figures outside without a reason", bad.len())) } else { Ok(()) }
+    if check && !bad.is_empty() {
+        Err(format!("{} figures outside without a reason", bad.len()))
+    } else {
+        Ok(())
+    }
 }

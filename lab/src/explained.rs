@@ -42,7 +42,9 @@ pub(crate) fn explanation(row: &Figure) -> Option<Vec<usize>> {
 }
 
 /// Reasons that no longer explain anything.
-pub(crate) fn idle<'a>(outside: impl Iterator<Item = &'a Figure> + Clone) -> impl Iterator<Item = String> {
+pub(crate) fn idle<'a>(
+    outside: impl Iterator<Item = &'a Figure> + Clone,
+) -> impl Iterator<Item = String> {
     let used: Vec<usize> = outside.filter_map(explanation).flatten().collect();
     let idle = (1..).zip(REASONS).filter(move |(number, _)| !used.contains(number));
     idle.map(|(number, reason)| format!("reason {number} explains no row: {}", reason.why))

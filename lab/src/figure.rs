@@ -29,7 +29,12 @@ pub(crate) struct FigurePart {
 impl FigurePart {
     /// A named figure that must equal theirs within a tolerance.
     pub(crate) fn around(name: &str, theirs: f64, give: f64, ours: f64) -> FigurePart {
-        FigurePart { name: name.to_owned(), theirs: short(theirs), range: [theirs - give, theirs + give], ours }
+        FigurePart {
+            name: name.to_owned(),
+            theirs: short(theirs),
+            range: [theirs - give, theirs + give],
+            ours,
+        }
     }
 }
 
@@ -56,8 +61,17 @@ impl Section {
     }
 
     /// Adds a figure that must lie within a range.
-    pub(crate) fn within(&mut self, what: impl Into<String>, theirs: impl Into<String>, range: [f64; 2], ours: f64) {
-        self.row(what, vec![FigurePart { name: String::new(), theirs: theirs.into(), range, ours }]);
+    pub(crate) fn within(
+        &mut self,
+        what: impl Into<String>,
+        theirs: impl Into<String>,
+        range: [f64; 2],
+        ours: f64,
+    ) {
+        self.row(
+            what,
+            vec![FigurePart { name: String::new(), theirs: theirs.into(), range, ours }],
+        );
     }
 
     /// Adds a row of several figures.
@@ -79,7 +93,11 @@ impl Section {
 
     /// Figures that are outside, with their numbers.
     pub(crate) fn outside(&self) -> impl Iterator<Item = (u32, &Figure)> {
-        self.figures.iter().enumerate().filter(|(_, figure)| !figure.is_inside()).map(|(i, f)| (self.id(i), f))
+        self.figures
+            .iter()
+            .enumerate()
+            .filter(|(_, figure)| !figure.is_inside())
+            .map(|(i, f)| (self.id(i), f))
     }
 
     /// The section as Markdown.
@@ -169,5 +187,9 @@ pub(crate) fn short(value: f64) -> String {
         _ => 3,
     };
     let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }

@@ -110,12 +110,17 @@ mod tests {
     fn every_column_is_in_one_row_and_rows_are_short() {
         for topic in super::topics() {
             for (column, _) in topic.columns {
-                let rows = topic.groups.iter().filter(|(_, columns)| columns.contains(column)).count();
+                let rows =
+                    topic.groups.iter().filter(|(_, columns)| columns.contains(column)).count();
                 assert_eq!(rows, 1, "{}: {column}", topic.name);
             }
             let named: usize = topic.groups.iter().map(|(_, columns)| columns.len()).sum();
             assert_eq!(named, topic.columns.len(), "{}", topic.name);
-            assert!(topic.groups.iter().all(|(_, columns)| columns.len() <= ROW_MAX), "{}", topic.name);
+            assert!(
+                topic.groups.iter().all(|(_, columns)| columns.len() <= ROW_MAX),
+                "{}",
+                topic.name
+            );
         }
     }
 }

@@ -1,4 +1,5 @@
-//! The bench on which the game is measured: `cargo xtask calibrate` and `cargo xtask soak` build and call it.
+//! The bench on which the game is measured: `cargo xtask calibrate` and `cargo xtask soak` build
+//! and call it.
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
 mod agents;
@@ -27,11 +28,13 @@ struct Lab {
 /// What is measured.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compare figures with those measured in Google Research Football; without SECTION or N, write docs/calibration.md
+    /// Compare figures with those measured in Google Research Football; without SECTION or N, write
+    /// docs/calibration.md
     Calibrate(calibrate::CalibrateArgs),
     /// Compare what lab/record saw of that game with a file of lab/data, or write it there
     Recorded(hands::RecordedArgs),
-    /// Play random scenarios and check properties of every step; a long run adds a line to lab/soak.csv
+    /// Play random scenarios and check properties of every step; a long run adds a line to
+    /// lab/soak.csv
     Soak(soak::SoakArgs),
 }
 

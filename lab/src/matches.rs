@@ -121,7 +121,11 @@ pub(crate) fn play(left: f64, right: f64, matches: u64) -> Result<Vec<Tally>, La
     Ok(all.into_iter().map(|(_, tally)| tally).collect())
 }
 
-fn match_of(environment: &mut Environment, seed: u64, scratch: &mut Scratch) -> Result<Tally, LabError> {
+fn match_of(
+    environment: &mut Environment,
+    seed: u64,
+    scratch: &mut Scratch,
+) -> Result<Tally, LabError> {
     environment.reset(Some(seed), Some(seed)).map_err(|why| why.to_string())?;
     let mut statistics = Statistics::begin(environment.state());
     let mut beside = Beside::default();
@@ -154,7 +158,12 @@ pub(crate) fn measure(matches: Option<u64>) -> Result<Section, LabError> {
         let goals: Vec<f64> = tallies.iter().map(Tally::lead).collect();
         if right == 0.05 {
             let difference = mean(&goals);
-            section.within("goal difference, 1.0 against 0.05", "+2.8", [2.0, f64::INFINITY], difference);
+            section.within(
+                "goal difference, 1.0 against 0.05",
+                "+2.8",
+                [2.0, f64::INFINITY],
+                difference,
+            );
         }
         section.notes.push(pairing(left, right, theirs, &tallies));
     }
@@ -197,7 +206,12 @@ fn equal(section: &mut Section, level: f64, tallies: &[Tally]) -> Result<(), Lab
         ("mean shot distance, m", "15.4", [12.0, 20.0], per(of(&|t| t.beside.shot_m), shots)),
         ("mean shot speed, m/s", "33", [28.0, 36.0], per(of(&|t| t.beside.shot_mps), shots)),
         ("passes", "80–95", [70.0, 160.0], passes),
-        ("share of passes completed", ".70–.75", [0.65, 0.85], per(both(|t| t.passes_completed), passes)),
+        (
+            "share of passes completed",
+            ".70–.75",
+            [0.65, 0.85],
+            per(both(|t| t.passes_completed), passes),
+        ),
         ("fouls", ".2", [0.0, 0.8], both(|t| t.fouls)),
     ];
     for (what, theirs, range, ours) in aims {
@@ -213,20 +227,48 @@ fn equal(section: &mut Section, level: f64, tallies: &[Tally]) -> Result<(), Lab
         ("penalties", "penalties", Give::Count, both(|t| t.penalties)),
         ("yellow cards", "yellow", Give::Count, both(|t| t.yellow_cards)),
         ("red cards", "red", Give::Count, both(|t| t.red_cards)),
-        ("share of steps in which nobody owns the ball", "nobody", Give::Share, share(|t| t.nobody_owns)),
+        (
+            "share of steps in which nobody owns the ball",
+            "nobody",
+            Give::Share,
+            share(|t| t.nobody_owns),
+        ),
         ("mean possession spell, steps", "spell", Give::Measure, spell),
         ("steps with `game_mode` ≠ 0", "stopped", Give::Measure, of(&|t| t.beside.stopped)),
-        ("share of steps with the ball in the left third", "left_third", Give::Share, share(|t| t.thirds[0])),
+        (
+            "share of steps with the ball in the left third",
+            "left_third",
+            Give::Share,
+            share(|t| t.thirds[0]),
+        ),
         ("share in the middle third", "middle_third", Give::Share, share(|t| t.thirds[1])),
         ("share in the right third", "right_third", Give::Share, share(|t| t.thirds[2])),
-        ("share of steps with the ball above 1 m", "high", Give::Share, per(of(&|t| t.beside.high), steps)),
+        (
+            "share of steps with the ball above 1 m",
+            "high",
+            Give::Share,
+            per(of(&|t| t.beside.high), steps),
+        ),
         ("km run per outfield player", "km", Give::Measure, of(&|t| t.beside.metres / 1000.0)),
-        ("tiredness of outfield players at the end", "tired", Give::Measure, of(&|t| t.beside.tired[0])),
-        ("tiredness of keepers at the end", "tired_keepers", Give::Measure, of(&|t| t.beside.tired[1])),
+        (
+            "tiredness of outfield players at the end",
+            "tired",
+            Give::Measure,
+            of(&|t| t.beside.tired[0]),
+        ),
+        (
+            "tiredness of keepers at the end",
+            "tired_keepers",
+            Give::Measure,
+            of(&|t| t.beside.tired[1]),
+        ),
     ];
     let theirs = recorded::matches(level, level)?;
     for (what, name, give, ours) in counted {
-        section.row(format!("{what}, {level} each"), vec![part(&theirs, name, give, ours, tallies.len())]);
+        section.row(
+            format!("{what}, {level} each"),
+            vec![part(&theirs, name, give, ours, tallies.len())],
+        );
     }
     section.notes.push(pairing(level, level, 0.0, tallies));
     section.notes.push(format!(
@@ -262,7 +304,8 @@ pub(crate) fn ladder(seeds: Option<u64>) -> Result<Section, LabError> {
         let there = play(better, worse, seeds)?;
         let back = play(worse, better, seeds)?;
         // A seed is one observation: its two matches have the same start.
-        let differences: Vec<f64> = there.iter().zip(&back).map(|(a, b)| (a.lead() - b.lead()) * 0.5).collect();
+        let differences: Vec<f64> =
+            there.iter().zip(&back).map(|(a, b)| (a.lead() - b.lead()) * 0.5).collect();
         let middle = mean(&differences);
         let half = 1.96 * deviation(&differences) / (differences.len() as f64).sqrt();
         if surely {
@@ -273,7 +316,12 @@ pub(crate) fn ladder(seeds: Option<u64>) -> Result<Section, LabError> {
                 middle - half,
             );
         } else {
-            section.within(format!("{better} against {worse}: mean"), "–", [0.0, f64::INFINITY], middle);
+            section.within(
+                format!("{better} against {worse}: mean"),
+                "–",
+                [0.0, f64::INFINITY],
+                middle,
+            );
         }
         section.notes.push(format!("{better} against {worse}: {middle:+.3} ± {half:.3} goals."));
     }

@@ -24,8 +24,11 @@ enum MeasuredGait {
 }
 
 impl MeasuredGait {
-    const ALL: [(MeasuredGait, &'static str); 3] =
-        [(MeasuredGait::Dribble, "dribble"), (MeasuredGait::Walk, "walk"), (MeasuredGait::Sprint, "sprint")];
+    const ALL: [(MeasuredGait, &'static str); 3] = [
+        (MeasuredGait::Dribble, "dribble"),
+        (MeasuredGait::Walk, "walk"),
+        (MeasuredGait::Sprint, "sprint"),
+    ];
 
     /// The action that turns it on.
     fn action(self) -> Action {
@@ -39,8 +42,8 @@ impl MeasuredGait {
 
 /// Speeds per step from a standstill, without the ball, sprinting.
 const SPRINT: [f64; 20] = [
-    0.36, 2.19, 3.11, 3.93, 4.69, 5.07, 5.34, 5.86, 6.31, 6.69, 6.97, 7.19, 7.36, 7.48, 7.57, 7.64, 7.69, 7.73, 7.75,
-    7.77,
+    0.36, 2.19, 3.11, 3.93, 4.69, 5.07, 5.34, 5.86, 6.31, 6.69, 6.97, 7.19, 7.36, 7.48, 7.57, 7.64,
+    7.69, 7.73, 7.75, 7.77,
 ];
 /// Measures everything of the section.
 pub(crate) fn measure() -> Result<Section, LabError> {
@@ -105,8 +108,13 @@ fn curves(section: &mut Section) -> Result<(), LabError> {
         let run = speeds(&mut start(false)?, &[Action::Right, gait.action()], theirs.len())?;
         if matches!(gait, MeasuredGait::Walk | MeasuredGait::Dribble) {
             // The same curve, cut: one figure.
-            let off = run.iter().zip(&theirs).filter(|(ours, theirs)| (*ours - *theirs).abs() > give(**theirs)).count();
-            let what = format!("points of 20 beside the same curve cut at {:.1} m/s, {name}", theirs[19]);
+            let off = run
+                .iter()
+                .zip(&theirs)
+                .filter(|(ours, theirs)| (*ours - *theirs).abs() > give(**theirs))
+                .count();
+            let what =
+                format!("points of 20 beside the same curve cut at {:.1} m/s, {name}", theirs[19]);
             section.within(what, "0", [0.0, 0.0], off as f64);
             continue;
         }
@@ -127,13 +135,34 @@ fn turns(section: &mut Section) -> Result<(), LabError> {
     let cases = [
         // Steps until the direction is new, until the speed is back; for 45° and 90°; steps to a
         // stop, its way.
-        ("walk without the ball", MeasuredGait::Walk, [[2, 5], [2, 5]], [[3, 5], [5, 8]], [3, 5], 1.1),
-        ("sprint without the ball", MeasuredGait::Sprint, [[3, 5], [6, 8]], [[5, 7], [12, 14]], [5, 6], 2.4),
+        (
+            "walk without the ball",
+            MeasuredGait::Walk,
+            [[2, 5], [2, 5]],
+            [[3, 5], [5, 8]],
+            [3, 5],
+            1.1,
+        ),
+        (
+            "sprint without the ball",
+            MeasuredGait::Sprint,
+            [[3, 5], [6, 8]],
+            [[5, 7], [12, 14]],
+            [5, 6],
+            2.4,
+        ),
     ];
     for (name, gait, half, full, stop, way) in cases {
-        for (turn, degrees, [direction, speed]) in [(Action::BottomRight, 45, half), (Action::Bottom, 90, full)] {
+        for (turn, degrees, [direction, speed]) in
+            [(Action::BottomRight, 45, half), (Action::Bottom, 90, full)]
+        {
             let [turned, fast] = turn_steps(gait, turn)?;
-            section.within(format!("steps to turn by {degrees}°, {name}"), limits(direction), wide(direction), turned);
+            section.within(
+                format!("steps to turn by {degrees}°, {name}"),
+                limits(direction),
+                wide(direction),
+                turned,
+            );
             section.within(
                 format!("steps until 90 % of the speed is back after {degrees}°, {name}"),
                 limits(speed),
@@ -143,7 +172,9 @@ fn turns(section: &mut Section) -> Result<(), LabError> {
         }
         let [steps, metres] = stop_of(gait)?;
         section.within(format!("steps to a stop, {name}"), limits(stop), wide(stop), steps);
-        section.notes.push(format!("Way of a stop, {name}: {metres:.1} m; theirs {way} m (no limit stated)."));
+        section.notes.push(format!(
+            "Way of a stop, {name}: {metres:.1} m; theirs {way} m (no limit stated)."
+        ));
     }
     Ok(())
 }
@@ -235,7 +266,12 @@ fn tiredness(section: &mut Section) -> Result<(), LabError> {
     let before = trial.place()?;
     trial.steps(Action::Idle, 1)?;
     let tired = f64::from(trial.place()?.distance(before)) * 10.0;
-    section.near("top speed of an exhausted player over that of a fresh one", 1.0, 0.05, tired / top_fresh);
+    section.near(
+        "top speed of an exhausted player over that of a fresh one",
+        1.0,
+        0.05,
+        tired / top_fresh,
+    );
     let mut trial = start(false)?;
     trial.steps(Action::Right, 1)?;
     for step in 1..500 {

@@ -16,7 +16,8 @@ const LAST: &str = "Explained";
 pub(crate) fn write(sections: &[Section]) -> Result<(), LabError> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/calibration.md");
     let before = std::fs::read_to_string(&path).unwrap_or_default();
-    std::fs::write(&path, page(&before, sections)).map_err(|why| format!("{}: {why}", path.display()))
+    std::fs::write(&path, page(&before, sections))
+        .map_err(|why| format!("{}: {why}", path.display()))
 }
 
 /// The page after `before` with these sections measured again.
@@ -34,8 +35,11 @@ fn page(before: &str, sections: &[Section]) -> String {
     blocks.sort_by(|(a, _), (b, _)| a.cmp(b));
     let mut text = String::from(HEAD);
     for (title, block) in &blocks {
-        let rows = |end: &str| block.lines().filter(|line| line.starts_with("| C-") && line.contains(end)).count();
-        let [inside, explained, open] = [rows("| ✓ |"), rows("| outside ["), rows("| **outside** |")];
+        let rows = |end: &str| {
+            block.lines().filter(|line| line.starts_with("| C-") && line.contains(end)).count()
+        };
+        let [inside, explained, open] =
+            [rows("| ✓ |"), rows("| outside ["), rows("| **outside** |")];
         let all = inside + explained + open;
         let _ = writeln!(text, "| {title} | {all} | {inside} | {explained} | {open} |");
     }

@@ -17,7 +17,8 @@ pub(crate) type LabError = String;
 pub(crate) fn library(name: &str, params: &[(&str, String)]) -> Result<Environment, LabError> {
     let loaded = setpiece::load(name).map_err(|why| format!("{name}: {why}"))?;
     let pairs = params.iter().map(|(key, value)| (*key, value.as_str()));
-    let bindings = setpiece::bind(&loaded.scenario, pairs).map_err(|why| format!("{name}: {why}"))?;
+    let bindings =
+        setpiece::bind(&loaded.scenario, pairs).map_err(|why| format!("{name}: {why}"))?;
     let options = EnvironmentOptions { bindings: Some(bindings), ..EnvironmentOptions::default() };
     Environment::new(loaded.scenario, options).map_err(|why| format!("{name}: {why}"))
 }
@@ -36,8 +37,11 @@ pub(crate) fn script(source: &str) -> Result<Environment, LabError> {
     for piece in pieces {
         let of_ball = placed.ends_with("ball");
         placed.push_str(" at (");
-        let point = piece.split_once(')').and_then(|(point, rest)| Some((point.split_once(", ")?, rest)));
-        match point.and_then(|((x, y), rest)| Some((x.parse::<f64>().ok()?, y.parse::<f64>().ok()?, rest))) {
+        let point =
+            piece.split_once(')').and_then(|(point, rest)| Some((point.split_once(", ")?, rest)));
+        match point
+            .and_then(|((x, y), rest)| Some((x.parse::<f64>().ok()?, y.parse::<f64>().ok()?, rest)))
+        {
             Some((x, y, rest)) if !of_ball => {
                 placed.push_str(&format!("{:.4}, {:.4}){rest}", x * PLACED[0], y * PLACED[1]));
             }
@@ -100,7 +104,8 @@ impl Trial {
     /// The agent's player.
     pub(crate) fn me(&self) -> Result<&Player, LabError> {
         let game = self.state();
-        let id = game.agents.first().and_then(|slot| slot.player).ok_or("the agent has no player")?;
+        let id =
+            game.agents.first().and_then(|slot| slot.player).ok_or("the agent has no player")?;
         Ok(game.player(id))
     }
 
@@ -123,5 +128,7 @@ pub(crate) fn mean(of: &[f64]) -> f64 {
 /// The standard deviation of some figures.
 pub(crate) fn deviation(of: &[f64]) -> f64 {
     let middle = mean(of);
-    (of.iter().map(|value| (value - middle).powi(2)).sum::<f64>() / (of.len() as f64 - 1.0).max(1.0)).sqrt()
+    (of.iter().map(|value| (value - middle).powi(2)).sum::<f64>()
+        / (of.len() as f64 - 1.0).max(1.0))
+    .sqrt()
 }

@@ -100,7 +100,8 @@ pub(crate) fn soak(args: &SoakArgs) -> Result<(), LabError> {
     if breaches.is_empty() {
         return if steps < LOGGED || from > 0 { Ok(()) } else { log(seed, total) };
     }
-    let reports: Vec<LabError> = breaches.values().map(|(times, first)| format!("{times} times: {first}")).collect();
+    let reports: Vec<LabError> =
+        breaches.values().map(|(times, first)| format!("{times} times: {first}")).collect();
     Err(reports.join("\n"))
 }
 
@@ -148,8 +149,9 @@ fn play(seed: u64, which: u64, scratch: &mut Scratch, count: &mut Count) -> Resu
         environment
             .reset(Some(seed), Some(episode))
             .map_err(|why| tell(why.to_string(), format!(", episode {episode}")))?;
-        episode_of(&mut environment, habit, &mut random, scratch, count)
-            .map_err(|why| tell(why, format!(", episode {episode}, {habit:?}, step {}", environment.steps())))?;
+        episode_of(&mut environment, habit, &mut random, scratch, count).map_err(|why| {
+            tell(why, format!(", episode {episode}, {habit:?}, step {}", environment.steps()))
+        })?;
         count.episodes += 1;
     }
     Ok(())
@@ -171,7 +173,8 @@ fn episode_of(
                 AgentHabit::Bot => Action::BuiltinAi,
                 AgentHabit::Slow if random.below(8) > 0 => *action,
                 AgentHabit::Random | AgentHabit::Slow => {
-                    Action::from_index(random.below(Action::FULL_SET as u32) as usize).unwrap_or(Action::Idle)
+                    Action::from_index(random.below(Action::FULL_SET as u32) as usize)
+                        .unwrap_or(Action::Idle)
                 }
             };
         }
@@ -198,11 +201,16 @@ fn episode_of(
 /// Adds a line to the log of such runs.
 fn log(seed: u64, total: Count) -> Result<(), LabError> {
     let commit = Command::new("git").args(["rev-parse", "--short", "HEAD"]).output();
-    let commit =
-        commit.map_or_else(|_| "unknown".to_owned(), |out| String::from_utf8_lossy(&out.stdout).trim().to_owned());
+    let commit = commit.map_or_else(
+        |_| "unknown".to_owned(),
+        |out| String::from_utf8_lossy(&out.stdout).trim().to_owned(),
+    );
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("soak.csv");
     let Count { steps, scenarios, episodes, goals, set_pieces, cards } = total;
-    let line = format!("{commit},{seed},{steps},{scenarios},{episodes},{goals},{set_pieces},{cards},held\n");
+    let line = format!(
+        "{commit},{seed},{steps},{scenarios},{episodes},{goals},{set_pieces},{cards},held\n"
+    );
     let file = File::options().append(true).create(true).open(&path);
-    file.and_then(|mut file| file.write_all(line.as_bytes())).map_err(|why| format!("{}: {why}", path.display()))
+    file.and_then(|mut file| file.write_all(line.as_bytes()))
+        .map_err(|why| format!("{}: {why}", path.display()))
 }

@@ -1,5 +1,10 @@
 //! A short test of the bench: it plays, measures and reports errors.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use std::process::Command;
 
@@ -23,7 +28,11 @@ fn every_section_measures_every_figure() {
         let rows: Vec<&str> = output.lines().filter(|line| line.starts_with("| C-")).collect();
         assert!(rows.len() >= figures, "section {section} has {} figures", rows.len());
         let found = rows.iter().filter(|row| !row.contains("| none |")).count();
-        assert!(found * 10 >= rows.len() * 8, "section {section} measures {found} of {}: {output}", rows.len());
+        assert!(
+            found * 10 >= rows.len() * 8,
+            "section {section} measures {found} of {}: {output}",
+            rows.len()
+        );
     }
 }
 

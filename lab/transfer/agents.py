@@ -55,7 +55,12 @@ def chase(scene: Scene, memory: Memory, slides: bool = False) -> str:
     spot = scene.ball + scene.ball_step * 3.0
     if not scene.our_ball and np.linalg.norm(spot - scene.place) > 6.0:
         spot = spot + np.array([-3.0, 0.0])
-    if slides and not scene.our_ball and np.linalg.norm(scene.ball - scene.place) < 1.8 and scene.step % 7 == 0:
+    if (
+        slides
+        and not scene.our_ball
+        and np.linalg.norm(scene.ball - scene.place) < 1.8
+        and scene.step % 7 == 0
+    ):
         return "sliding"
     return run(memory, spot - scene.place)
 
@@ -200,9 +205,9 @@ def dribbler(scene: Scene, memory: Memory) -> str:
         away = scene.place - rival
         distance = float(np.linalg.norm(away))
         if distance < 8.0 and way @ -away > 0:
-            way = way + np.array([-way[1], way[0]]) * np.sign(way[0] * away[1] - way[1] * away[0]) * (
-                1.6 - 0.2 * distance
-            )
+            way = way + np.array([-way[1], way[0]]) * np.sign(
+                way[0] * away[1] - way[1] * away[0]
+            ) * (1.6 - 0.2 * distance)
     return run(memory, way)
 
 

@@ -18,13 +18,25 @@ from matches import play
 from options import is_match
 
 RECORDED = Path(__file__).parent / "recorded"
-COLUMNS = ("goals", "conceded", "shots", "wide", "passes", "completed", "owned", "lost", "shot_speed")
+COLUMNS = (
+    "goals",
+    "conceded",
+    "shots",
+    "wide",
+    "passes",
+    "completed",
+    "owned",
+    "lost",
+    "shot_speed",
+)
 
 
 def ranks(values: list[float]) -> np.ndarray:
     """Ranks with ties shared."""
     values = np.asarray(values)
-    return np.array([(values < value).sum() + 0.5 * ((values == value).sum() - 1) for value in values])
+    return np.array(
+        [(values < value).sum() + 0.5 * ((values == value).sum() - 1) for value in values]
+    )
 
 
 def correlation(here: list[float], there: list[float]) -> float:
@@ -54,7 +66,12 @@ def play_here(scenarios: list[str], episodes: int) -> None:
         count = max(1, episodes // (20 if is_match(scenario) else 4))
         runs["here"] = {}
         for name in runs["rows"]:
-            create = partial(football.create_environment, env_name=scenario, representation="raw", rewards="scoring")
+            create = partial(
+                football.create_environment,
+                env_name=scenario,
+                representation="raw",
+                rewards="scoring",
+            )
             row = play(create, name, count, 3001)
             runs["here"][name] = {key: row[key] for key in (*COLUMNS, "episodes")}
         print(f"{scenario}: {len(runs['here'])} agents by rules, {count} episodes each", flush=True)
@@ -76,9 +93,18 @@ def section(scenario: str, there: dict, here: dict) -> str:
     for name in names:
         cells = [f"{here[name][column]:.2f} / {there[name][column]:.2f}" for column in COLUMNS]
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
-    total = {column: [sum(side[name][column] for name in names) for side in (here, there)] for column in COLUMNS}
-    order = correlation([here[name]["goals"] for name in names], [there[name]["goals"] for name in names])
-    shares = [f"{column} {total[column][0] / total[column][1]:.2f}" for column in COLUMNS if total[column][1] > 0]
+    total = {
+        column: [sum(side[name][column] for name in names) for side in (here, there)]
+        for column in COLUMNS
+    }
+    order = correlation(
+        [here[name]["goals"] for name in names], [there[name]["goals"] for name in names]
+    )
+    shares = [
+        f"{column} {total[column][0] / total[column][1]:.2f}"
+        for column in COLUMNS
+        if total[column][1] > 0
+    ]
     lines += [
         "",
         f"Rank correlation of goals: {order:.2f}. All agents together, here over there: {', '.join(shares)}.",
@@ -90,4 +116,6 @@ def section(scenario: str, there: dict, here: dict) -> str:
 def sections() -> str:
     """Returns the tables of all scenarios that have been played here."""
     runs = [json.loads(file.read_text()) for file in recorded()]
-    return "\n".join(section(run["scenario"], run["rows"], run["here"]) for run in runs if "here" in run)
+    return "\n".join(
+        section(run["scenario"], run["rows"], run["here"]) for run in runs if "here" in run
+    )

@@ -35,7 +35,9 @@ class Here:
         import setpiece
 
         self.envs, self.seed = envs, seed
-        self.vector = setpiece.make_vec(scenario, envs, threads=1, observation="smm", rewards=rewards, copy=False)
+        self.vector = setpiece.make_vec(
+            scenario, envs, threads=1, observation="smm", rewards=rewards, copy=False
+        )
 
     def reset(self) -> np.ndarray:
         """Returns the first maps."""
@@ -45,7 +47,9 @@ class Here:
         """Plays a step of every game."""
         maps, rewards, terminated, truncated, infos = self.vector.step(actions)
         score = infos["score"]
-        return Turn(maps, rewards.astype(np.float32), terminated, truncated, score[:, 0] - score[:, 1])
+        return Turn(
+            maps, rewards.astype(np.float32), terminated, truncated, score[:, 0] - score[:, 1]
+        )
 
     def close(self) -> None:
         """Releases the games."""
@@ -60,7 +64,9 @@ class There:
         import envpool
 
         self.envs = envs
-        self.pool = envpool.make_gymnasium(f"gfootball/{scenario}-v1", num_envs=envs, num_threads=1, seed=seed)
+        self.pool = envpool.make_gymnasium(
+            f"gfootball/{scenario}-v1", num_envs=envs, num_threads=1, seed=seed
+        )
 
     def reset(self) -> np.ndarray:
         """Returns the first maps."""
@@ -91,7 +97,9 @@ def play(policy: Policy, game: Here | There, episodes: int, drawn: bool, seed: i
     taking the first ones to end would favour short episodes.
     """
     rng = np.random.default_rng(seed)
-    quota = np.full(game.envs, episodes // game.envs) + (np.arange(game.envs) < episodes % game.envs)
+    quota = np.full(game.envs, episodes // game.envs) + (
+        np.arange(game.envs) < episodes % game.envs
+    )
     tracker, maps, first = Tracker(policy.roster, game.envs), game.reset(), np.ones(game.envs, bool)
     over = np.zeros(game.envs, bool)
     ends: list[int] = []

@@ -154,7 +154,10 @@ def main() -> None:
     for name in options.agents.split(","):
         began = time.time()
         create = partial(
-            football.create_environment, env_name=options.scenario, representation="raw", rewards="scoring"
+            football.create_environment,
+            env_name=options.scenario,
+            representation="raw",
+            rewards="scoring",
         )
         rows[name] = play(create, name, options.episodes, options.limit)
         row = rows[name]
@@ -165,7 +168,9 @@ def main() -> None:
             flush=True,
         )
         with Path(options.out).open("w") as file:
-            json.dump({"game": options.game, "scenario": options.scenario, "rows": rows}, file, indent=1)
+            json.dump(
+                {"game": options.game, "scenario": options.scenario, "rows": rows}, file, indent=1
+            )
 
 
 if __name__ == "__main__":

@@ -56,7 +56,9 @@ def _number(least: int, unit: str):
         try:
             value = int(text.replace("_", ""))
         except ValueError:
-            raise argparse.ArgumentTypeError(f"expected a whole number of {unit}, found `{text}`") from None
+            raise argparse.ArgumentTypeError(
+                f"expected a whole number of {unit}, found `{text}`"
+            ) from None
         if value < least:
             raise argparse.ArgumentTypeError(f"expected at least {least} {unit}, found {value}")
         return value
@@ -84,7 +86,9 @@ def parser() -> argparse.ArgumentParser:
         metavar="NAME",
         help="only this one; can be repeated. The page keeps the stored figures of the others",
     )
-    made.add_argument("--steps", type=_number(2 * UPDATE, "steps"), help=f"most steps of a training; {STEPS:,}")
+    made.add_argument(
+        "--steps", type=_number(2 * UPDATE, "steps"), help=f"most steps of a training; {STEPS:,}"
+    )
     made.add_argument(
         "--episodes",
         type=_number(2, "episodes"),
@@ -96,7 +100,9 @@ def parser() -> argparse.ArgumentParser:
         action="store_true",
         help="plays the stored policies here, beside the scores recorded there: trains nothing, needs no EnvPool",
     )
-    made.add_argument("--seed", type=_seed, default=0, help="of the training and of the episodes; 0")
+    made.add_argument(
+        "--seed", type=_seed, default=0, help="of the training and of the episodes; 0"
+    )
     return made
 
 
@@ -111,7 +117,9 @@ def parse(argv: list[str]) -> argparse.Namespace:
             if not (POLICIES / f"{name}.npz").exists():
                 made.error(f"no policy is stored for `{name}`; run it once without --recorded")
     options.steps = options.steps or STEPS
-    options.scenario = list(dict.fromkeys(options.scenario)) if options.scenario else list(SCENARIOS)
+    options.scenario = (
+        list(dict.fromkeys(options.scenario)) if options.scenario else list(SCENARIOS)
+    )
     return options
 
 

@@ -121,7 +121,9 @@ class Roster:
         for team in marks(opening)[:2]:
             counts = np.isfinite(team[:, :, 0]).sum(1)
             start, most = team[0, : counts[0]], team[counts.argmax(), : counts.max()]
-            teams.append(start if counts[0] == counts.max() else assign(most[None], start[None])[0][0])
+            teams.append(
+                start if counts[0] == counts.max() else assign(most[None], start[None])[0][0]
+            )
         return cls(*teams)
 
 

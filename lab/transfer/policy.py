@@ -25,10 +25,16 @@ class Scale:
 
     def take(self, inputs: np.ndarray) -> None:
         """Takes more inputs, `(rows, features)`."""
-        count, mean, variance = len(inputs), inputs.mean(0, dtype=np.float64), inputs.var(0, dtype=np.float64)
+        count, mean, variance = (
+            len(inputs),
+            inputs.mean(0, dtype=np.float64),
+            inputs.var(0, dtype=np.float64),
+        )
         total = self.count + count
         gap = mean - self.mean
-        self.variance = (self.variance * self.count + variance * count + gap * gap * self.count * count / total) / total
+        self.variance = (
+            self.variance * self.count + variance * count + gap * gap * self.count * count / total
+        ) / total
         self.mean = self.mean + gap * count / total
         self.count = total
 
@@ -51,7 +57,9 @@ def draw(logits: np.ndarray, rng: np.random.Generator) -> np.ndarray:
 class Policy:
     """Rates the 19 actions by the features of a `Tracker`."""
 
-    def __init__(self, roster: Roster, mean: np.ndarray, divisor: np.ndarray, weights: np.ndarray) -> None:
+    def __init__(
+        self, roster: Roster, mean: np.ndarray, divisor: np.ndarray, weights: np.ndarray
+    ) -> None:
         self.roster, self.mean, self.divisor, self.weights = roster, mean, divisor, weights
         self.actor = Mlp(roster.features, ACTIONS, weights)
 

@@ -60,7 +60,9 @@ class Blur:
         moved[:, : self.places] += self.offsets
         moved[:, self.places : self.places + 2] += self.offsets[:, 0:2] - self.offsets[:, 2:4]
         for part in (slice(0, self.places + 2), self.ways):
-            moved[:, part] += self.rng.normal(0.0, FLICKER_M, moved[:, part].shape).astype(np.float32)
+            moved[:, part] += self.rng.normal(0.0, FLICKER_M, moved[:, part].shape).astype(
+                np.float32
+            )
         return moved
 
 
@@ -70,7 +72,9 @@ class Trained:
 
     policy: Policy
     steps: int
-    score: float  # mean goal difference of the last `RECENT` episodes, drawn actions; NaN without one
+    score: (
+        float  # mean goal difference of the last `RECENT` episodes, drawn actions; NaN without one
+    )
     seconds: float
 
 
@@ -120,7 +124,9 @@ def log_softmax(logits: np.ndarray) -> np.ndarray:
     return logits - np.log(np.exp(logits).sum(-1, keepdims=True))
 
 
-def advantages(rewards: np.ndarray, values: np.ndarray, terminated: np.ndarray, over: np.ndarray) -> np.ndarray:
+def advantages(
+    rewards: np.ndarray, values: np.ndarray, terminated: np.ndarray, over: np.ndarray
+) -> np.ndarray:
     """Returns the advantages, `(steps, envs)`; `values` has one more row, for the last maps.
 
     The map after an episode's last step is its own last one, so that a truncated episode is worth
@@ -189,9 +195,20 @@ def train(
             # The scale of the first inputs was a guess.
             continue
         inputs[-1] = scaled(features, mean, divisor)
-        values[:] = learner.critic.forward(inputs.reshape(size + ENVS, -1))[-1].reshape(values.shape)
+        values[:] = learner.critic.forward(inputs.reshape(size + ENVS, -1))[-1].reshape(
+            values.shape
+        )
         gains = advantages(paid, values, terminated, over)
-        learn(learner, inputs[:-1], actions, logs, gains, gains + values[:-1], ~idle, RATE * (1 - update / updates))
+        learn(
+            learner,
+            inputs[:-1],
+            actions,
+            logs,
+            gains,
+            gains + values[:-1],
+            ~idle,
+            RATE * (1 - update / updates),
+        )
     game.close()
     policy = Policy(roster, *scale.parts(), learner.weights[: learner.split].copy())
     return Trained(policy, done, score, time.monotonic() - began)
@@ -225,5 +242,7 @@ def learn(
         "returns": returns.reshape(-1),
     }
     for _ in range(EPOCHS):
-        for some in np.array_split(learner.rng.permutation(rows), max(1, round(len(rows) / MINIBATCH))):
+        for some in np.array_split(
+            learner.rng.permutation(rows), max(1, round(len(rows) / MINIBATCH))
+        ):
             learner.step({name: part[some] for name, part in table.items()}, rate)

@@ -57,7 +57,15 @@ def scene_of(ball, ball_before, height, me, ours, theirs, step) -> Scene:
     low = height < 1.0
     mine = low and away[me] < AT_FEET and away[me] <= their_away.min() + 0.3
     return Scene(
-        ball, ball - ball_before, height, me, ours, theirs, bool(mine), bool(away.min() <= their_away.min()), step
+        ball,
+        ball - ball_before,
+        height,
+        me,
+        ours,
+        theirs,
+        bool(mine),
+        bool(away.min() <= their_away.min()),
+        step,
     )
 
 

@@ -32,7 +32,9 @@ NOT_STORED = Path(__file__).resolve().parents[2] / "target" / "transfer"
 def both(scenario: str, options: argparse.Namespace) -> None:
     """Trains a policy, plays it in both games and stores it with its scores."""
     enough = float("inf") if is_match(scenario) else ENOUGH
-    made = train(scenario, options.steps, options.seed, REWARDS, enough, lambda text: print(text, flush=True))
+    made = train(
+        scenario, options.steps, options.seed, REWARDS, enough, lambda text: print(text, flush=True)
+    )
     NOT_STORED.mkdir(parents=True, exist_ok=True)
     weights = NOT_STORED / f"{scenario}.npz"
     made.policy.save(weights)
@@ -62,21 +64,30 @@ def again(scenario: str, options: argparse.Namespace) -> None:
     record = json.loads((POLICIES / f"{scenario}.json").read_text())
     weights = POLICIES / f"{scenario}.npz"
     if digest(weights) != record["weights"]:
-        raise SystemExit(f"{weights} isn't the policy whose scores {weights.with_suffix('.json').name} holds")
+        raise SystemExit(
+            f"{weights} isn't the policy whose scores {weights.with_suffix('.json').name} holds"
+        )
     count = episodes_of(scenario, options.episodes)
     record["here"] = scores(Policy.load(weights), scenario, Here, count, SEED_HERE + options.seed)
     store(record)
 
 
-def scores(policy: Policy, scenario: str, game: type[Here] | type[There], episodes: int, seed: int) -> dict:
+def scores(
+    policy: Policy, scenario: str, game: type[Here] | type[There], episodes: int, seed: int
+) -> dict:
     """Plays a policy's likeliest and drawn actions; counts episodes by goal difference."""
     result: dict = {"seed": seed}
     for kind in KINDS:
         matches = game(scenario, min(ENVS_MAX, episodes), seed)
         ends = play(policy, matches, episodes, kind == "drawn", seed)
         matches.close()
-        result[kind] = {str(goals): count for goals, count in sorted(Counter(ends.tolist()).items())}
-        print(f"{scenario}: {game.__name__.lower()} {kind} {ends.mean():.2f} ({episodes} episodes)", flush=True)
+        result[kind] = {
+            str(goals): count for goals, count in sorted(Counter(ends.tolist()).items())
+        }
+        print(
+            f"{scenario}: {game.__name__.lower()} {kind} {ends.mean():.2f} ({episodes} episodes)",
+            flush=True,
+        )
     return result
 
 
@@ -115,12 +126,16 @@ def table(records: list[dict]) -> str:
             name = record["scenario"] if kind == KINDS[0] else ""
             steps = f"{record['training']['steps']:,}" if kind == KINDS[0] else ""
             ratio = (
-                "-" if share is None else "{:.0%} ({:.0%} to {:.0%})".format(*(round(part, 2) + 0.0 for part in share))
+                "-"
+                if share is None
+                else "{:.0%} ({:.0%} to {:.0%})".format(*(round(part, 2) + 0.0 for part in share))
             )
             lines.append(f"| {name} | {steps} | {kind} | {cell(here)} | {cell(there)} | {ratio} |")
             if share is not None:
                 kept.append(share[0])
-    counts = sorted({sum(record[side][KINDS[0]].values()) for record in records for side in ("here", "there")})
+    counts = sorted(
+        {sum(record[side][KINDS[0]].values()) for record in records for side in ("here", "there")}
+    )
     enough = sum(share >= WANTED for share in kept)
     lines += [
         "",

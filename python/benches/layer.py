@@ -72,7 +72,9 @@ def main() -> None:
     layer = min(whole - inside for inside, whole, _ in rounds)
     print(f"native batch of {n}      {native:6.3f} µs a step and match")
     print(f"make, one environment  {single:6.3f} µs a step: the layer {single - native:6.3f} µs")
-    print(f"make_vec of {n}         {native + layer:6.3f} µs a step and match: the layer {layer:6.3f} µs")
+    print(
+        f"make_vec of {n}         {native + layer:6.3f} µs a step and match: the layer {layer:6.3f} µs"
+    )
 
 
 if __name__ == "__main__":

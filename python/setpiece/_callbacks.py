@@ -60,12 +60,24 @@ def read_rewards(rewards: Rewards) -> tuple[list[str] | None, list[RewardFunctio
     """Returns the names, None for the scenario's own choice, and the functions."""
     if rewards is None:
         return None, []
-    given = rewards.split(",") if isinstance(rewards, str) else [rewards] if callable(rewards) else rewards
-    if not isinstance(given, Sequence) or not all(isinstance(one, str) or callable(one) for one in given):
-        raise ParameterError(f"expected `rewards` as names or functions, found `{rewards!r}`", name="rewards")
+    given = (
+        rewards.split(",")
+        if isinstance(rewards, str)
+        else [rewards]
+        if callable(rewards)
+        else rewards
+    )
+    if not isinstance(given, Sequence) or not all(
+        isinstance(one, str) or callable(one) for one in given
+    ):
+        raise ParameterError(
+            f"expected `rewards` as names or functions, found `{rewards!r}`", name="rewards"
+        )
     names = [one.strip() for one in given if isinstance(one, str)]
     if not all(is_text(name) for name in names):
-        raise ParameterError(f"expected `rewards` as names or functions, found `{rewards!r}`", name="rewards")
+        raise ParameterError(
+            f"expected `rewards` as names or functions, found `{rewards!r}`", name="rewards"
+        )
     functions = [one for one in given if not isinstance(one, str)]
     if names == [NONE]:
         names = []
@@ -119,7 +131,11 @@ class Callbacks:
     """Each function's payments since the last `reset` or `restore`: a float, or float64 `(n,)`."""
 
     def __init__(
-        self, rewards: Sequence[RewardFunction], ends: Sequence[EndFunction], *, show_events: bool = False
+        self,
+        rewards: Sequence[RewardFunction],
+        ends: Sequence[EndFunction],
+        *,
+        show_events: bool = False,
     ) -> None:
         self.rewards = {_name(function): function for function in rewards}
         self.ends = [*ends]
@@ -190,7 +206,10 @@ class Callbacks:
         label = None if terminated else self._label(steps[0])
         outcome = info.get("outcome") if label is None else label
         steps = [replace(step, outcome=outcome) for step in steps]
-        paid = {name: [_paid(function, step) for step in steps] for name, function in self.rewards.items()}
+        paid = {
+            name: [_paid(function, step) for step in steps]
+            for name, function in self.rewards.items()
+        }
         self._before = views
         info["reward_terms"].update({name: _shaped(values) for name, values in paid.items()})
         self.tally = {name: self.tally[name] + info["reward_terms"][name] for name in self.rewards}
@@ -265,5 +284,7 @@ def failed(function: Callable[..., Any], agent: str | None, error: Exception) ->
     """Builds the error for a failed function of the caller, for an agent or for nobody."""
     of_agent = "" if agent is None else f" for `{agent}`"
     return CallbackError(
-        f"`{_name(function)}` failed{of_agent}: {type(error).__name__}: {error}", function=_name(function), agent=agent
+        f"`{_name(function)}` failed{of_agent}: {type(error).__name__}: {error}",
+        function=_name(function),
+        agent=agent,
     )

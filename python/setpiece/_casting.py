@@ -44,10 +44,14 @@ def behaviors(opponents: Mapping[str, Opponent] | None) -> dict[str, str]:
 def revivable(opponents: Mapping[str, Opponent] | None) -> dict[str, Opponent] | None:
     """Returns the opponents for a scenario that already has its behaviours."""
     scripted = behaviors(opponents)
-    return {who: BOT if who in scripted else one for who, one in read_opponents(opponents).items()} or None
+    return {
+        who: BOT if who in scripted else one for who, one in read_opponents(opponents).items()
+    } or None
 
 
-def scripted_scenario(scenario: Source, options: EnvOptions, params: Mapping[str, ParamValue]) -> Scenario:
+def scripted_scenario(
+    scenario: Source, options: EnvOptions, params: Mapping[str, ParamValue]
+) -> Scenario:
     """Returns a scenario whose players are played by the behaviours and scripts of `options`.
 
     A side's behaviour plays its players without an `ai` of their own; an agent's behaviour plays
@@ -63,8 +67,14 @@ def scripted_scenario(scenario: Source, options: EnvOptions, params: Mapping[str
     casting = [Casting(SIDES.index(who), None, word) for who, word in ai.items() if who in SIDES]
     named = {who: word for who, word in ai.items() if who not in SIDES}
     if named:
-        agents = _native.agents(load(scenario, allow_outside=outside).with_params(**params), options)
-        casting += [one for who, word in named.items() if (one := _of_agent(who, word, agents, ai)) is not None]
+        agents = _native.agents(
+            load(scenario, allow_outside=outside).with_params(**params), options
+        )
+        casting += [
+            one
+            for who, word in named.items()
+            if (one := _of_agent(who, word, agents, ai)) is not None
+        ]
     words = ", ".join(f"`{word}`" for word in (one.ai for one in casting))
     if isinstance(scenario, Scenario):
         raise ParameterError(
@@ -86,7 +96,9 @@ def scripted_scenario(scenario: Source, options: EnvOptions, params: Mapping[str
         raise ParameterError(message, name="opponents", code=first.code, help=first.help) from None
 
 
-def _of_agent(who: str, word: str, agents: Sequence[AgentInfo], ai: Mapping[str, str]) -> Casting | None:
+def _of_agent(
+    who: str, word: str, agents: Sequence[AgentInfo], ai: Mapping[str, str]
+) -> Casting | None:
     """The player whose `ai` an agent's opponent is; None for a bot that plays them anyway."""
     agent = next((agent for agent in agents if agent.id == who), None)
     if agent is None:
@@ -108,5 +120,7 @@ def _ai(opponent: str | PathLike[str]) -> str:
         return fspath(opponent)
     path = Path(opponent).resolve().as_posix()
     if '"' in path or "\n" in path:
-        raise ParameterError(f"a scenario can't name the path of the script: {path!r}", name="opponents")
+        raise ParameterError(
+            f"a scenario can't name the path of the script: {path!r}", name="opponents"
+        )
     return f'script "{path}"'

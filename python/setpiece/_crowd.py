@@ -49,9 +49,13 @@ class Crowd:
         shape = (self._num_envs,) if mine == 1 else (self._num_envs, mine)
         array = array_of(given)
         # Accepts any shape with the right number of values, as a vector without opponents does.
-        actions = None if array is None else integers(array.ravel(), (self._num_envs * mine,), n_actions)
+        actions = (
+            None if array is None else integers(array.ravel(), (self._num_envs * mine,), n_actions)
+        )
         if actions is None:
-            raise ActionError(f"expected integers in 0..{n_actions - 1} of shape {shape}, found `{given!r}`")
+            raise ActionError(
+                f"expected integers in 0..{n_actions - 1} of shape {shape}, found `{given!r}`"
+            )
         return actions.reshape(self._num_envs, mine)
 
 

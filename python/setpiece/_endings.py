@@ -32,15 +32,31 @@ def endings(batch: Batch, over: NDArray[np.bool_], pick: Picker, n_actions: int)
             continue
         outcomes[at] = summary.pop("outcome")
         paid = np.array(summary["return"], np.float64).reshape(pick.n_agents, len(terms)).T
-        summary["return"] = dict(zip(terms, paid[:, 0] if pick.n_agents == 1 else paid, strict=True))
-        info = pick_info({"records": summary.pop("records"), "setpiece": summary}, pick, pick.n_agents, n_actions)
+        summary["return"] = dict(
+            zip(terms, paid[:, 0] if pick.n_agents == 1 else paid, strict=True)
+        )
+        info = pick_info(
+            {"records": summary.pop("records"), "setpiece": summary}, pick, pick.n_agents, n_actions
+        )
         _enter(records, at, info["records"], lambda _, value: _of_record(n_envs, value))
-        _enter(returns, at, info["setpiece"].pop("return"), lambda _, value: np.zeros((n_envs, *np.shape(value))))
-        _enter(summaries, at, info["setpiece"], lambda name, value: _of_summary(n_envs, name, value))
+        _enter(
+            returns,
+            at,
+            info["setpiece"].pop("return"),
+            lambda _, value: np.zeros((n_envs, *np.shape(value))),
+        )
+        _enter(
+            summaries, at, info["setpiece"], lambda name, value: _of_summary(n_envs, name, value)
+        )
     return {"outcome": outcomes, "records": records, "setpiece": {"return": returns, **summaries}}
 
 
-def _enter(columns: dict[str, Column], at: int, values: Mapping[str, Any], fresh: Callable[[str, Any], Column]) -> None:
+def _enter(
+    columns: dict[str, Column],
+    at: int,
+    values: Mapping[str, Any],
+    fresh: Callable[[str, Any], Column],
+) -> None:
     """Writes an environment's row; a column is created for the first value in it."""
     for name, value in values.items():
         if name not in columns:

@@ -6,13 +6,28 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, TypedDict
 
-from setpiece._callbacks import Callbacks, EndFunction, Ends, RewardFunction, Rewards, copied, read_ends, read_rewards
+from setpiece._callbacks import (
+    Callbacks,
+    EndFunction,
+    Ends,
+    RewardFunction,
+    Rewards,
+    copied,
+    read_ends,
+    read_rewards,
+)
 from setpiece._casting import behaviors, revivable
 from setpiece._errors import ParameterError
 from setpiece._opponents import Opponent, native_action_set
 from setpiece._options import ParamValue, check_flag, check_number, check_params
 from setpiece._seats import Seats
-from setpiece._spaces import check_action_set, check_observation, check_scale, check_size, check_stack
+from setpiece._spaces import (
+    check_action_set,
+    check_observation,
+    check_scale,
+    check_size,
+    check_stack,
+)
 
 RENDER_MODES = ("ansi",)
 
@@ -93,7 +108,9 @@ class EnvOptions:
         given = arguments.get
         render_mode = given("render_mode")
         if render_mode is not None and render_mode not in RENDER_MODES:
-            raise ParameterError(f"no render mode `{render_mode}`; there is `ansi`", name="render_mode")
+            raise ParameterError(
+                f"no render mode `{render_mode}`; there is `ansi`", name="render_mode"
+            )
         reward_names, reward_functions = read_rewards(given("rewards"))
         ends = read_ends(given("ends"))
         observation = check_observation(given("observation", "simple115v2"))
@@ -139,4 +156,6 @@ class EnvOptions:
 
         Raises `CallbackError` for a function that can't be copied.
         """
-        return replace(self, reward_functions=copied(self.reward_functions, memo), ends=copied(self.ends, memo))
+        return replace(
+            self, reward_functions=copied(self.reward_functions, memo), ends=copied(self.ends, memo)
+        )

@@ -33,7 +33,13 @@ from setpiece._options import (
 from setpiece._record import Record, When, read_record, write
 from setpiece._reload import Reload, Watcher, check_watch
 from setpiece._source import Source
-from setpiece._spaces import Layout, check_observation, check_scale, observation_layout, observation_space
+from setpiece._spaces import (
+    Layout,
+    check_observation,
+    check_scale,
+    observation_layout,
+    observation_space,
+)
 from setpiece._state import state_space
 from setpiece._turn import Turn, one_thread
 
@@ -105,10 +111,20 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         options = EnvOptions.read(arguments)
         check_watch(watch)
         if watch and options.scripted:
-            raise ParameterError("a watched file says itself who plays: write it there", name="watch")
+            raise ParameterError(
+                "a watched file says itself who plays: write it there", name="watch"
+            )
         self._record = read_record(record, record_when)
-        self._watcher = Watcher(scenario, watch, on_reload, allow_outside=options.allow_outside) if watch else None
-        found = self._watcher.scenario if self._watcher else scripted_scenario(scenario, options, options.params)
+        self._watcher = (
+            Watcher(scenario, watch, on_reload, allow_outside=options.allow_outside)
+            if watch
+            else None
+        )
+        found = (
+            self._watcher.scenario
+            if self._watcher
+            else scripted_scenario(scenario, options, options.params)
+        )
         self._set_up(found, options)
 
     def _set_up(self, scenario: Scenario, options: EnvOptions) -> None:
@@ -119,16 +135,24 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         # fixed.
         self._same_agents = False
         self._enter(self._ready(scenario))
-        self.action_space, self.observation_space = self._match.action_space, self._match.observation_space
+        self.action_space, self.observation_space = (
+            self._match.action_space,
+            self._match.observation_space,
+        )
         if self._callbacks is not None and not self.agents:
-            raise ParameterError("rewards and endings in Python judge an agent's step, and there is none", name="left")
+            raise ParameterError(
+                "rewards and endings in Python judge an agent's step, and there is none",
+                name="left",
+            )
         self._seed: int | None = None
         self._index = 0
         self._params: dict[str, ParamValue] = {}
         self._playing = False
         self._turn = Turn()
 
-    def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+    def reset(
+        self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
         """Draws a new start and returns its observation and `info`.
 
         - `seed`: 0..2**64-1; starts a new series of episodes at index 0. Without it the index
@@ -170,10 +194,14 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """
         with self._turn:
             if not self._playing:
-                raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+                raise gymnasium.error.ResetNeeded(
+                    "call `reset` before `step`: no episode is being played"
+                )
             try:
                 if self._watcher is not None and self._watcher.at_once:
-                    self._take_over(self._watcher, *self._watcher.at_step(self._match, self._options.params))
+                    self._take_over(
+                        self._watcher, *self._watcher.at_step(self._match, self._options.params)
+                    )
                 match, table, given = self._match, self._match.table, action
                 if table is not None:
                     action = table.actions(action, self.look)
@@ -298,7 +326,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         scale = check_scale(scale, kind)
         with one_thread:
             if self._native.episode is None:
-                raise gymnasium.error.ResetNeeded("call `reset` before `look`: there is nothing to be seen yet")
+                raise gymnasium.error.ResetNeeded(
+                    "call `reset` before `look`: there is nothing to be seen yet"
+                )
             return self._native.look(kind, scale)
 
     def clone(self) -> FootballEnv:
@@ -380,7 +410,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def _begun(self, seed: int | None, wanted: ResetOptions) -> tuple[Any, dict[str, Any]]:
         """Begins an episode: see `reset`."""
-        switched = None if wanted.scenario is None else self._switched(wanted.scenario, wanted.params)
+        switched = (
+            None if wanted.scenario is None else self._switched(wanted.scenario, wanted.params)
+        )
         if seed is None and self._seed is None:
             seed = self._options.seed
         if seed is not None:
@@ -420,14 +452,23 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return observation, info
 
     def _rehearse(
-        self, switched: Match | None, seed: int, episode: int, params: dict[str, ParamValue], snapshot: bytes | None
+        self,
+        switched: Match | None,
+        seed: int,
+        episode: int,
+        params: dict[str, ParamValue],
+        snapshot: bytes | None,
     ) -> None:
         """Raises what a `reset` is rejected for, before it affects the running episode.
 
         A native `reset` that fails has already dropped the running episode, and may have bound the
         parameters.
         """
-        native = _native.Environment(self.scenario, self._options) if switched is None else switched.native
+        native = (
+            _native.Environment(self.scenario, self._options)
+            if switched is None
+            else switched.native
+        )
         # These aren't rejections: they would be raised again, and end the episode.
         with one_thread, suppress(DrawError, ScriptError):
             _, info = native.reset(seed, episode, params, snapshot)
@@ -534,12 +575,15 @@ class Seats:
         return {agent.id for agent, gone in zip(native.agents, native.gone, strict=True) if gone}
 
     def refuse(self, why: str) -> NoReturn:
-        """Raises Gymnasium's `ResetNeeded`; of a closed environment, or in the middle of a step, the error for that."""
+        """Raises Gymnasium's `ResetNeeded`.
+
+        A closed environment, or one in the middle of a step, has an error of its own.
+        """
         with self._env._turn:
             raise gymnasium.error.ResetNeeded(why)
 
     def truncate(self, label: str, info: dict[str, Any]) -> None:
-        """Ends the episode by a limit of the caller's, and adds the outcome to the `info` of its last step."""
+        """Ends the episode by the caller's limit; adds the outcome to the last step's `info`."""
         env = self._env
         info.update(env._match.end(label, truncated=True))
         if env._callbacks is not None:

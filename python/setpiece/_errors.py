@@ -30,7 +30,11 @@ class Diagnostic:
 
     def __str__(self) -> str:
         """Returns the problem on one line: place, code and message."""
-        place = f"{self.labels[0].file}:{self.labels[0].line}:{self.labels[0].column}: " if self.labels else ""
+        place = (
+            f"{self.labels[0].file}:{self.labels[0].line}:{self.labels[0].column}: "
+            if self.labels
+            else ""
+        )
         return f"{place}{self.code}: {self.message}"
 
 
@@ -55,7 +59,9 @@ class CompileError(SetpieceError):
 
     diagnostics: list[Diagnostic]
 
-    def __init__(self, report: str, *, diagnostics: list[Diagnostic] | None = None, code: str | None = None) -> None:
+    def __init__(
+        self, report: str, *, diagnostics: list[Diagnostic] | None = None, code: str | None = None
+    ) -> None:
         super().__init__(report, code=code)
         self.diagnostics = diagnostics or []
 
@@ -68,7 +74,9 @@ class FileError(SetpieceError, OSError):
 
     path: str
 
-    def __init__(self, message: str, *, path: str = "", code: str | None = None, help: str | None = None) -> None:
+    def __init__(
+        self, message: str, *, path: str = "", code: str | None = None, help: str | None = None
+    ) -> None:
         super().__init__(message, code=code, help=help)
         self.path = path
 
@@ -78,7 +86,9 @@ class UnknownScenarioError(SetpieceError, LookupError):
 
     name: str
 
-    def __init__(self, message: str, *, name: str = "", code: str | None = None, help: str | None = None) -> None:
+    def __init__(
+        self, message: str, *, name: str = "", code: str | None = None, help: str | None = None
+    ) -> None:
         super().__init__(message, code=code, help=help)
         self.name = name
 
@@ -92,7 +102,9 @@ class ParameterError(SetpieceError, ValueError):
 
     name: str
 
-    def __init__(self, message: str, *, name: str = "", code: str | None = None, help: str | None = None) -> None:
+    def __init__(
+        self, message: str, *, name: str = "", code: str | None = None, help: str | None = None
+    ) -> None:
         super().__init__(message, code=code, help=help)
         self.name = name
 
@@ -216,7 +228,9 @@ class GrfScriptError(SetpieceError, RuntimeError):
 
     path: str
 
-    def __init__(self, message: str, *, path: str = "", code: str | None = None, help: str | None = None) -> None:
+    def __init__(
+        self, message: str, *, path: str = "", code: str | None = None, help: str | None = None
+    ) -> None:
         super().__init__(message, code=code, help=help)
         self.path = path
 
@@ -226,7 +240,9 @@ class MissingPackageError(SetpieceError, ImportError):
 
     name: str
 
-    def __init__(self, message: str, *, name: str = "", code: str | None = None, help: str | None = None) -> None:
+    def __init__(
+        self, message: str, *, name: str = "", code: str | None = None, help: str | None = None
+    ) -> None:
         super().__init__(message, code=code, help=help)
         self.name = name
 
@@ -236,6 +252,8 @@ class UnavailableError(SetpieceError, NotImplementedError):
 
     name: str
 
-    def __init__(self, message: str, *, name: str = "", code: str | None = None, help: str | None = None) -> None:
+    def __init__(
+        self, message: str, *, name: str = "", code: str | None = None, help: str | None = None
+    ) -> None:
         super().__init__(message, code=code, help=help)
         self.name = name

@@ -132,6 +132,8 @@ def make(
     env = FootballEnv(**arguments)
     # So that `env.spec.make()` makes another one, like environments that Gymnasium made.
     env.spec = EnvSpec(
-        id=f"setpiece/{env.scenario.name}-v0", entry_point="setpiece._environment:FootballEnv", kwargs=arguments
+        id=f"setpiece/{env.scenario.name}-v0",
+        entry_point="setpiece._environment:FootballEnv",
+        kwargs=arguments,
     )
     return env

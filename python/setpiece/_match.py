@@ -67,7 +67,10 @@ class Match:
             return f"the agents would change from {', '.join(before.agents)} to {', '.join(self.agents)}"
         if players and self.native.players != before.native.players:
             return f"the number of players would change from {before.native.players} to {self.native.players}"
-        return next((f"the {name} {why}" for name, pair in spaces_of.items() if (why := difference(*pair))), None)
+        return next(
+            (f"the {name} {why}" for name, pair in spaces_of.items() if (why := difference(*pair))),
+            None,
+        )
 
 
 def match_of(scenario: Scenario, options: EnvOptions) -> Match:
@@ -79,5 +82,8 @@ def match_of(scenario: Scenario, options: EnvOptions) -> Match:
         agents = [agents[at] for at in table.mine]
         for kind in table.observations:
             native.look(*kind)
-    spaces_of = observation_space(native, options.observation, agents), action_space(len(agents), options.action_set)
+    spaces_of = (
+        observation_space(native, options.observation, agents),
+        action_space(len(agents), options.action_set),
+    )
     return Match(scenario, scenario.digest, native, table, agents, *spaces_of)

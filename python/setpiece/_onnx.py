@@ -35,20 +35,28 @@ def onnx_policy(path: str | PathLike[str]) -> Callable[[NDArray[Any]], NDArray[n
     options = runtime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     try:
-        session = runtime.InferenceSession(fspath(path), options, providers=["CPUExecutionProvider"])
+        session = runtime.InferenceSession(
+            fspath(path), options, providers=["CPUExecutionProvider"]
+        )
     except Exception as error:
         raise FormatError(f"`{fspath(path)}` is no ONNX model that can be run: {error}") from error
     inputs = session.get_inputs()
     if len(inputs) != 1 or inputs[0].type not in TYPES:
         found = ", ".join(f"{one.name}: {one.type}" for one in inputs)
-        raise FormatError(f"`{fspath(path)}` has the inputs {found}; expected one: {', '.join(TYPES)}")
+        raise FormatError(
+            f"`{fspath(path)}` has the inputs {found}; expected one: {', '.join(TYPES)}"
+        )
     name, dtype, alone = inputs[0].name, TYPES[inputs[0].type], inputs[0].shape[:1] == [1]
 
     def play(observation: NDArray[Any]) -> NDArray[np.int64]:
         batches = observation[:, None] if alone else [observation]
-        logits = np.concatenate([session.run(None, {name: np.asarray(one, dtype)})[0] for one in batches])
+        logits = np.concatenate(
+            [session.run(None, {name: np.asarray(one, dtype)})[0] for one in batches]
+        )
         if logits.ndim != 2 or logits.shape[1] not in ACTION_COUNTS:
-            raise FormatError(f"`{fspath(path)}` returns {logits.shape}; expected logits (batch, 19) or (batch, 20)")
+            raise FormatError(
+                f"`{fspath(path)}` returns {logits.shape}; expected logits (batch, 19) or (batch, 20)"
+            )
         actions: NDArray[np.int64] = logits.argmax(axis=1)
         return actions
 

@@ -59,7 +59,8 @@ def native_action_set(action_set: str, opponents: Mapping[str, Opponent] | None)
     """Returns the action set of all agents: opponents may always hand a step over to the bot."""
     if opponents is not None and action_set == "continuous":
         raise ParameterError(
-            "with opponents the caller must press keys: continuous actions are for all agents", name="action_set"
+            "with opponents the caller must press keys: continuous actions are for all agents",
+            name="action_set",
         )
     return "v2" if opponents is not None and action_set == "default" else action_set
 
@@ -96,7 +97,9 @@ class Table:
     seen: Any
     """What all agents were shown last; opponents without their own observation see this."""
 
-    def __init__(self, agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent], n_actions: int) -> None:
+    def __init__(
+        self, agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent], n_actions: int
+    ) -> None:
         self.n_agents, self.n_actions = len(agents), n_actions
         owner = _owners(agents, read_opponents(opponents))
         self.mine = [at for at in range(self.n_agents) if at not in owner]
@@ -110,7 +113,9 @@ class Table:
             ids = tuple(agents[slot].id for slot in at)
             teams = {agents[slot].team for slot in at}
             side = SIDES[teams.pop()] if len(teams) == 1 else None
-            self.seats.append(Seat(ids, at, Picker(self.n_agents, at), policy, _function(policy), side))
+            self.seats.append(
+                Seat(ids, at, Picker(self.n_agents, at), policy, _function(policy), side)
+            )
         self.seen = None
 
     @property
@@ -150,7 +155,9 @@ class Table:
             kind = seat.look
             if kind is not None and kind not in looks:
                 looks[kind] = look(*kind)
-            for at, one in zip(seat.at, ask(seat, seat.pick(looks[kind]), len(seat.at)), strict=True):
+            for at, one in zip(
+                seat.at, ask(seat, seat.pick(looks[kind]), len(seat.at)), strict=True
+            ):
                 all_actions[at] = one
         return all_actions
 
@@ -198,7 +205,9 @@ def _asked(seat: Seat, agents: tuple[str, ...], seen: Any) -> Any:
         return seat.play(seen)
     except Exception as error:
         why = f"failed: {type(error).__name__}: {error}"
-        raise OpponentError(f"the opponent {_of(agents)} {why}", slots=seat.agents, side=seat.side) from error
+        raise OpponentError(
+            f"the opponent {_of(agents)} {why}", slots=seat.agents, side=seat.side
+        ) from error
 
 
 def _listed(actions: NDArray[np.int64]) -> list[int]:
@@ -222,7 +231,9 @@ def read_opponents(opponents: Mapping[str, Opponent] | None) -> Mapping[str, Opp
     if opponents is None:
         return {}
     if not isinstance(opponents, Mapping):
-        raise ParameterError(f"expected `opponents` as a mapping, found `{opponents!r}`", name="opponents")
+        raise ParameterError(
+            f"expected `opponents` as a mapping, found `{opponents!r}`", name="opponents"
+        )
     return opponents
 
 
@@ -232,7 +243,11 @@ def _owners(agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent]) -> d
     owner: dict[int, str] = {}
     for who, opponent in opponents.items():
         if who in SIDES:
-            at = [slot for slot, agent in enumerate(agents) if SIDES[agent.team] == who and agent.id not in opponents]
+            at = [
+                slot
+                for slot, agent in enumerate(agents)
+                if SIDES[agent.team] == who and agent.id not in opponents
+            ]
             if not any(SIDES[agent.team] == who for agent in agents) and not is_word(opponent):
                 raise ParameterError(
                     f"the {who} side has no agent that an opponent could play",

@@ -18,5 +18,7 @@ def need(module: str, extra: str, what: str) -> ModuleType:
             raise
         package = module.split(".")[0]
         raise MissingPackageError(
-            f"{what} needs the package `{package}`", name=package, help=f"pip install 'setpiece[{extra}]'"
+            f"{what} needs the package `{package}`",
+            name=package,
+            help=f"pip install 'setpiece[{extra}]'",
         ) from None

@@ -48,7 +48,9 @@ def check_keys(options: Mapping[str, Any] | None, known: tuple[str, ...]) -> Map
     """Returns the options of a `reset`, or raises `ParameterError` for an unknown one."""
     options = {} if options is None else options
     if not isinstance(options, Mapping):
-        raise ParameterError(f"expected `options` as a mapping, found `{options!r}`", name="options")
+        raise ParameterError(
+            f"expected `options` as a mapping, found `{options!r}`", name="options"
+        )
     for key in options:
         if key not in known:
             raise ParameterError(
@@ -73,7 +75,9 @@ def check_number(name: str, value: object) -> int:
             raise TypeError
         number = index(value)  # type: ignore[arg-type]
     except TypeError:
-        raise ParameterError(f"expected an integer as `{name}`, found `{value!r}`", name=name) from None
+        raise ParameterError(
+            f"expected an integer as `{name}`, found `{value!r}`", name=name
+        ) from None
     if not 0 <= number <= NUMBER_MAX:
         raise ParameterError(f"`{name}` is {number}, outside 0..2**64-1", name=name)
     return number
@@ -108,4 +112,6 @@ def check_snapshot(snapshot: object) -> bytes:
     """Returns the bytes of a snapshot, or raises `ParameterError`."""
     if isinstance(snapshot, bytes | bytearray | memoryview):
         return bytes(snapshot)
-    raise ParameterError(f"expected a snapshot as bytes, found `{type(snapshot).__name__}`", name="snapshot")
+    raise ParameterError(
+        f"expected a snapshot as bytes, found `{type(snapshot).__name__}`", name="snapshot"
+    )

@@ -31,7 +31,9 @@ STANDS = np.array([0, 0, -1, 0], np.float32)
 SWITCHING = re.compile(r"(left|right)_\d+")
 """The id of an agent that changes players."""
 
-Step = tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]]
+Step = tuple[
+    dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]
+]
 
 
 class ParallelFootballEnv(ParallelEnv[str, Any, int]):
@@ -46,11 +48,15 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
     render_mode: str | None
     state_space: spaces.Box
 
-    def __init__(self, env: FootballEnv, max_cycles: int | None = None, record: Record | None = None) -> None:
+    def __init__(
+        self, env: FootballEnv, max_cycles: int | None = None, record: Record | None = None
+    ) -> None:
         """Takes an environment with fixed agents, and the folder of its recordings."""
         if not env.agents:
             raise ParameterError(
-                f"`{env.scenario.name}` leaves the caller no agent", name="left", help="seat some: `left='all'`"
+                f"`{env.scenario.name}` leaves the caller no agent",
+                name="left",
+                help="seat some: `left='all'`",
             )
         for slot in env.slots:
             if SWITCHING.fullmatch(slot.id):
@@ -60,22 +66,32 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
                     help='make it with `switching="fixed"`',
                 )
         if max_cycles is not None and not integers(max_cycles, (), 2**31):
-            raise ParameterError(f"`max_cycles` is {max_cycles!r}; expected a count of steps", name="max_cycles")
+            raise ParameterError(
+                f"`max_cycles` is {max_cycles!r}; expected a count of steps", name="max_cycles"
+            )
         self.env = env
         self._seats = env.seats()
         self.max_cycles = max_cycles
-        self.metadata = {**env.metadata, "name": f"setpiece/{env.scenario.name}-v0", "is_parallelizable": True}
+        self.metadata = {
+            **env.metadata,
+            "name": f"setpiece/{env.scenario.name}-v0",
+            "is_parallelizable": True,
+        }
         self.render_mode = env.render_mode
         self.possible_agents = list(env.agents)
         self.agents = []
         self._n_actions = ACTION_SETS[env.action_set]
-        self.observation_spaces = {agent: self._seats.spaces[agent] for agent in self.possible_agents}
+        self.observation_spaces = {
+            agent: self._seats.spaces[agent] for agent in self.possible_agents
+        }
         self.action_spaces: dict[str, spaces.Space[Any]] = {
             agent: one_action_space(env.action_set) for agent in self.possible_agents
         }
         self.state_space = self._seats.state_space
         n_agents = len(self.possible_agents)
-        self._pickers = {agent: Picker(n_agents, at) for at, agent in enumerate(self.possible_agents)}
+        self._pickers = {
+            agent: Picker(n_agents, at) for at, agent in enumerate(self.possible_agents)
+        }
         self._cycles = 0
         # Recorded here, because an episode also ends with `max_cycles`, or when all have been sent
         # off.
@@ -131,7 +147,11 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         acting = self.agents
         observation, reward, terminated, truncated, info = self.env.step(self._joined(actions))
         self._cycles += 1
-        if self.max_cycles is not None and self._cycles >= self.max_cycles and not (terminated or truncated):
+        if (
+            self.max_cycles is not None
+            and self._cycles >= self.max_cycles
+            and not (terminated or truncated)
+        ):
             truncated = True
             self._seats.truncate("max_cycles", info)
         infos = self._infos(info, acting)
@@ -185,7 +205,9 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
             help=similar(agent, self.possible_agents),
         )
 
-    def _begun(self, observation: Any, info: dict[str, Any]) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+    def _begun(
+        self, observation: Any, info: dict[str, Any]
+    ) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
         """The result of `reset` and `restore`.
 
         An episode from a snapshot may begin without some player, or at its end.
@@ -200,7 +222,9 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         return {agent: self._pickers[agent](value) for agent in agents}
 
     def _infos(self, info: dict[str, Any], agents: list[str]) -> dict[str, dict[str, Any]]:
-        infos = dict(zip(self.possible_agents, split_info(info, len(self.possible_agents)), strict=True))
+        infos = dict(
+            zip(self.possible_agents, split_info(info, len(self.possible_agents)), strict=True)
+        )
         return {agent: infos[agent] for agent in agents}
 
     def _gone(self) -> set[str]:
@@ -235,7 +259,9 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         for agent in self.possible_agents:
             row = array_of(actions.get(agent, STANDS))
             if row is None or row.shape != (4,) or row.dtype.kind not in "fiu":
-                raise ActionError(f"expected four numbers for `{agent}`, found `{actions[agent]!r}`")
+                raise ActionError(
+                    f"expected four numbers for `{agent}`, found `{actions[agent]!r}`"
+                )
             rows.append(row.astype(np.float32))
         return rows[0] if len(rows) == 1 else np.stack(rows)
 
@@ -243,5 +269,7 @@ class ParallelFootballEnv(ParallelEnv[str, Any, int]):
         """Reads one agent's action; the error names the agent."""
         read = integers(action, (), self._n_actions)
         if read is None:
-            raise ActionError(f"expected an integer in 0..{self._n_actions - 1} for `{agent}`, found `{action!r}`")
+            raise ActionError(
+                f"expected an integer in 0..{self._n_actions - 1} for `{agent}`, found `{action!r}`"
+            )
         return int(read)

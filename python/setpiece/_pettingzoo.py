@@ -105,10 +105,14 @@ def register_pettingzoo() -> None:
     pettingzoo = need("pettingzoo", "pettingzoo", "`register_pettingzoo`")
     if not hasattr(pettingzoo, "parallel_registry"):
         raise MissingPackageError(
-            "this PettingZoo has no registry", name="pettingzoo", help="pip install 'pettingzoo>=1.27'"
+            "this PettingZoo has no registry",
+            name="pettingzoo",
+            help="pip install 'pettingzoo>=1.27'",
         )
     for name in _library.list():
         env_id = f"{_library.NAMESPACE}/{name}-v0"
         if env_id not in pettingzoo.parallel_registry:
             kwargs = {"scenario": name.name}
-            pettingzoo.register("parallel", env_id, entry_point="setpiece._pettingzoo:parallel_env", kwargs=kwargs)
+            pettingzoo.register(
+                "parallel", env_id, entry_point="setpiece._pettingzoo:parallel_env", kwargs=kwargs
+            )

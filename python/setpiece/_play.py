@@ -95,9 +95,14 @@ def play(
     True
     """
     if on_error not in ("raise", "lose"):
-        raise ParameterError(f"`on_error` is {on_error!r}; it can be 'raise' or 'lose'", name="on_error")
+        raise ParameterError(
+            f"`on_error` is {on_error!r}; it can be 'raise' or 'lose'", name="on_error"
+        )
     clock = _Clock()
-    agents = {side: _opponent(agent, clock) for side, agent in zip(SIDES, (left_agent, right_agent), strict=True)}
+    agents = {
+        side: _opponent(agent, clock)
+        for side, agent in zip(SIDES, (left_agent, right_agent), strict=True)
+    }
     options = EnvOptions.read({"opponents": agents})
     chosen = scripted_scenario(scenario, options, {})
     seated = {agent.team for agent in FootballEnv(chosen, left=left, right=right).slots}
@@ -108,7 +113,13 @@ def play(
     elif right is None and 1 not in seated:
         right = 1
     env = FootballEnv(
-        chosen, left=left, right=right, observation="raw", params=params, rewards=rewards, action_set="v2"
+        chosen,
+        left=left,
+        right=right,
+        observation="raw",
+        params=params,
+        rewards=rewards,
+        action_set="v2",
     )
     table = Table(env.slots, options.opponents or {}, ACTION_SETS["v2"])
     return _played(env, table, seed, clock, on_error)
@@ -134,7 +145,9 @@ def _played(env: FootballEnv, table: Table, seed: int, clock: _Clock, on_error: 
                 raise
             errors[error.side] = error
         else:
-            observation, reward, _, _, info = env.step(actions[-1] if len(actions[-1]) > 1 else actions[-1][0])
+            observation, reward, _, _, info = env.step(
+                actions[-1] if len(actions[-1]) > 1 else actions[-1][0]
+            )
             paid += reward
             clock.steps += 1
     sides = (paid[[agent.team == team for agent in env.slots]] for team in (0, 1))
@@ -154,7 +167,9 @@ def _played(env: FootballEnv, table: Table, seed: int, clock: _Clock, on_error: 
     )
 
 
-def _winner(score: tuple[int, int], errors: Mapping[str, OpponentError]) -> Literal["left", "right"] | None:
+def _winner(
+    score: tuple[int, int], errors: Mapping[str, OpponentError]
+) -> Literal["left", "right"] | None:
     if errors:
         return "right" if "left" in errors else "left"
     if score[0] == score[1]:
@@ -173,7 +188,9 @@ def _opponent(agent: Agent, clock: _Clock) -> Opponent:
 
     def act(raws: Sequence[dict[str, Any]]) -> Any:
         seen = [{key: _jsonable(value) for key, value in raw.items()} for raw in raws]
-        given = agent(KaggleObservation(players_raw=seen, controlled_players=len(seen), step=clock.steps))
+        given = agent(
+            KaggleObservation(players_raw=seen, controlled_players=len(seen), step=clock.steps)
+        )
         return [given] if np.ndim(given) == 0 else given
 
     return Policy(act, observation="raw")

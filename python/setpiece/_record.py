@@ -24,7 +24,9 @@ def read_record(folder: str | PathLike[str] | None, when: When) -> Record | None
     if folder is not None:
         return Record(folder, when)
     if when != "always":
-        raise ParameterError(f"`record_when={when!r}` needs a folder: `record=…`", name="record_when")
+        raise ParameterError(
+            f"`record_when={when!r}` needs a folder: `record=…`", name="record_when"
+        )
     return None
 
 
@@ -35,7 +37,8 @@ class Record:
         every = isinstance(when, int | np.integer) and not isinstance(when, bool) and when >= 1
         if not every and when not in ("always", "goal"):
             raise ParameterError(
-                f"`record_when` is {when!r}; it can be 'always', 'goal' or a count", name="record_when"
+                f"`record_when` is {when!r}; it can be 'always', 'goal' or a count",
+                name="record_when",
             )
         self._folder, self._when = check_path("record", folder), when
         # Now, so that an unwritable folder is reported before an episode is played.

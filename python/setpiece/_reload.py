@@ -48,14 +48,18 @@ class Watcher:
         allow_outside: bool,
     ) -> None:
         if isinstance(source, Scenario) or text_of(source) is not None:
-            raise ParameterError("a `Scenario`, a text or a dict has no file to watch: give its path", name="watch")
+            raise ParameterError(
+                "a `Scenario`, a text or a dict has no file to watch: give its path", name="watch"
+            )
         self._live = Live(path_of(source), allow_outside=allow_outside)
         self._on_reload = on_reload
         self._waiting: Scenario | None = None
         self.scenario, self.last = self._live.scenario, None
         self.at_once = watch == "now"
 
-    def at_reset(self, match: Match, ready: Callable[[Scenario], Match]) -> tuple[Match, Reload | None]:
+    def at_reset(
+        self, match: Match, ready: Callable[[Scenario], Match]
+    ) -> tuple[Match, Reload | None]:
         """Returns the match to play from now on, changed or given, and what to report."""
         fresh, broken = self._changed()
         if fresh is None:
@@ -64,13 +68,17 @@ class Watcher:
         try:
             new = ready(fresh)
         except SetpieceError as error:
-            return match, Reload("held back", fresh, error, f"no environment can be made of it: {error}")
+            return match, Reload(
+                "held back", fresh, error, f"no environment can be made of it: {error}"
+            )
         change = new.change(match, agents=True, players=False)
         if change is not None:
             return match, Reload("held back", fresh, None, change)
         return new, Reload("applied", fresh, None, f"`{fresh.name}` is played from this episode on")
 
-    def at_step(self, match: Match, params: Mapping[str, ParamValue]) -> tuple[Match, Reload | None]:
+    def at_step(
+        self, match: Match, params: Mapping[str, ParamValue]
+    ) -> tuple[Match, Reload | None]:
         """Applies changed scripts at once; other changes wait for a reset.
 
         Returns the match to play and what to report.
@@ -87,7 +95,9 @@ class Watcher:
             self._waiting = fresh
             return match, None
         new = replace(match, scenario=scenario, digest=scenario.digest)
-        return new, Reload("applied", fresh, None, f"the scripts of `{fresh.name}` are run from this step on")
+        return new, Reload(
+            "applied", fresh, None, f"the scripts of `{fresh.name}` are run from this step on"
+        )
 
     def tell(self, reload: Reload) -> None:
         """Reports a change, applied or not; raises `CallbackError` if `on_reload` fails."""

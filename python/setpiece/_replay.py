@@ -91,7 +91,11 @@ class Replay:
             self._recorded = _native.Replay(self.path)
             self.scenario = self._recorded.scenario()
             self.agents = tuple(self._recorded.environment("raw").agents)
-        self.seed, self.index, self.length = self._recorded.seed, self._recorded.index, self._recorded.length
+        self.seed, self.index, self.length = (
+            self._recorded.seed,
+            self._recorded.index,
+            self._recorded.length,
+        )
         self.digest, self.action_set = self._recorded.digest, self._recorded.action_set
         self.snapshot = self._recorded.snapshot
 
@@ -150,7 +154,12 @@ class Replay:
         return info
 
     def _moment(
-        self, step: int, observed: Any, acts: list[_native.RecordedAct], rewards: list[float], info: dict[str, Any]
+        self,
+        step: int,
+        observed: Any,
+        acts: list[_native.RecordedAct],
+        rewards: list[float],
+        info: dict[str, Any],
     ) -> Moment:
         ids = [agent.id for agent in self.agents]
         return Moment(
@@ -168,7 +177,9 @@ class Replay:
         try:
             yield
         except (ReplayError, SnapshotError, ParameterError) as error:
-            raise ReplayError(f"`{self.path}`: {error.args[0]}", code=BAD_REPLAY, help=error.help) from error
+            raise ReplayError(
+                f"`{self.path}`: {error.args[0]}", code=BAD_REPLAY, help=error.help
+            ) from error
 
     def _differs(self, step: int) -> ReplayError:
         why = f"step {step}: this build diverges from the recording"

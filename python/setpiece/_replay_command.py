@@ -36,7 +36,9 @@ def main(arguments: Sequence[str]) -> int:
     formats = "; ".join(f"{name}: {what}" for name, what in FORMATS.items())
     parser.add_argument("--format", metavar="FORMAT", choices=FORMATS, default="text", help=formats)
     parser.add_argument("-o", "--output", metavar="OUT.dump", help="where a dump is written")
-    parser.add_argument("--color", metavar="WHEN", choices=COLOURS, help=f"{', '.join(COLOURS)}: colour the output")
+    parser.add_argument(
+        "--color", metavar="WHEN", choices=COLOURS, help=f"{', '.join(COLOURS)}: colour the output"
+    )
     try:
         parsed, others = parser.parse_known_args(arguments)
         if parsed.format == "grf" and others:

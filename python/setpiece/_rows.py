@@ -43,7 +43,9 @@ def pick_info(info: dict[str, Any], pick: Picker, n_agents: int, n_actions: int)
         picked["setpiece"] = {**info["setpiece"], "return": returns}
     if "records" in info and n_agents != 1:
         # Only what depends on the agent is a list.
-        picked["records"] = {k: pick(v) if isinstance(v, list) else v for k, v in info["records"].items()}
+        picked["records"] = {
+            k: pick(v) if isinstance(v, list) else v for k, v in info["records"].items()
+        }
     return picked
 
 
@@ -52,7 +54,10 @@ def split_info(info: dict[str, Any], n_agents: int) -> list[dict[str, Any]]:
     if n_agents == 1:
         return [info]
     paid = _split_terms(info["reward_terms"], n_agents)
-    infos = [{**info, "reward_terms": paid[at], "action_mask": info["action_mask"][at]} for at in range(n_agents)]
+    infos = [
+        {**info, "reward_terms": paid[at], "action_mask": info["action_mask"][at]}
+        for at in range(n_agents)
+    ]
     if "bot_action" in info:
         for one, action in zip(infos, info["bot_action"].tolist(), strict=True):
             one["bot_action"] = action
@@ -60,13 +65,17 @@ def split_info(info: dict[str, Any], n_agents: int) -> list[dict[str, Any]]:
         returns = _split_terms(info["setpiece"]["return"], n_agents)
         for at, one in enumerate(infos):
             one["setpiece"] = {**info["setpiece"], "return": returns[at]}
-            one["records"] = {k: v[at] if isinstance(v, list) else v for k, v in info["records"].items()}
+            one["records"] = {
+                k: v[at] if isinstance(v, list) else v for k, v in info["records"].items()
+            }
     return infos
 
 
 def _split_terms(terms: dict[str, Any], n_agents: int) -> list[dict[str, float]]:
     columns = [values.tolist() for values in terms.values()]
-    return [dict(zip(terms, [column[at] for column in columns], strict=True)) for at in range(n_agents)]
+    return [
+        dict(zip(terms, [column[at] for column in columns], strict=True)) for at in range(n_agents)
+    ]
 
 
 def _plain(value: Any) -> Any:

@@ -19,7 +19,11 @@ A string is written as in the language: `"lazy"`, `"3m/s"`, `"uniform(-0.1, 0.1)
 """
 
 Place = tuple[float | str, float | str] | tuple[float | str, float | str, Mapping[str, Value]] | str
-Player = tuple[str, float | str, float | str] | tuple[str, float | str, float | str, Mapping[str, Value]] | str
+Player = (
+    tuple[str, float | str, float | str]
+    | tuple[str, float | str, float | str, Mapping[str, Value]]
+    | str
+)
 
 DEFAULT_NAME = "from_dict"
 
@@ -119,8 +123,12 @@ def _teams(scenario: ScenarioDict) -> list[list[str]]:
     _check_keys(difficulty, SIDES, "difficulty")
     teams = []
     for side in SIDES:
-        players = [_player(player, f"{side}[{at}]") for at, player in enumerate(_list(scenario, side))]
-        level = [f"difficulty: {_value(difficulty[side], 'difficulty')}"] if side in difficulty else []
+        players = [
+            _player(player, f"{side}[{at}]") for at, player in enumerate(_list(scenario, side))
+        ]
+        level = (
+            [f"difficulty: {_value(difficulty[side], 'difficulty')}"] if side in difficulty else []
+        )
         lines = [f"        {line}" for line in [*level, *players]]
         if lines:
             teams.append([f"    team {side} {{", *lines, "    }"])
@@ -134,7 +142,10 @@ def _player(player: object, where: str) -> str:
         raise _wrong(where, "(role, x, y), (role, x, y, options) or words", player)
     options = dict(player[3]) if len(player) == 4 and isinstance(player[3], Mapping) else {}
     name = options.pop("name", None)
-    place = (*player[1:3], options if len(player) == 3 or isinstance(player[3], Mapping) else player[3])
+    place = (
+        *player[1:3],
+        options if len(player) == 3 or isinstance(player[3], Mapping) else player[3],
+    )
     who = "" if name is None else f"{_word(name, where)}: "
     return f"{who}{_word(player[0], where)} {_place(place, where)}"
 

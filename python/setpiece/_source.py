@@ -38,7 +38,9 @@ def text_of(source: Source) -> str | None:
     """Returns the text of a scenario given as a text or a dict; None for other forms."""
     if isinstance(source, Mapping):
         return pitch_text(source)
-    is_text = isinstance(source, str) and "{" in source and not source.endswith((".pitch", ".pitchc"))
+    is_text = (
+        isinstance(source, str) and "{" in source and not source.endswith((".pitch", ".pitchc"))
+    )
     return source if is_text and isinstance(source, str) else None
 
 
@@ -54,5 +56,6 @@ def path_of(source: object) -> str:
         if isinstance(path, str):
             return path
     raise ParameterError(
-        f"expected a scenario's name, path, text, dict, or a `Scenario`, found `{source!r}`", name="scenario"
+        f"expected a scenario's name, path, text, dict, or a `Scenario`, found `{source!r}`",
+        name="scenario",
     )

@@ -17,7 +17,15 @@ from setpiece._words import check_word
 COUNT_MAX = 2**32 - 1
 """The largest count of goals or steps: the engine counts in 32 bits."""
 
-OBSERVATIONS = ("simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm", "raw", "vector")
+OBSERVATIONS = (
+    "simple115v2",
+    "simple115v2+sticky",
+    "simple115",
+    "egocentric",
+    "smm",
+    "raw",
+    "vector",
+)
 
 UNSCALED = {
     "simple115": "what its columns hold depends on how many players there are",
@@ -80,7 +88,9 @@ def check_observation(name: object) -> str:
     """Returns the name of an observation, or raises `ParameterError`."""
     name = ALIASES.get(name, name) if isinstance(name, str) else name
     if isinstance(name, str) and name.startswith("pixels"):
-        raise UnavailableError("pixels are not in this version", name="observation", help="`smm` is a map of the pitch")
+        raise UnavailableError(
+            "pixels are not in this version", name="observation", help="`smm` is a map of the pitch"
+        )
     return check_word("observation", name, OBSERVATIONS)
 
 
@@ -91,8 +101,14 @@ def check_action_set(name: object) -> str:
 
 def check_stack(stack: object, observation: str) -> int:
     """Returns how many observations a stack has, or raises `ParameterError`."""
-    if isinstance(stack, bool) or not isinstance(stack, int | np.integer) or not 1 <= stack <= STACK_MAX:
-        raise ParameterError(f"`stack` is {stack!r}; it can be an integer in 1..{STACK_MAX}", name="stack")
+    if (
+        isinstance(stack, bool)
+        or not isinstance(stack, int | np.integer)
+        or not 1 <= stack <= STACK_MAX
+    ):
+        raise ParameterError(
+            f"`stack` is {stack!r}; it can be an integer in 1..{STACK_MAX}", name="stack"
+        )
     if stack > 1 and observation == "raw":
         raise ParameterError("raw observations are dicts, which can't be stacked", name="stack")
     return int(stack)
@@ -103,10 +119,15 @@ def check_size(size: object) -> tuple[int, int]:
     if (
         isinstance(size, Sequence)
         and len(size) == 2
-        and all(isinstance(n, int | np.integer) and not isinstance(n, bool) and 1 <= n <= SIZE_MAX for n in size)
+        and all(
+            isinstance(n, int | np.integer) and not isinstance(n, bool) and 1 <= n <= SIZE_MAX
+            for n in size
+        )
     ):
         return int(size[0]), int(size[1])
-    raise ParameterError(f"`size` is {size!r}; it can be (width, height), each in 1..{SIZE_MAX}", name="size")
+    raise ParameterError(
+        f"`size` is {size!r}; it can be (width, height), each in 1..{SIZE_MAX}", name="size"
+    )
 
 
 def check_scale(scale: object, observation: str) -> bool:
@@ -115,7 +136,9 @@ def check_scale(scale: object, observation: str) -> bool:
     if scale and observation in UNSCALED:
         scalable = "`, `".join(name for name in OBSERVATIONS if name not in UNSCALED)
         raise ParameterError(
-            f"`{observation}` can't be scaled: {UNSCALED[observation]}", name="scale", help=f"`{scalable}` can"
+            f"`{observation}` can't be scaled: {UNSCALED[observation]}",
+            name="scale",
+            help=f"`{scalable}` can",
         )
     return scale
 
@@ -134,7 +157,9 @@ def action_space(n_agents: int, action_set: str) -> spaces.Space[Any]:
     if n_agents == 1:
         return one
     if isinstance(one, spaces.Box):
-        return spaces.Box(np.tile(one.low, (n_agents, 1)), np.tile(one.high, (n_agents, 1)), dtype=np.float32)
+        return spaces.Box(
+            np.tile(one.low, (n_agents, 1)), np.tile(one.high, (n_agents, 1)), dtype=np.float32
+        )
     return spaces.MultiDiscrete(np.full(n_agents, one.n, np.int64))
 
 
@@ -151,12 +176,17 @@ def observation_space(
     if observation == "raw":
         parts = [one_observation_space(native, observation, agent.team) for agent in agents]
         return parts[0] if n_agents == 1 else spaces.Tuple(parts)
-    shape = tuple(native.observation_shape) if n_agents == 1 else (n_agents, *native.observation_shape)
+    shape = (
+        tuple(native.observation_shape) if n_agents == 1 else (n_agents, *native.observation_shape)
+    )
     bounds = native.bounds
     if bounds is None:
         return spaces.Box(0, 255, shape, np.uint8)
     # A stack repeats the bounds, and every agent has the same.
-    low, high = (np.tile(bound, (*shape[:-1], shape[-1] // len(bound))) for bound in (bounds.low, bounds.high))
+    low, high = (
+        np.tile(bound, (*shape[:-1], shape[-1] // len(bound)))
+        for bound in (bounds.low, bounds.high)
+    )
     return spaces.Box(low, high, dtype=np.float32)
 
 
@@ -164,8 +194,16 @@ def difference(before: spaces.Space[Any], after: spaces.Space[Any]) -> str | Non
     """Returns in words how a space would change; None if it stays the same."""
     if before == after:
         return None
-    if isinstance(before, spaces.Tuple) and isinstance(after, spaces.Tuple) and len(before) == len(after):
-        return next(why for pair in zip(before.spaces, after.spaces, strict=True) if (why := difference(*pair)))
+    if (
+        isinstance(before, spaces.Tuple)
+        and isinstance(after, spaces.Tuple)
+        and len(before) == len(after)
+    ):
+        return next(
+            why
+            for pair in zip(before.spaces, after.spaces, strict=True)
+            if (why := difference(*pair))
+        )
     if isinstance(before, spaces.Dict) and isinstance(after, spaces.Dict):
         # Raw observations have the same keys; only their shapes depend on the scenario.
         name = next(name for name in before if before[name] != after[name])
@@ -197,7 +235,11 @@ def observation_layout(native: Observing, observation: str, stack: int) -> Layou
     if observation == "raw":
         space = _raw_space(native.players, 0, native.held_actions)
         return tuple(
-            Key(name, *_typed(part), RAW_MEANINGS[name.removeprefix("left_team").removeprefix("right_team") or name])
+            Key(
+                name,
+                *_typed(part),
+                RAW_MEANINGS[name.removeprefix("left_team").removeprefix("right_team") or name],
+            )
             for name, part in space.items()
         )
     if observation == "smm":
@@ -208,7 +250,9 @@ def observation_layout(native: Observing, observation: str, stack: int) -> Layou
     width = blocks[-1].start + blocks[-1].length if blocks else 0
     if stack == 1:
         return tuple(blocks)
-    ago = [f", {n} step{'s' if n > 1 else ''} ago" if n else ", now" for n in range(stack - 1, -1, -1)]
+    ago = [
+        f", {n} step{'s' if n > 1 else ''} ago" if n else ", now" for n in range(stack - 1, -1, -1)
+    ]
     return tuple(
         block._replace(start=block.start + i * width, meaning=block.meaning + when)
         for i, when in enumerate(ago)
@@ -240,7 +284,9 @@ RAW_MEANINGS = {
 
 
 def _typed(space: spaces.Space[Any]) -> tuple[str, tuple[int, ...]]:
-    return ("int", ()) if isinstance(space, spaces.Discrete) else (str(space.dtype), space.shape or ())
+    return (
+        ("int", ()) if isinstance(space, spaces.Discrete) else (str(space.dtype), space.shape or ())
+    )
 
 
 def _raw_space(players: tuple[int, int], team: int, held_actions: int) -> spaces.Dict:
@@ -252,8 +298,12 @@ def _raw_space(players: tuple[int, int], team: int, held_actions: int) -> spaces
         return spaces.Box(-high, high, dtype=np.float64)
 
     parts: dict[str, spaces.Space[Any]] = {
-        "ball": spaces.Box(np.array([-2.0, -1.5, 0.0]), np.array([2.0, 1.5, 100.0]), dtype=np.float64),
-        "ball_direction": spaces.Box(np.array([-1.0, -1.0, -10.0]), np.array([1.0, 1.0, 10.0]), dtype=np.float64),
+        "ball": spaces.Box(
+            np.array([-2.0, -1.5, 0.0]), np.array([2.0, 1.5, 100.0]), dtype=np.float64
+        ),
+        "ball_direction": spaces.Box(
+            np.array([-1.0, -1.0, -10.0]), np.array([1.0, 1.0, 10.0]), dtype=np.float64
+        ),
         "ball_rotation": spaces.Box(-1.0, 1.0, (3,), dtype=np.float64),
         "ball_owned_team": spaces.Discrete(3, start=-1),
         "ball_owned_player": spaces.Discrete(12, start=-1),
@@ -264,7 +314,9 @@ def _raw_space(players: tuple[int, int], team: int, held_actions: int) -> spaces
         "steps_left": spaces.Box(-1, COUNT_MAX, (), dtype=np.int64),
         "game_mode": spaces.Discrete(7),
     }
-    for side, size in zip(("left_team", "right_team"), players if team == 0 else players[::-1], strict=True):
+    for side, size in zip(
+        ("left_team", "right_team"), players if team == 0 else players[::-1], strict=True
+    ):
         parts[side] = around(place, size)
         parts[f"{side}_direction"] = around(stride, size)
         parts[f"{side}_tired_factor"] = spaces.Box(0.0, 1.0, (size,), dtype=np.float64)

@@ -21,7 +21,13 @@ def state_space(players: tuple[int, int]) -> spaces.Box:
     n_players, n_modes = sum(players), len(GameMode)
     spin, count, time = 1.0, float(COUNT_MAX), COUNT_MAX / STEPS_UNIT
     player, flags, ball = [2.0, 1.5, 1.0, 1.0], [1.0] * 4, [1.0, 1.0, 10.0]
-    low = [*([-bound for bound in player] + [0.0] * 4) * n_players, -2.0, -1.5, 0.0, *(-bound for bound in ball)]
+    low = [
+        *([-bound for bound in player] + [0.0] * 4) * n_players,
+        -2.0,
+        -1.5,
+        0.0,
+        *(-bound for bound in ball),
+    ]
     high = [*(player + flags) * n_players, 2.0, 1.5, 100.0, *ball]
     bounds = [
         np.array(low + [-spin] * 3 + [0.0] * (n_modes + 3)),

@@ -25,7 +25,9 @@ class Turn:
 
     def __enter__(self) -> None:
         if self.closed:
-            raise gymnasium.error.ClosedEnvironmentError("the environment is closed: make another one")
+            raise gymnasium.error.ClosedEnvironmentError(
+                "the environment is closed: make another one"
+            )
         if self._taken:
             raise InUseError(
                 "this environment is in the middle of a step or reset: make one for each thread, and let no reward, "
@@ -46,10 +48,14 @@ class _OneThread:
     def __enter__(self) -> None:
         pass
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _trace: object) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, _trace: object
+    ) -> None:
         # The binding's message about a second thread.
         if kind is RuntimeError and "borrowed" in str(error):
-            raise InUseError("another thread is using this environment: make one for each thread") from None
+            raise InUseError(
+                "another thread is using this environment: make one for each thread"
+            ) from None
 
 
 one_thread = _OneThread()

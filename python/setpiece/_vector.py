@@ -68,7 +68,11 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
       `num_envs` single environments.
     """
 
-    metadata = {"render_modes": [*RENDER_MODES], "render_fps": 10, "autoreset_mode": AutoresetMode.NEXT_STEP}
+    metadata = {
+        "render_modes": [*RENDER_MODES],
+        "render_fps": 10,
+        "autoreset_mode": AutoresetMode.NEXT_STEP,
+    }
 
     def __init__(
         self,
@@ -92,12 +96,16 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self.render_mode = options.render_mode
         self.num_envs = _count("num_envs", num_envs, ENVS_MAX)
         threads = (
-            min(os.cpu_count() or 1, self.num_envs) if threads is None else _count("threads", threads, THREADS_MAX)
+            min(os.cpu_count() or 1, self.num_envs)
+            if threads is None
+            else _count("threads", threads, THREADS_MAX)
         )
         self.autoreset_mode = _mode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
         self._options = options
-        self.scenario = scripted_scenario(scenario, options, options.params).with_params(**options.params)
+        self.scenario = scripted_scenario(scenario, options, options.params).with_params(
+            **options.params
+        )
         self._batch = _native.Batch(
             self.scenario,
             self.num_envs,
@@ -118,10 +126,14 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         # The caller's only agent has no axis of its own; a contiguous range of agents needs no
         # copy.
         run = bool(mine) and mine == [*range(mine[0], mine[-1] + 1)]
-        self._pick: Any = mine[0] if len(mine) == 1 else slice(mine[0], mine[-1] + 1) if run else mine
+        self._pick: Any = (
+            mine[0] if len(mine) == 1 else slice(mine[0], mine[-1] + 1) if run else mine
+        )
         self._part = Picker(len(agents), mine[0] if len(mine) == 1 else mine)
         self.agents = tuple(agents[at].id for at in mine)
-        self.single_observation_space = observation_space(self._batch, options.observation, [agents[at] for at in mine])
+        self.single_observation_space = observation_space(
+            self._batch, options.observation, [agents[at] for at in mine]
+        )
         self.single_action_space = action_space(len(mine), options.action_set)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
@@ -135,7 +147,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self._terms = self._batch.terms
 
     def reset(
-        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: dict[str, Any] | None = None,
     ) -> tuple[Any, dict[str, Any]]:
         """Draws new starts and returns their observations and infos.
 
@@ -158,12 +173,16 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             with one_thread:
                 if params is not None:
                     self._batch.bind(params)
-                self._batch.reset(self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False)
+                self._batch.reset(
+                    self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False
+                )
             self._begun = True
             self._over &= ~mask
             return self._shown(), self._infos()
 
-    def step(self, actions: Any) -> tuple[Any, Any, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+    def step(
+        self, actions: Any
+    ) -> tuple[Any, Any, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Plays 100 ms of every match.
 
         Raises `ActionError` for actions of another shape or number and `OpponentError` if an
@@ -172,7 +191,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         """
         with self._turn:
             if not self._begun:
-                raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+                raise gymnasium.error.ResetNeeded(
+                    "call `reset` before `step`: no episode is being played"
+                )
             if self._over.any() and self.autoreset_mode == AutoresetMode.DISABLED:
                 at = int(np.flatnonzero(self._over)[0])
                 raise gymnasium.error.ResetNeeded(
@@ -221,7 +242,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             return self._crowd.actions(given, self._arrays.observations, self._look)
         actions = array_of(given)
         if actions is None:
-            raise ActionError(f"expected actions of shape {self.action_space.shape}, found `{given!r}`")
+            raise ActionError(
+                f"expected actions of shape {self.action_space.shape}, found `{given!r}`"
+            )
         return actions
 
     def _look(self, observation: str, scale: bool) -> list[Any]:
@@ -231,7 +254,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _begin_again(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> dict[str, Any]:
         """Begins the next episode where one has ended; the end of the last is in `final_obs`."""
-        final = {key: value.copy() if isinstance(value, np.ndarray) else value for key, value in infos.items()}
+        final = {
+            key: value.copy() if isinstance(value, np.ndarray) else value
+            for key, value in infos.items()
+        }
         final["reward_terms"] = {name: paid.copy() for name, paid in infos["reward_terms"].items()}
         last = np.full(self.num_envs, None, dtype=object)
         for at in np.flatnonzero(over):
@@ -240,7 +266,14 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             none = [None] * self.num_envs
             self._batch.reset(self._arrays, over.tolist(), none, none, True)
         fresh = self._infos()
-        fresh.update({"final_obs": last, "_final_obs": over.copy(), "final_info": final, "_final_info": over.copy()})
+        fresh.update(
+            {
+                "final_obs": last,
+                "_final_obs": over.copy(),
+                "final_info": final,
+                "_final_info": over.copy(),
+            }
+        )
         return fresh
 
     def _tell(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> None:
@@ -252,7 +285,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _infos(self) -> dict[str, Any]:
         marks = self._marks
-        terms = {name: self._of_agents(self._arrays.terms)[..., at].copy() for at, name in enumerate(self._terms)}
+        terms = {
+            name: self._of_agents(self._arrays.terms)[..., at].copy()
+            for at, name in enumerate(self._terms)
+        }
         return {
             "score": self._arrays.score.copy(),
             "_score": marks,
@@ -263,12 +299,20 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         }
 
     def _shown(self) -> Any:
-        shown = self._of_agents(self._arrays.observations) if isinstance(self._pick, list) else self._view
+        shown = (
+            self._of_agents(self._arrays.observations)
+            if isinstance(self._pick, list)
+            else self._view
+        )
         return shown.copy() if self._options.copy else shown
 
     def _outcomes(self) -> tuple[Any, NDArray[np.bool_], NDArray[np.bool_]]:
         arrays = self._arrays
-        return self._of_agents(arrays.rewards).copy(), arrays.terminated.copy(), arrays.truncated.copy()
+        return (
+            self._of_agents(arrays.rewards).copy(),
+            arrays.terminated.copy(),
+            arrays.truncated.copy(),
+        )
 
     def _of_agents(self, array: NDArray[Any]) -> NDArray[Any]:
         """The part of the caller's agents, without their axis if there is one agent."""
@@ -281,12 +325,20 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         mask = checked.get("reset_mask")
         if mask is None:
             mask = np.ones(self.num_envs, bool)
-        elif not isinstance(mask, np.ndarray) or mask.dtype != np.bool_ or mask.shape != (self.num_envs,):
-            raise ParameterError(f"`reset_mask` is an array of {self.num_envs} truth values", name="reset_mask")
+        elif (
+            not isinstance(mask, np.ndarray)
+            or mask.dtype != np.bool_
+            or mask.shape != (self.num_envs,)
+        ):
+            raise ParameterError(
+                f"`reset_mask` is an array of {self.num_envs} truth values", name="reset_mask"
+            )
         elif not mask.any():
             raise ParameterError("`reset_mask` marks no environment", name="reset_mask")
         elif not self._begun and not mask.all():
-            raise ParameterError("the first `reset` begins an episode of every environment", name="reset_mask")
+            raise ParameterError(
+                "the first `reset` begins an episode of every environment", name="reset_mask"
+            )
         episode = checked.get("episode")
         return (
             mask,
@@ -299,7 +351,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             return [None] * self.num_envs
         if isinstance(seed, list | tuple) or (isinstance(seed, np.ndarray) and seed.ndim > 0):
             if len(seed) != self.num_envs:
-                raise ParameterError(f"expected {self.num_envs} seeds, found {len(seed)}", name="seed")
+                raise ParameterError(
+                    f"expected {self.num_envs} seeds, found {len(seed)}", name="seed"
+                )
             return [None if one is None else check_number("seed", one) for one in seed]
         first = check_number("seed", seed)
         return [(first + at) % 2**64 for at in range(self.num_envs)]
@@ -380,7 +434,9 @@ def _count(name: str, value: object, most: int) -> int:
 
 def _mode(mode: object) -> AutoresetMode:
     for known in AutoresetMode:
-        if mode is known or (isinstance(mode, str) and mode.lower() in (known.name.lower(), known.value.lower())):
+        if mode is known or (
+            isinstance(mode, str) and mode.lower() in (known.name.lower(), known.value.lower())
+        ):
             return known
     names = "`, `".join(known.name for known in AutoresetMode)
     raise ParameterError(f"no autoreset mode `{mode}`; there are `{names}`", name="autoreset_mode")

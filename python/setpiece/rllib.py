@@ -23,7 +23,9 @@ from ray.tune import register_env  # noqa: E402
 
 __all__ = ["RllibFootballEnv", "register"]
 
-Step = tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]]
+Step = tuple[
+    dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]
+]
 
 
 class RllibFootballEnv(MultiAgentEnv):
@@ -38,7 +40,9 @@ class RllibFootballEnv(MultiAgentEnv):
         super().__init__()
         if "scenario" not in config:
             raise ParameterError(
-                "`env_config` names no scenario", name="env_config", help='env_config={"scenario": "academy_corner"}'
+                "`env_config` names no scenario",
+                name="env_config",
+                help='env_config={"scenario": "academy_corner"}',
             )
         self.env = parallel_env(**config)
         self.possible_agents = self.env.possible_agents

@@ -69,7 +69,9 @@ class Sb3VecEnv(VecEnv):
         """Begins an episode in every environment, with the seeds and options that were set."""
         options = self._options[0]
         if any(other != options for other in self._options):
-            raise ParameterError("environments of one batch share their reset options", name="options")
+            raise ParameterError(
+                "environments of one batch share their reset options", name="options"
+            )
         # One after the other, like the seeds of `seed` and of vector environments.
         observation, infos = self.envs.reset(seed=self._seeds[0], options=options or None)
         self._reset_seeds()
@@ -83,7 +85,9 @@ class Sb3VecEnv(VecEnv):
 
         Raises `ParameterError` for anything that isn't a seed; None takes a random one.
         """
-        seeds: Sequence[int | None] = super().seed(None if seed is None else check_number("seed", seed))
+        seeds: Sequence[int | None] = super().seed(
+            None if seed is None else check_number("seed", seed)
+        )
         return seeds
 
     def step_async(self, actions: Any) -> None:
@@ -116,7 +120,9 @@ class Sb3VecEnv(VecEnv):
         if attr_name == "action_masks" and self._masks is not None:
             return [lambda at=at: self._mask(at) for at in self._get_indices(indices)]
         if isinstance(self.envs, SyncVectorEnv):
-            return [self.envs.envs[at].get_wrapper_attr(attr_name) for at in self._get_indices(indices)]
+            return [
+                self.envs.envs[at].get_wrapper_attr(attr_name) for at in self._get_indices(indices)
+            ]
         return [getattr(self.envs, attr_name)] * len(list(self._get_indices(indices)))
 
     def set_attr(self, attr_name: str, value: Any, indices: Indices = None) -> None:
@@ -128,12 +134,18 @@ class Sb3VecEnv(VecEnv):
         elif len(at) == self.num_envs:
             setattr(self.envs, attr_name, value)
         else:
-            raise ParameterError(f"`{attr_name}` of a batch can only be set for all environments", name="indices")
+            raise ParameterError(
+                f"`{attr_name}` of a batch can only be set for all environments", name="indices"
+            )
 
-    def env_method(self, method_name: str, *args: Any, indices: Indices = None, **kwargs: Any) -> list[Any]:
+    def env_method(
+        self, method_name: str, *args: Any, indices: Indices = None, **kwargs: Any
+    ) -> list[Any]:
         """Calls a method of each environment; those of a batch only have `action_masks`."""
         if method_name != "action_masks" and not isinstance(self.envs, SyncVectorEnv):
-            raise AttributeError(f"the environments are one batch: none of them has `{method_name}` alone")
+            raise AttributeError(
+                f"the environments are one batch: none of them has `{method_name}` alone"
+            )
         return [method(*args, **kwargs) for method in self.get_attr(method_name, indices)]
 
     def env_is_wrapped(
@@ -184,17 +196,25 @@ def make_vec(
     does.
     """
     if isinstance(num_envs, bool) or not isinstance(num_envs, int) or num_envs < 1:
-        raise ParameterError(f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs")
+        raise ParameterError(
+            f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs"
+        )
     envs: VectorEnv[Any, Any, Any]
     # A file that is watched, or played by behaviours, must stay a file.
     if not kwargs.get("watch") and not behaviors(kwargs.get("opponents")):
-        scenario = load(scenario, allow_outside=check_flag("allow_outside", kwargs.get("allow_outside", False)))
+        scenario = load(
+            scenario, allow_outside=check_flag("allow_outside", kwargs.get("allow_outside", False))
+        )
     alone = any(kwargs.get(name) for name in ALONE) or bool(read_rewards(kwargs.get("rewards"))[1])
     if kwargs.get("observation") == "raw" or alone:
-        envs = SyncVectorEnv([lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP)
+        envs = SyncVectorEnv(
+            [lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP
+        )
     else:
         kwargs = {name: value for name, value in kwargs.items() if name not in ALONE}
-        envs = make_batch(scenario, num_envs, threads=threads, autoreset_mode=AutoresetMode.SAME_STEP, **kwargs)
+        envs = make_batch(
+            scenario, num_envs, threads=threads, autoreset_mode=AutoresetMode.SAME_STEP, **kwargs
+        )
         _check_one(envs.agents, envs.scenario)
     vec = Sb3VecEnv(envs)
     if seed is not None:
@@ -238,7 +258,9 @@ def _at(value: Any, at: int) -> Any:
     return _one(value, at) if isinstance(value, dict) else value[at]
 
 
-def _is_wrapped(env: gymnasium.Env[Any, Any], wrapper_class: type[gymnasium.Wrapper[Any, Any, Any, Any]]) -> bool:
+def _is_wrapped(
+    env: gymnasium.Env[Any, Any], wrapper_class: type[gymnasium.Wrapper[Any, Any, Any, Any]]
+) -> bool:
     while isinstance(env, gymnasium.Wrapper):
         if isinstance(env, wrapper_class):
             return True

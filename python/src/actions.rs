@@ -59,7 +59,11 @@ impl ActionSet {
 
     /// The number of held actions in its raw observations.
     pub(crate) fn held(self) -> usize {
-        if self == ActionSet::Keys(Action::FULL_SET) { StickyAction::ALL.len() } else { StickyAction::DEFAULT_SET }
+        if self == ActionSet::Keys(Action::FULL_SET) {
+            StickyAction::ALL.len()
+        } else {
+            StickyAction::DEFAULT_SET
+        }
     }
 }
 
@@ -67,7 +71,11 @@ impl ActionSet {
 /// n; with continuous actions four numbers, or n rows of four.
 ///
 /// Raises `ActionError` for anything else; `acts` may then be partly overwritten.
-pub(crate) fn read(given: &Bound<'_, PyAny>, set: ActionSet, acts: &mut [GivenAction]) -> PyResult<()> {
+pub(crate) fn read(
+    given: &Bound<'_, PyAny>,
+    set: ActionSet,
+    acts: &mut [GivenAction],
+) -> PyResult<()> {
     let size = match set {
         ActionSet::Keys(size) => size,
         ActionSet::Continuous => return read_numbers(given, acts),
@@ -92,8 +100,9 @@ pub(crate) fn one(given: &Bound<'_, PyAny>, size: usize) -> Option<Action> {
 
 fn several(given: &Bound<'_, PyAny>, size: usize, acts: &mut [GivenAction]) -> bool {
     // A value with keys has no order, and the letters of a text aren't actions.
-    let unordered =
-        given.is_instance_of::<PyString>() || given.is_instance_of::<PyDict>() || given.is_instance_of::<PySet>();
+    let unordered = given.is_instance_of::<PyString>()
+        || given.is_instance_of::<PyDict>()
+        || given.is_instance_of::<PySet>();
     if unordered || given.len().ok() != Some(acts.len()) {
         return false;
     }
@@ -145,7 +154,8 @@ pub(crate) fn floats<'py>(given: &Bound<'py, PyAny>) -> Option<Bound<'py, PyArra
 
 /// The beginning of a value's text.
 fn shown(given: &Bound<'_, PyAny>) -> String {
-    let text = given.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string_lossy().into_owned());
+    let text =
+        given.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string_lossy().into_owned());
     if text.chars().count() <= SHOWN_MAX {
         return text;
     }
@@ -175,6 +185,11 @@ fn wrong(given: &Bound<'_, PyAny>, size: usize, n_agents: usize) -> PyErr {
 
 /// Whether the given value includes an action in a range.
 fn holds(given: &Bound<'_, PyAny>, range: std::ops::Range<usize>) -> bool {
-    let within = |item: &Bound<'_, PyAny>| item.extract::<usize>().is_ok_and(|number| range.contains(&number));
-    within(given) || given.try_iter().is_ok_and(|mut items| items.any(|item| item.is_ok_and(|item| within(&item))))
+    let within = |item: &Bound<'_, PyAny>| {
+        item.extract::<usize>().is_ok_and(|number| range.contains(&number))
+    };
+    within(given)
+        || given
+            .try_iter()
+            .is_ok_and(|mut items| items.any(|item| item.is_ok_and(|item| within(&item))))
 }

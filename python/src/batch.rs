@@ -4,11 +4,14 @@
 //! place, on a few threads, without the interpreter.
 
 use crate::actions::{self, ActionSet, GivenAction};
-use crate::environment::{AgentInfo, Prepared, SMM_SIZE, agents_of, from_episode, players_of, prepare};
+use crate::environment::{
+    AgentInfo, Prepared, SMM_SIZE, agents_of, from_episode, players_of, prepare,
+};
 use crate::errors;
 use crate::info::{records, write_mask};
 use crate::observation::{
-    self, BlockInfo, ObservationForm, ObservationKind, Observer, Stack, Wanted, write_floats, write_map,
+    self, BlockInfo, ObservationForm, ObservationKind, Observer, Stack, Wanted, write_floats,
+    write_map,
 };
 use crate::options::EnvOptions;
 use crate::params::bind;
@@ -123,7 +126,13 @@ impl Batch {
             _ => NewestObservations::Floats(Stack::new(stack, planes, one)),
         };
         let acts = vec![GivenAction::IDLE; n * engine.n_agents()];
-        let lane = || BatchLane { engine: engine.clone(), film: film(), over: true, fault: None, broken: None };
+        let lane = || BatchLane {
+            engine: engine.clone(),
+            film: film(),
+            over: true,
+            fault: None,
+            broken: None,
+        };
         let lanes = Lanes::new((0..n).map(|_| lane()).collect(), threads)
             .map_err(|why| errors::raise_plain(py, "SetpieceError", &why.to_string()))?;
         Ok(Batch { lanes, kind, stack, action_set, next_step, acts, process: std::process::id() })
@@ -150,19 +159,28 @@ impl Batch {
     /// The shape of one agent's observation.
     #[getter]
     fn observation_shape(&self) -> Vec<usize> {
-        self.lanes.lanes().first().map(|lane| self.kind.shape(&lane.engine, self.stack)).unwrap_or_default()
+        self.lanes
+            .lanes()
+            .first()
+            .map(|lane| self.kind.shape(&lane.engine, self.stack))
+            .unwrap_or_default()
     }
 
     /// The blocks of an observation of floats.
     #[getter]
     fn blocks(&self) -> Vec<BlockInfo> {
-        self.lanes.lanes().first().map(|lane| observation::blocks(self.kind, &lane.engine)).unwrap_or_default()
+        self.lanes
+            .lanes()
+            .first()
+            .map(|lane| observation::blocks(self.kind, &lane.engine))
+            .unwrap_or_default()
     }
 
     /// Bounds of every number of one observation of floats; none for others.
     #[getter]
     fn bounds(&self, py: Python<'_>) -> Option<observation::Bounds> {
-        let (ObservationKind::Floats(floats), Some(lane)) = (self.kind, self.lanes.lanes().first()) else {
+        let (ObservationKind::Floats(floats), Some(lane)) = (self.kind, self.lanes.lanes().first())
+        else {
             return None;
         };
         Some(observation::bounds(py, floats, &lane.engine))
@@ -181,7 +199,8 @@ impl Batch {
             return Err(errors::parameter(py, "num_envs", "a batch has at least one environment"));
         };
         let agents = lane.engine.n_agents();
-        let shape: Vec<usize> = [n, agents].into_iter().chain(self.kind.shape(&lane.engine, self.stack)).collect();
+        let shape: Vec<usize> =
+            [n, agents].into_iter().chain(self.kind.shape(&lane.engine, self.stack)).collect();
         let observations = match self.kind {
             ObservationKind::Smm { .. } => PyArrayDyn::<u8>::zeros(py, shape, false).into_any(),
             _ => PyArrayDyn::<f32>::zeros(py, shape, false).into_any(),
@@ -191,7 +210,8 @@ impl Batch {
             observations: observations.unbind(),
             rewards: PyArray2::zeros(py, [n, agents], false).unbind(),
             terms: PyArrayDyn::zeros(py, vec![n, agents, terms], false).unbind(),
-            masks: PyArrayDyn::zeros(py, vec![n, agents, self.action_set.masked().len()], false).unbind(),
+            masks: PyArrayDyn::zeros(py, vec![n, agents, self.action_set.masked().len()], false)
+                .unbind(),
             score: PyArray2::zeros(py, [n, 2], false).unbind(),
             terminated: PyArray1::zeros(py, n, false).unbind(),
             truncated: PyArray1::zeros(py, n, false).unbind(),
@@ -203,7 +223,9 @@ impl Batch {
     fn bind(&mut self, py: Python<'_>, params: &Bound<'_, PyDict>) -> PyResult<()> {
         for lane in self.lanes.lanes_mut() {
             let bindings = bind(py, &lane.engine.scenario().params, params)?;
-            lane.engine.set_bindings(&bindings).map_err(|error| crate::environment::from_engine(py, error))?;
+            lane.engine
+                .set_bindings(&bindings)
+                .map_err(|error| crate::environment::from_engine(py, error))?;
         }
         Ok(())
     }
@@ -220,10 +242,18 @@ impl Batch {
         episodes: Vec<Option<u64>>,
         keep: bool,
     ) -> PyResult<()> {
-        let order: Vec<(bool, Option<u64>, Option<u64>)> =
-            which.into_iter().zip(seeds).zip(episodes).map(|((which, seed), index)| (which, seed, index)).collect();
+        let order: Vec<(bool, Option<u64>, Option<u64>)> = which
+            .into_iter()
+            .zip(seeds)
+            .zip(episodes)
+            .map(|((which, seed), index)| (which, seed, index))
+            .collect();
         if order.len() != self.lanes.lanes().len() {
-            return Err(errors::parameter(py, "reset_mask", &format!("expected {} entries", self.lanes.lanes().len())));
+            return Err(errors::parameter(
+                py,
+                "reset_mask",
+                &format!("expected {} entries", self.lanes.lanes().len()),
+            ));
         }
         let view = RowView { kind: self.kind, action_set: self.action_set };
         self.each(py, arrays, |at, lane, row, _| {
@@ -240,10 +270,12 @@ impl Batch {
     fn step(&mut self, py: Python<'_>, arrays: &Arrays, action: &Bound<'_, PyAny>) -> PyResult<()> {
         self.read(action)?;
         let agents = self.acts.len() / self.lanes.lanes().len().max(1);
-        let (view, next_step) = (RowView { kind: self.kind, action_set: self.action_set }, self.next_step);
+        let (view, next_step) =
+            (RowView { kind: self.kind, action_set: self.action_set }, self.next_step);
         if !next_step && let Some(at) = self.lanes.lanes().iter().position(|lane| lane.over) {
-            let message =
-                format!("the episode of environment {at} has ended: call `reset` with a `reset_mask` that names it");
+            let message = format!(
+                "the episode of environment {at} has ended: call `reset` with a `reset_mask` that names it"
+            );
             return Err(errors::raise_plain(py, "SetpieceError", &message));
         }
         let acts = std::mem::take(&mut self.acts);
@@ -279,19 +311,32 @@ impl Batch {
     /// The current observations of all agents of each environment, of any kind. Looking changes
     /// nothing.
     #[pyo3(signature = (observation, scale = false))]
-    fn look<'py>(&mut self, py: Python<'py>, observation: &str, scale: bool) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    fn look<'py>(
+        &mut self,
+        py: Python<'py>,
+        observation: &str,
+        scale: bool,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let wanted = Wanted { name: observation, size: SMM_SIZE, scale };
         let held = self.action_set.held();
         let look = |lane: &mut BatchLane| {
             let kind = wanted.of(py, &lane.engine)?;
-            Observer::new(py, kind, &lane.engine, ObservationForm::FRESH, held).observe(py, &mut lane.engine, true)
+            Observer::new(py, kind, &lane.engine, ObservationForm::FRESH, held).observe(
+                py,
+                &mut lane.engine,
+                true,
+            )
         };
         self.lanes.lanes_mut().iter_mut().map(look).collect()
     }
 
     /// A drawing of an environment's pitch in text.
     fn drawing(&self, at: usize) -> String {
-        self.lanes.lanes().get(at).map(|lane| setpiece::drawing::draw(lane.engine.state())).unwrap_or_default()
+        self.lanes
+            .lanes()
+            .get(at)
+            .map(|lane| setpiece::drawing::draw(lane.engine.state()))
+            .unwrap_or_default()
     }
 }
 
@@ -310,7 +355,8 @@ impl Batch {
                 for (at, (act, &number)) in self.acts.iter_mut().zip(numbers.iter()).enumerate() {
                     let known = usize::try_from(number).ok().filter(|&number| number < size);
                     let Some(action) = known.and_then(Action::from_index) else {
-                        let message = format!("expected actions 0..{}, found {number} at {at}", size - 1);
+                        let message =
+                            format!("expected actions 0..{}, found {number} at {at}", size - 1);
                         return Err(errors::raise_plain(py, "ActionError", &message));
                     };
                     *act = GivenAction { action, steer: None };
@@ -341,7 +387,9 @@ impl Batch {
         work: impl Fn(usize, &mut BatchLane, BatchRow<'_>, &mut Scratch) + Sync,
     ) -> PyResult<()> {
         let n = self.lanes.lanes().len();
-        let lost = || errors::raise_plain(py, "SetpieceError", "an array of the batch is in use or read-only");
+        let lost = || {
+            errors::raise_plain(py, "SetpieceError", "an array of the batch is in use or read-only")
+        };
         macro_rules! write {
             ($guard:ident, $values:ident, $array:expr) => {
                 let mut $guard = $array.bind(py).try_readwrite().map_err(|_| lost())?;
@@ -359,23 +407,44 @@ impl Batch {
         let (mut floats, mut bytes);
         let mut shown: Vec<Rows<'_>> = if let Ok(array) = observations.cast::<PyArrayDyn<f32>>() {
             floats = array.try_readwrite().map_err(|_| lost())?;
-            chunks(floats.as_slice_mut().map_err(|_| lost())?, n).into_iter().map(Rows::Floats).collect()
+            chunks(floats.as_slice_mut().map_err(|_| lost())?, n)
+                .into_iter()
+                .map(Rows::Floats)
+                .collect()
         } else {
             let array = observations.cast::<PyArrayDyn<u8>>().map_err(|_| lost())?;
             bytes = array.try_readwrite().map_err(|_| lost())?;
-            chunks(bytes.as_slice_mut().map_err(|_| lost())?, n).into_iter().map(Rows::Map).collect()
+            chunks(bytes.as_slice_mut().map_err(|_| lost())?, n)
+                .into_iter()
+                .map(Rows::Map)
+                .collect()
         };
         let mut rows = Vec::with_capacity(n);
         let flags = terminated.iter_mut().zip(truncated).zip(begun);
-        let numbers = chunks(rewards, n).into_iter().zip(chunks(terms, n)).zip(chunks(masks, n)).zip(chunks(score, n));
+        let numbers = chunks(rewards, n)
+            .into_iter()
+            .zip(chunks(terms, n))
+            .zip(chunks(masks, n))
+            .zip(chunks(score, n));
         for ((((rewards, terms), mask), score), (((terminated, truncated), begun), observation)) in
             numbers.zip(flags.zip(shown.drain(..)))
         {
-            rows.push(BatchRow { observation, rewards, terms, mask, score, terminated, truncated, begun });
+            rows.push(BatchRow {
+                observation,
+                rewards,
+                terms,
+                mask,
+                score,
+                terminated,
+                truncated,
+                begun,
+            });
         }
         if self.process != std::process::id() {
             // A fork has inherited it.
-            self.lanes.restart_threads().map_err(|why| errors::raise_plain(py, "SetpieceError", &why.to_string()))?;
+            self.lanes
+                .restart_threads()
+                .map_err(|why| errors::raise_plain(py, "SetpieceError", &why.to_string()))?;
             self.process = std::process::id();
         }
         let lanes = &mut self.lanes;
@@ -414,7 +483,14 @@ fn chunks<T>(values: &mut [T], n: usize) -> Vec<&mut [T]> {
 
 impl BatchLane {
     /// Begins an episode and shows its first moment.
-    fn begin(&mut self, seed: Option<u64>, index: Option<u64>, view: RowView, keep: bool, mut row: BatchRow<'_>) {
+    fn begin(
+        &mut self,
+        seed: Option<u64>,
+        index: Option<u64>,
+        view: RowView,
+        keep: bool,
+        mut row: BatchRow<'_>,
+    ) {
         if let Err(why) = self.engine.reset(seed, index) {
             self.fault = Some(why.into());
             self.over = true;
@@ -456,7 +532,8 @@ impl BatchLane {
                 return;
             }
         };
-        (*row.terminated, *row.truncated, *row.begun) = (result.terminated, result.truncated, false);
+        (*row.terminated, *row.truncated, *row.begun) =
+            (result.terminated, result.truncated, false);
         for (out, paid) in row.rewards.iter_mut().zip(self.engine.rewards()) {
             *out = f64::from(*paid);
         }
@@ -472,7 +549,14 @@ impl BatchLane {
     fn show(&mut self, view: RowView, row: &mut BatchRow<'_>, first: bool) {
         let n_agents = self.engine.n_agents();
         // The buffers have the sizes that the engine requires, so this can't fail.
-        let _ = observe(&mut self.engine, &mut self.film, view.kind, &mut row.observation, n_agents, first);
+        let _ = observe(
+            &mut self.engine,
+            &mut self.film,
+            view.kind,
+            &mut row.observation,
+            n_agents,
+            first,
+        );
         let size = view.action_set.masked().len();
         for (agent, mask) in row.mask.chunks_exact_mut(size).enumerate() {
             write_mask(view.action_set, &self.engine, agent, mask);
@@ -498,7 +582,11 @@ fn observe(
                 stack.push(out, first, |out| write_floats(floats, engine, agent, out))?;
             }
         }
-        (ObservationKind::Smm { width, height }, NewestObservations::Map(stack), Rows::Map(out)) => {
+        (
+            ObservationKind::Smm { width, height },
+            NewestObservations::Map(stack),
+            Rows::Map(out),
+        ) => {
             let one = (out.len() / n_agents.max(1)).max(1);
             for (agent, out) in out.chunks_exact_mut(one).enumerate() {
                 stack.push(out, first, |out| write_map((width, height), engine, agent, out))?;

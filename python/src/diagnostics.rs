@@ -15,7 +15,11 @@ pub(crate) fn report(problems: &[Problem], sources: &Sources) -> String {
 }
 
 /// A list of `Diagnostic`, by file and place.
-pub(crate) fn to_python<'py>(py: Python<'py>, problems: &[Problem], sources: &Sources) -> PyResult<Bound<'py, PyList>> {
+pub(crate) fn to_python<'py>(
+    py: Python<'py>,
+    problems: &[Problem],
+    sources: &Sources,
+) -> PyResult<Bound<'py, PyList>> {
     let module = py.import("setpiece._errors")?;
     let (class, label_class) = (module.getattr("Diagnostic")?, module.getattr("Label")?);
     let list = PyList::empty(py);
@@ -31,7 +35,8 @@ fn one<'py>(
     diagnostic: &Diagnostic,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = class.py();
-    let labels: PyResult<Vec<_>> = diagnostic.labels.iter().map(|one| label(label_class, one)).collect();
+    let labels: PyResult<Vec<_>> =
+        diagnostic.labels.iter().map(|one| label(label_class, one)).collect();
     let fields = PyDict::new(py);
     fields.set_item("code", &diagnostic.code)?;
     fields.set_item("severity", &diagnostic.severity)?;

@@ -15,7 +15,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 use setpiece::Error;
 use setpiece::engine::batch::EpisodeError;
-use setpiece::engine::environment::{Environment as Engine, EnvironmentError, EnvironmentOptions, ResetError, Scratch};
+use setpiece::engine::environment::{
+    Environment as Engine, EnvironmentError, EnvironmentOptions, ResetError, Scratch,
+};
 use setpiece::engine::judge::Outcome;
 use setpiece::engine::observe::{SMM_HEIGHT, SMM_WIDTH};
 use setpiece::engine::snapshot::SnapshotError;
@@ -70,7 +72,11 @@ impl Environment {
     #[new]
     fn new(py: Python<'_>, scenario: &Scenario, options: EnvOptions<'_>) -> PyResult<Environment> {
         let Prepared { engine, kind, action_set } = prepare(py, scenario, &options)?;
-        let info = InfoOptions { actions: action_set, events: options.events, bot_action: options.bot_action };
+        let info = InfoOptions {
+            actions: action_set,
+            events: options.events,
+            bot_action: options.bot_action,
+        };
         Ok(Environment::around(py, engine, kind, options.shown(), info))
     }
 
@@ -113,9 +119,15 @@ impl Environment {
 
     /// The current observations of all agents, of any kind. Looking changes nothing.
     #[pyo3(signature = (observation, scale = false))]
-    fn look<'py>(&mut self, py: Python<'py>, observation: &str, scale: bool) -> PyResult<Bound<'py, PyAny>> {
+    fn look<'py>(
+        &mut self,
+        py: Python<'py>,
+        observation: &str,
+        scale: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let kind = Wanted { name: observation, size: SMM_SIZE, scale }.of(py, &self.engine)?;
-        let mut observer = Observer::new(py, kind, &self.engine, ObservationForm::FRESH, self.action_set.held());
+        let mut observer =
+            Observer::new(py, kind, &self.engine, ObservationForm::FRESH, self.action_set.held());
         observer.observe(py, &mut self.engine, true)
     }
 
@@ -138,7 +150,8 @@ impl Environment {
     /// Replaces the scripts by those of another version of the scenario, at once. False, without
     /// any effect, if anything else differs.
     fn adopt_scripts(&mut self, py: Python<'_>, scenario: &Scenario) -> PyResult<bool> {
-        let adopted = self.engine.adopt_scripts(scenario.inner()).map_err(|error| from_engine(py, error))?;
+        let adopted =
+            self.engine.adopt_scripts(scenario.inner()).map_err(|error| from_engine(py, error))?;
         if adopted {
             // The recording began with other scripts.
             self.recorder.invalidate();
@@ -180,7 +193,11 @@ impl Environment {
     }
 
     /// Continues from a snapshot; returns the observation and info of its step.
-    fn restore<'py>(&mut self, py: Python<'py>, snapshot: &[u8]) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
+    fn restore<'py>(
+        &mut self,
+        py: Python<'py>,
+        snapshot: &[u8],
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
         let engine = &mut self.engine;
         py.detach(|| engine.restore(snapshot)).map_err(|why| from_snapshot(py, why))?;
         self.recorder.invalidate();
@@ -220,7 +237,11 @@ impl Environment {
 
     /// Plays a step; returns observation, reward, terminated, truncated and info. Releases the
     /// interpreter lock while playing.
-    fn step<'py>(&mut self, py: Python<'py>, action: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyTuple>> {
+    fn step<'py>(
+        &mut self,
+        py: Python<'py>,
+        action: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
         actions::read(action, self.action_set, &mut self.acts)?;
         for agent in 0..self.acts.len() {
             self.press(agent, self.acts[agent]);
@@ -246,7 +267,8 @@ impl Environment {
     /// Plays the step of a recorded episode: like `step`, with the recorded actions.
     fn replayed<'py>(&mut self, py: Python<'py>, replay: &Replay) -> PyResult<Bound<'py, PyTuple>> {
         let n_agents = self.actions.len();
-        let acts = replay.inner().acts().skip(self.engine.steps() as usize * n_agents).take(n_agents);
+        let acts =
+            replay.inner().acts().skip(self.engine.steps() as usize * n_agents).take(n_agents);
         for (agent, (action, steer)) in acts.enumerate() {
             self.press(agent, GivenAction { action, steer });
         }
@@ -261,7 +283,8 @@ impl Environment {
 
     /// The episode as far as it has been played, as the bytes of a replay.
     fn replay<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = Recording::of(&self.engine, &self.recorder).and_then(|replay| replay.to_bytes());
+        let bytes =
+            Recording::of(&self.engine, &self.recorder).and_then(|replay| replay.to_bytes());
         Ok(PyBytes::new(py, &bytes.map_err(|why| errors::from_facade(py, &why))?))
     }
 
@@ -316,7 +339,11 @@ impl Environment {
     }
 
     /// Plays the step, with the actions of a recorded episode if given.
-    fn play<'py>(&mut self, py: Python<'py>, recorded: Option<&Recording>) -> PyResult<Bound<'py, PyTuple>> {
+    fn play<'py>(
+        &mut self,
+        py: Python<'py>,
+        recorded: Option<&Recording>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
         let (engine, scratch, actions) = (&mut self.engine, &mut self.scratch, &self.actions);
         let played = py.detach(|| engine.step(actions, scratch));
         played.map_err(|why| {
@@ -357,17 +384,24 @@ pub(crate) fn agents_of(engine: &Engine) -> Vec<AgentInfo> {
 
 /// The agents that a scenario would have, left before right.
 #[pyfunction]
-pub(crate) fn agents(py: Python<'_>, scenario: &Scenario, options: EnvOptions<'_>) -> PyResult<Vec<AgentInfo>> {
+pub(crate) fn agents(
+    py: Python<'_>,
+    scenario: &Scenario,
+    options: EnvOptions<'_>,
+) -> PyResult<Vec<AgentInfo>> {
     let agents = read_seats(py, &options.seats())?;
     let options = EnvironmentOptions { agents, ..EnvironmentOptions::default() };
-    let engine = Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
+    let engine =
+        Engine::new(scenario.inner().clone(), options).map_err(|error| from_engine(py, error))?;
     Ok(agents_of(&engine))
 }
 
 /// Players of the left and the right team, as raw observations count them.
 pub(crate) fn players_of(engine: &Engine) -> (usize, usize) {
     let present = engine.roster().present;
-    let count = |team: Team| (0..TEAM_MAX).filter(|&place| present[PlayerId::new(team, place).index()]).count();
+    let count = |team: Team| {
+        (0..TEAM_MAX).filter(|&place| present[PlayerId::new(team, place).index()]).count()
+    };
     (count(Team::Left), count(Team::Right))
 }
 
@@ -379,14 +413,21 @@ pub(crate) struct Prepared {
 }
 
 /// Creates the validated engine of a scenario with its agents, observation and action set.
-pub(crate) fn prepare(py: Python<'_>, scenario: &Scenario, options: &EnvOptions<'_>) -> PyResult<Prepared> {
+pub(crate) fn prepare(
+    py: Python<'_>,
+    scenario: &Scenario,
+    options: &EnvOptions<'_>,
+) -> PyResult<Prepared> {
     let (rewards, agents) = (options.rewards.clone(), read_seats(py, &options.seats())?);
-    let engine =
-        Engine::new(scenario.inner().clone(), EnvironmentOptions { rewards, agents, ..EnvironmentOptions::default() })
-            .map_err(|error| from_engine(py, error))?;
+    let engine = Engine::new(
+        scenario.inner().clone(),
+        EnvironmentOptions { rewards, agents, ..EnvironmentOptions::default() },
+    )
+    .map_err(|error| from_engine(py, error))?;
     let kind = options.wanted().of(py, &engine)?;
-    let action_set = ActionSet::from_name(&options.action_set)
-        .ok_or_else(|| errors::parameter(py, "action_set", &format!("no action set `{}`", options.action_set)))?;
+    let action_set = ActionSet::from_name(&options.action_set).ok_or_else(|| {
+        errors::parameter(py, "action_set", &format!("no action set `{}`", options.action_set))
+    })?;
     Ok(Prepared { engine, kind, action_set })
 }
 

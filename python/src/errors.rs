@@ -12,7 +12,12 @@ use setpiece::engine::judge::ScriptError;
 use setpiece::scenario::{Param, ParamError};
 
 /// An exception of the package's own tree; `fields` become keyword arguments of its class.
-pub(crate) fn raise(py: Python<'_>, class: &str, message: &str, fields: &Bound<'_, PyDict>) -> PyErr {
+pub(crate) fn raise(
+    py: Python<'_>,
+    class: &str,
+    message: &str,
+    fields: &Bound<'_, PyDict>,
+) -> PyErr {
     let made = py
         .import("setpiece._errors")
         .and_then(|module| module.getattr(class))
@@ -39,8 +44,10 @@ pub(crate) fn raise_with_help(py: Python<'_>, class: &str, message: &str, help: 
 
 /// The exception for an error of the facade.
 pub(crate) fn from_facade(py: Python<'_>, error: &Error) -> PyErr {
-    facade_fields(py, error)
-        .map_or_else(|failed| failed, |(class, message, fields)| raise(py, class, &message, &fields))
+    facade_fields(py, error).map_or_else(
+        |failed| failed,
+        |(class, message, fields)| raise(py, class, &message, &fields),
+    )
 }
 
 type ErrorParts<'py> = (&'static str, String, Bound<'py, PyDict>);
@@ -49,8 +56,15 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
     let fields = PyDict::new(py);
     fields.set_item("code", error.code().to_string())?;
     if let Error::Compile(failure) = error {
-        fields.set_item("diagnostics", diagnostics::to_python(py, &failure.problems, &failure.sources)?)?;
-        return Ok(("CompileError", diagnostics::report(&failure.problems, &failure.sources), fields));
+        fields.set_item(
+            "diagnostics",
+            diagnostics::to_python(py, &failure.problems, &failure.sources)?,
+        )?;
+        return Ok((
+            "CompileError",
+            diagnostics::report(&failure.problems, &failure.sources),
+            fields,
+        ));
     }
     fields.set_item("help", error.help())?;
     let class = match error {
@@ -72,7 +86,9 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
             if let EnvironmentError::Param(why) = why {
                 fields.set_item("name", param_name(why))?;
             }
-            if let EnvironmentError::Agents(RosterError::TooMany { team, .. } | RosterError::Player { team, .. }) = why
+            if let EnvironmentError::Agents(
+                RosterError::TooMany { team, .. } | RosterError::Player { team, .. },
+            ) = why
             {
                 fields.set_item("name", team.name())?;
             }
@@ -126,7 +142,9 @@ fn script_fields(fields: &Bound<'_, PyDict>, why: &ScriptError) -> PyResult<()> 
 /// The exception for a parameter that can't be bound.
 pub(crate) fn from_param(py: Python<'_>, why: ParamError, params: &[Param]) -> PyErr {
     let similar = match &why {
-        ParamError::Unknown { name, .. } => nearest(name, params.iter().map(|param| param.name.as_str())),
+        ParamError::Unknown { name, .. } => {
+            nearest(name, params.iter().map(|param| param.name.as_str()))
+        }
         _ => None,
     };
     from_facade(py, &Error::Param { similar: similar.map(str::to_owned), why })
@@ -135,7 +153,10 @@ pub(crate) fn from_param(py: Python<'_>, why: ParamError, params: &[Param]) -> P
 /// A `ParameterError` about something that the facade doesn't know.
 pub(crate) fn parameter(py: Python<'_>, name: &str, message: &str) -> PyErr {
     let fields = PyDict::new(py);
-    match fields.set_item("name", name).and_then(|()| fields.set_item("code", Code::BadParameter.to_string())) {
+    match fields
+        .set_item("name", name)
+        .and_then(|()| fields.set_item("code", Code::BadParameter.to_string()))
+    {
         Ok(()) => raise(py, "ParameterError", message, &fields),
         Err(error) => error,
     }
@@ -143,6 +164,8 @@ pub(crate) fn parameter(py: Python<'_>, name: &str, message: &str) -> PyErr {
 
 fn param_name(why: &ParamError) -> &str {
     match why {
-        ParamError::Unknown { name, .. } | ParamError::Type { name, .. } | ParamError::Range { name, .. } => name,
+        ParamError::Unknown { name, .. }
+        | ParamError::Type { name, .. }
+        | ParamError::Range { name, .. } => name,
     }
 }

@@ -10,7 +10,11 @@ pub(crate) fn text(name: &str, given: &Bound<'_, PyAny>) -> PyResult<String> {
     let py = given.py();
     let Ok(text) = given.cast::<PyString>() else {
         let found = given.get_type().name()?;
-        return Err(errors::parameter(py, name, &format!("expected a string as `{name}`, found `{found}`")));
+        return Err(errors::parameter(
+            py,
+            name,
+            &format!("expected a string as `{name}`, found `{found}`"),
+        ));
     };
     text.to_cow().map(std::borrow::Cow::into_owned).map_err(|_| {
         let message = format!("`{name}` is not Unicode text: it has a lone surrogate");
@@ -22,11 +26,16 @@ pub(crate) fn text(name: &str, given: &Bound<'_, PyAny>) -> PyResult<String> {
 pub(crate) fn path(name: &str, given: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
     let py = given.py();
     let path = given.extract::<PathBuf>().map_err(|_| {
-        let found = given.repr().map_or_else(|_| "something else".to_owned(), |repr| repr.to_string());
+        let found =
+            given.repr().map_or_else(|_| "something else".to_owned(), |repr| repr.to_string());
         errors::parameter(py, name, &format!("expected a path as `{name}`, found `{found}`"))
     })?;
     if path.as_os_str().as_encoded_bytes().contains(&0) {
-        return Err(errors::parameter(py, name, &format!("expected a path as `{name}`, found one with a NUL")));
+        return Err(errors::parameter(
+            py,
+            name,
+            &format!("expected a path as `{name}`, found one with a NUL"),
+        ));
     }
     Ok(path)
 }

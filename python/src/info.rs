@@ -46,7 +46,11 @@ impl InfoWriter {
     }
 
     /// The `info` of the step just played, or of the reset.
-    pub(crate) fn write<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyDict>> {
+    pub(crate) fn write<'py>(
+        &self,
+        py: Python<'py>,
+        engine: &Engine,
+    ) -> PyResult<Bound<'py, PyDict>> {
         let info = PyDict::new(py);
         info.set_item(intern!(py, "score"), PyList::new(py, engine.score())?)?;
         info.set_item(intern!(py, "reward_terms"), self.terms(py, engine, Engine::terms)?)?;
@@ -55,7 +59,8 @@ impl InfoWriter {
             info.set_item(intern!(py, "bot_action"), bot_action(py, engine)?)?;
         }
         if self.options.events {
-            let events: PyResult<Vec<_>> = engine.events().iter().map(|event| self.event(py, event)).collect();
+            let events: PyResult<Vec<_>> =
+                engine.events().iter().map(|event| self.event(py, event)).collect();
             info.set_item(intern!(py, "events"), events?)?;
         }
         self.sum_up(py, engine, &info)?;
@@ -63,7 +68,12 @@ impl InfoWriter {
     }
 
     /// Adds how the episode has ended, if it has: outcome, records and summary.
-    pub(crate) fn sum_up<'py>(&self, py: Python<'py>, engine: &Engine, info: &Bound<'py, PyDict>) -> PyResult<()> {
+    pub(crate) fn sum_up<'py>(
+        &self,
+        py: Python<'py>,
+        engine: &Engine,
+        info: &Bound<'py, PyDict>,
+    ) -> PyResult<()> {
         if let Some(outcome) = engine.outcome() {
             info.set_item(intern!(py, "outcome"), &*outcome.label)?;
             info.set_item(intern!(py, "records"), records(py, engine)?)?;
@@ -82,7 +92,11 @@ impl InfoWriter {
 
     /// Which actions have an effect: int8 `(19,)` for one agent, `(n, 19)` for n; 20 with the set
     /// `v2`, 33 with `full`, the 6 kinds with `continuous`.
-    pub(crate) fn action_mask<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyAny>> {
+    pub(crate) fn action_mask<'py>(
+        &self,
+        py: Python<'py>,
+        engine: &Engine,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let n_agents = engine.n_agents();
         let size = self.options.actions.masked().len();
         let mut mask = vec![0; n_agents * size];
@@ -97,7 +111,11 @@ impl InfoWriter {
     }
 
     /// Every player's presses in the last step, by name. Players that nobody plays are left out.
-    pub(crate) fn played<'py>(&self, py: Python<'py>, engine: &Engine) -> PyResult<Bound<'py, PyDict>> {
+    pub(crate) fn played<'py>(
+        &self,
+        py: Python<'py>,
+        engine: &Engine,
+    ) -> PyResult<Bound<'py, PyDict>> {
         let played = PyDict::new(py);
         for (id, name) in self.players.iter().enumerate() {
             if let (Some(name), Some(action)) = (name, engine.action_of(PlayerId(id as u8))) {
@@ -131,7 +149,8 @@ impl InfoWriter {
     /// `speed` in m/s.
     fn event<'py>(&self, py: Python<'py>, event: &Event) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
-        let player = |id: Option<PlayerId>| id.and_then(|id| self.players.get(id.index())?.as_ref());
+        let player =
+            |id: Option<PlayerId>| id.and_then(|id| self.players.get(id.index())?.as_ref());
         let (x, y) = to_normalised(f64::from(event.at.x), f64::from(event.at.y));
         dict.set_item(intern!(py, "kind"), event.kind.name())?;
         dict.set_item(intern!(py, "qualifier"), event.qualifier.map(Qualifier::name))?;
@@ -169,7 +188,8 @@ fn recorded(py: Python<'_>, value: Recorded) -> PyResult<Bound<'_, PyAny>> {
             PyArray1::from_vec(py, places.into_flattened()).reshape([n, 2])?.into_any()
         }
         Recorded::PerAgent(values) => {
-            let values: PyResult<Vec<_>> = values.into_iter().map(|value| recorded(py, value)).collect();
+            let values: PyResult<Vec<_>> =
+                values.into_iter().map(|value| recorded(py, value)).collect();
             PyList::new(py, values?)?.into_any()
         }
     })

@@ -39,13 +39,16 @@ mod _native {
     #[pymodule_export]
     use crate::replay::{RecordedAct, RecordedSteer, Replay};
     #[pymodule_export]
-    use crate::scenario::{LibraryEntry, Scenario, compile, compile_cast, library, load, load_cast, restore};
+    use crate::scenario::{
+        LibraryEntry, Scenario, compile, compile_cast, library, load, load_cast, restore,
+    };
     #[pymodule_export]
     use crate::write::{write, write_new};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        let actions: Vec<(&str, &str)> = Action::ALL.iter().map(|action| (action.name(), action.doc())).collect();
+        let actions: Vec<(&str, &str)> =
+            Action::ALL.iter().map(|action| (action.name(), action.doc())).collect();
         module.add("ACTIONS", pyo3::types::PyTuple::new(module.py(), actions)?)?;
         let sets = ActionSet::NAMED.map(|(name, set)| (name, set.masked().len()));
         module.add("ACTION_SETS", sets.into_py_dict(module.py())?)?;

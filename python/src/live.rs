@@ -40,8 +40,9 @@ impl Live {
     /// `timeout` seconds.
     #[pyo3(signature = (timeout = 0.0))]
     fn poll(&self, py: Python<'_>, timeout: f64) -> PyResult<Option<Scenario>> {
-        let timeout = Duration::try_from_secs_f64(timeout)
-            .map_err(|_| errors::parameter(py, "timeout", &format!("`{timeout}` is no number of seconds")))?;
+        let timeout = Duration::try_from_secs_f64(timeout).map_err(|_| {
+            errors::parameter(py, "timeout", &format!("`{timeout}` is no number of seconds"))
+        })?;
         let polled = py.detach(|| {
             let mut live = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
             live.poll(timeout).map(Result::<&setpiece::Loaded, _>::cloned)

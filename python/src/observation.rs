@@ -79,17 +79,20 @@ impl Wanted<'_> {
     /// The kind of observation, if the scenario has it.
     pub(crate) fn of(self, py: Python<'_>, engine: &Engine) -> PyResult<ObservationKind> {
         let name = self.name;
-        let kind = ObservationKind::from_name(name, self.size)
-            .ok_or_else(|| errors::parameter(py, "observation", &format!("no observation `{name}`")))?;
+        let kind = ObservationKind::from_name(name, self.size).ok_or_else(|| {
+            errors::parameter(py, "observation", &format!("no observation `{name}`"))
+        })?;
         if kind == ObservationKind::Floats(Floats::Vector) && engine.observed_names().is_empty() {
             let scenario = &engine.scenario().name;
-            let message = format!("`{scenario}` declares no observation: it has no `observe vector {{ … }}`");
+            let message =
+                format!("`{scenario}` declares no observation: it has no `observe vector {{ … }}`");
             return Err(errors::parameter(py, "observation", &message));
         }
         if !self.scale {
             return Ok(kind);
         }
-        kind.scaled().ok_or_else(|| errors::parameter(py, "scale", &format!("`{name}` can't be scaled")))
+        kind.scaled()
+            .ok_or_else(|| errors::parameter(py, "scale", &format!("`{name}` can't be scaled")))
     }
 }
 
@@ -212,9 +215,10 @@ impl Observer {
     ) -> Observer {
         let (shape, planes) = (kind.shape(engine, stack), kind.planes(engine));
         match kind {
-            ObservationKind::Floats(floats) => {
-                Observer::Floats(floats, ObservationArrays::new(py, engine.n_agents(), shape, (stack, planes), copy))
-            }
+            ObservationKind::Floats(floats) => Observer::Floats(
+                floats,
+                ObservationArrays::new(py, engine.n_agents(), shape, (stack, planes), copy),
+            ),
             ObservationKind::Smm { width, height } => Observer::Map(
                 (width, height),
                 ObservationArrays::new(py, engine.n_agents(), shape, (stack, planes), copy),
@@ -232,9 +236,8 @@ impl Observer {
     ) -> PyResult<Bound<'py, PyAny>> {
         let n_agents = engine.n_agents();
         match self {
-            Observer::Floats(floats, film) => {
-                film.fill(py, n_agents, first, |agent, out| write_floats(*floats, engine, agent, out))
-            }
+            Observer::Floats(floats, film) => film
+                .fill(py, n_agents, first, |agent, out| write_floats(*floats, engine, agent, out)),
             Observer::Map(size, film) => {
                 film.fill(py, n_agents, first, |agent, out| write_map(*size, engine, agent, out))
             }
@@ -256,7 +259,9 @@ impl Observer {
     /// The content of a stack, as bytes; empty without a stack.
     pub(crate) fn frames(&self) -> Vec<u8> {
         match self {
-            Observer::Floats(_, film) => film.held.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Observer::Floats(_, film) => {
+                film.held.iter().flat_map(|value| value.to_le_bytes()).collect()
+            }
             Observer::Map(_, film) => film.held.clone(),
             Observer::Raw(_) => Vec::new(),
         }
@@ -270,7 +275,9 @@ impl Observer {
                     *held = f32::from_le_bytes([value[0], value[1], value[2], value[3]]);
                 }
             }
-            Observer::Map(_, film) if bytes.len() == film.held.len() => film.held.copy_from_slice(bytes),
+            Observer::Map(_, film) if bytes.len() == film.held.len() => {
+                film.held.copy_from_slice(bytes)
+            }
             _ => {}
         }
     }
@@ -291,7 +298,12 @@ impl<T: Element + Copy + Default> ObservationArrays<T> {
         }
         let shared = (!copy).then(|| PyArrayDyn::zeros(py, shape.clone(), false).unbind());
         let held = if depth > 1 { vec![T::default(); numbers * n_agents] } else { Vec::new() };
-        ObservationArrays { shape, shared, stack: Stack::new(depth, planes, numbers / depth.max(1)), held }
+        ObservationArrays {
+            shape,
+            shared,
+            stack: Stack::new(depth, planes, numbers / depth.max(1)),
+            held,
+        }
     }
 
     fn fill<'py>(
@@ -306,15 +318,16 @@ impl<T: Element + Copy + Default> ObservationArrays<T> {
             None => PyArrayDyn::zeros(py, self.shape.as_slice(), false),
         };
         // Only a shared array can be read-only, if the user has set its flag.
-        let read_only =
-            "the array of observations is read-only: leave it writeable, or make the environment with `copy=True`";
+        let read_only = "the array of observations is read-only: leave it writeable, or make the environment with `copy=True`";
         let locked = || errors::raise_plain(py, "SetpieceError", read_only);
         let mut guard = array.try_readwrite().map_err(|_| locked())?;
         let values = guard.as_slice_mut().map_err(|_| locked())?;
         let one = (array.len() / n_agents.max(1)).max(1);
         let target = if self.held.is_empty() { &mut *values } else { &mut self.held };
         for (agent, out) in target.chunks_exact_mut(one).enumerate() {
-            self.stack.push(out, first, |out| write(agent, out)).map_err(|why| from_observe(py, why))?;
+            self.stack
+                .push(out, first, |out| write(agent, out))
+                .map_err(|why| from_observe(py, why))?;
         }
         if !self.held.is_empty() {
             values.copy_from_slice(&self.held);
@@ -334,7 +347,12 @@ pub(crate) fn blocks(kind: ObservationKind, engine: &Engine) -> Vec<BlockInfo> {
     let ObservationKind::Floats(floats) = kind else { return Vec::new() };
     let blocks = engine.layout(floats).blocks.into_iter();
     blocks
-        .map(|block| BlockInfo { start: block.start, length: block.len, meaning: block.meaning, unit: block.unit })
+        .map(|block| BlockInfo {
+            start: block.start,
+            length: block.len,
+            meaning: block.meaning,
+            unit: block.unit,
+        })
         .collect()
 }
 

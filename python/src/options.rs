@@ -41,6 +41,10 @@ impl<'py> EnvOptions<'py> {
 
     /// The agents.
     pub(crate) fn seats(&self) -> Seats<'_, 'py> {
-        Seats { left: self.left.as_ref(), right: self.right.as_ref(), switching: self.switching.as_ref() }
+        Seats {
+            left: self.left.as_ref(),
+            right: self.right.as_ref(),
+            switching: self.switching.as_ref(),
+        }
     }
 }

@@ -55,7 +55,8 @@ impl Param {
     #[getter]
     fn choices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         if self.inner.choices.is_empty() {
-            let values: PyResult<Vec<_>> = self.inner.values.iter().map(|&v| to_python(py, &self.inner, v)).collect();
+            let values: PyResult<Vec<_>> =
+                self.inner.values.iter().map(|&v| to_python(py, &self.inner, v)).collect();
             PyTuple::new(py, values?)
         } else {
             PyTuple::new(py, &self.inner.choices)
@@ -70,7 +71,11 @@ impl Param {
 }
 
 /// A parameter's value as Python shows it.
-pub(crate) fn to_python<'py>(py: Python<'py>, param: &compiled::Param, value: f64) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn to_python<'py>(
+    py: Python<'py>,
+    param: &compiled::Param,
+    value: f64,
+) -> PyResult<Bound<'py, PyAny>> {
     Ok(match param.ty {
         Type::Bool => PyBool::new(py, value != 0.0).to_owned().into_any(),
         Type::Int => (value as i64).into_pyobject(py)?.into_any(),
@@ -89,7 +94,11 @@ pub(crate) fn to_python<'py>(py: Python<'py>, param: &compiled::Param, value: f6
 
 /// A scenario's defaults with some parameters bound: numbers in SI units, or strings as the
 /// language writes them.
-pub(crate) fn bind(py: Python<'_>, params: &[compiled::Param], given: &Bound<'_, PyDict>) -> PyResult<Bindings> {
+pub(crate) fn bind(
+    py: Python<'_>,
+    params: &[compiled::Param],
+    given: &Bound<'_, PyDict>,
+) -> PyResult<Bindings> {
     let mut bindings = Bindings::defaults(params);
     for (name, value) in given {
         let Ok(name) = name.extract::<String>() else {
@@ -136,14 +145,18 @@ fn bind_one(
         // An unknown name is reported as such, whatever the value.
         Err(match ty {
             Some(ty) => ParamError::Type { name: name.to_owned(), ty, found }.into(),
-            None => {
-                ParamError::Unknown { name: name.to_owned(), known: params.iter().map(|p| p.name.clone()).collect() }
-                    .into()
+            None => ParamError::Unknown {
+                name: name.to_owned(),
+                known: params.iter().map(|p| p.name.clone()).collect(),
             }
+            .into(),
         })
     };
     let is_bool = value.is_instance_of::<PyBool>();
-    if ty.is_some_and(|ty| is_bool != (ty == Type::Bool)) || ty == Some(Type::String) || ty == Some(Type::Team) {
+    if ty.is_some_and(|ty| is_bool != (ty == Type::Bool))
+        || ty == Some(Type::String)
+        || ty == Some(Type::Team)
+    {
         return wrong();
     }
     if value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>() || has_number(value) {

@@ -109,8 +109,9 @@ impl Replay {
     #[getter]
     fn acts(&self, py: Python<'_>) -> PyResult<Vec<RecordedAct>> {
         let act = |(action, steer): (Action, Option<setpiece::engine::state::Steer>)| {
-            let steer =
-                steer.map(|steer| Py::new(py, RecordedSteer { x: steer.way.x, y: steer.way.y, power: steer.power }));
+            let steer = steer.map(|steer| {
+                Py::new(py, RecordedSteer { x: steer.way.x, y: steer.way.y, power: steer.power })
+            });
             Ok(RecordedAct { action: action.index(), steer: steer.transpose()? })
         };
         self.inner.acts().map(act).collect()

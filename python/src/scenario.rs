@@ -33,7 +33,8 @@ impl Scenario {
     }
 
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
-        compiled::file::to_json(&self.inner).map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))
+        compiled::file::to_json(&self.inner)
+            .map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))
     }
 }
 
@@ -93,7 +94,11 @@ impl Scenario {
     ///
     /// Raises `ParameterError` for a name, a type or a value that the scenario doesn't allow.
     #[pyo3(signature = (**params))]
-    fn with_params(&self, py: Python<'_>, params: Option<&Bound<'_, PyDict>>) -> PyResult<Scenario> {
+    fn with_params(
+        &self,
+        py: Python<'_>,
+        params: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Scenario> {
         let mut inner = compiled::Scenario::clone(&self.inner);
         if let Some(params) = params {
             let Bindings(values) = bind(py, &inner.params, params)?;
@@ -112,14 +117,24 @@ impl Scenario {
         let py = path.py();
         let path = given::path("path", path)?;
         let text = self.to_json(py)?;
-        setpiece::files::refuse_overwriting(&path, &[]).map_err(|error| errors::from_facade(py, &error))?;
+        setpiece::files::refuse_overwriting(&path, &[])
+            .map_err(|error| errors::from_facade(py, &error))?;
         setpiece::files::write(&path, &text).map_err(|error| errors::from_facade(py, &error))
     }
 
     fn __repr__(&self) -> String {
-        let bound: Vec<String> =
-            self.inner.params.iter().map(|param| format!("{}={}", param.name, param.default)).collect();
-        format!("Scenario({}{}{})", self.inner.name, if bound.is_empty() { "" } else { ": " }, bound.join(", "))
+        let bound: Vec<String> = self
+            .inner
+            .params
+            .iter()
+            .map(|param| format!("{}={}", param.name, param.default))
+            .collect();
+        format!(
+            "Scenario({}{}{})",
+            self.inner.name,
+            if bound.is_empty() { "" } else { ": " },
+            bound.join(", ")
+        )
     }
 
     fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
@@ -141,7 +156,11 @@ impl Scenario {
 /// `UnknownScenarioError`, `FileError`, `CompileError` or `FormatError`.
 #[pyfunction]
 #[pyo3(signature = (name_or_path, *, allow_outside = false))]
-pub(crate) fn load(py: Python<'_>, name_or_path: &Bound<'_, PyAny>, allow_outside: bool) -> PyResult<Scenario> {
+pub(crate) fn load(
+    py: Python<'_>,
+    name_or_path: &Bound<'_, PyAny>,
+    allow_outside: bool,
+) -> PyResult<Scenario> {
     let name_or_path = given::path("scenario", name_or_path)?;
     let options = LoadOptions { allow_outside, ..LoadOptions::default() };
     let loaded = py.detach(|| setpiece::load_with(&name_or_path, &options));
@@ -205,7 +224,8 @@ pub(crate) fn load_cast(
     allow_outside: bool,
 ) -> PyResult<Scenario> {
     let (name_or_path, cast) = (given::path("scenario", name_or_path)?, cast_of(casting)?);
-    let loaded = py.detach(|| setpiece::load_with(&name_or_path, &LoadOptions { cast: &cast, allow_outside }));
+    let loaded = py
+        .detach(|| setpiece::load_with(&name_or_path, &LoadOptions { cast: &cast, allow_outside }));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
@@ -219,7 +239,8 @@ pub(crate) fn compile_cast(
     allow_outside: bool,
 ) -> PyResult<Scenario> {
     let py = text.py();
-    let (text, name, cast) = (given::text("text", text)?, given::text("name", name)?, cast_of(casting)?);
+    let (text, name, cast) =
+        (given::text("text", text)?, given::text("name", name)?, cast_of(casting)?);
     let options = LoadOptions { cast: &cast, allow_outside };
     let loaded = py.detach(|| setpiece::compile_text_with(&text, &name, &options));
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
@@ -249,7 +270,7 @@ pub(crate) fn library(py: Python<'_>) -> Vec<LibraryEntry> {
 /// The scenario of a compiled file's text, for unpickling.
 #[pyfunction]
 pub(crate) fn restore(py: Python<'_>, text: &str) -> PyResult<Scenario> {
-    let inner =
-        compiled::file::from_json(text).map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))?;
+    let inner = compiled::file::from_json(text)
+        .map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))?;
     Ok(Scenario::of(py, inner))
 }

@@ -35,11 +35,15 @@ pub(crate) fn read(py: Python<'_>, seats: &Seats<'_, '_>) -> PyResult<Option<Age
 
 /// A value in a message; a string unchanged.
 fn shown(given: &Bound<'_, PyAny>) -> String {
-    given.cast::<PyString>().map_or_else(|_| given.to_string(), |text| text.to_string_lossy().into_owned())
+    given
+        .cast::<PyString>()
+        .map_or_else(|_| given.to_string(), |text| text.to_string_lossy().into_owned())
 }
 
 fn side(py: Python<'_>, name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResult<SideChoice> {
-    let Some(given) = given.filter(|given| !given.is_none()) else { return Ok(SideChoice::Scenario) };
+    let Some(given) = given.filter(|given| !given.is_none()) else {
+        return Ok(SideChoice::Scenario);
+    };
     if let Ok(word) = given.cast::<PyString>() {
         if word.to_string_lossy() == "all" {
             return Ok(SideChoice::All);
@@ -52,6 +56,8 @@ fn side(py: Python<'_>, name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResul
             return Ok(SideChoice::Players(players));
         }
     }
-    let message = format!("`{name}` is `{given}`; it can be a number of agents, \"all\" or a list of players' names");
+    let message = format!(
+        "`{name}` is `{given}`; it can be a number of agents, \"all\" or a list of players' names"
+    );
     Err(errors::parameter(py, name, &message))
 }

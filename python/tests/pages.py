@@ -12,7 +12,9 @@ HEAVY = re.compile(r"\b(stable_baselines3|sb3_contrib|ray)\b")
 
 def examples(page: str, *, heavy: bool = False) -> list[str]:
     """Returns the Python examples of a page, those that need heavy packages or the others."""
-    blocks = re.findall(r"```python\n(.*?)```", (DOCS / page).read_text(encoding="utf-8"), re.DOTALL)
+    blocks = re.findall(
+        r"```python\n(.*?)```", (DOCS / page).read_text(encoding="utf-8"), re.DOTALL
+    )
     return [block for block in blocks if bool(HEAVY.search(block)) == heavy]
 
 
@@ -35,4 +37,6 @@ def hold_tables(page: str, tables: Mapping[str, str]) -> None:
     wanted = pattern.sub(lambda found: found[1] + tables[found[2]], text)
     if os.environ.get("SETPIECE_BLESS"):
         path.write_text(wanted, encoding="utf-8")
-    assert path.read_text(encoding="utf-8") == wanted, f"{page} shows other tables: SETPIECE_BLESS=1 rewrites them"
+    assert path.read_text(encoding="utf-8") == wanted, (
+        f"{page} shows other tables: SETPIECE_BLESS=1 rewrites them"
+    )

@@ -16,7 +16,9 @@ FULL = "11_vs_11_stochastic"
 
 
 def test_the_full_set_has_grfs_numbers() -> None:
-    assert [action.name.lower() for action in Action] == [name for name, _ in setpiece._native.ACTIONS]
+    assert [action.name.lower() for action in Action] == [
+        name for name, _ in setpiece._native.ACTIONS
+    ]
     env = setpiece.make(FULL, action_set="full", observation="raw")
     assert env.action_space == gymnasium.spaces.Discrete(33)
     _, info = env.reset(seed=1)
@@ -27,7 +29,11 @@ def test_the_full_set_has_grfs_numbers() -> None:
     for action in (Action.PRESSURE, Action.TEAM_PRESSURE):
         held = env.step(action)[0]["sticky_actions"]
     assert list(np.flatnonzero(held)) == [10, 11, 12]
-    for action in (Action.RELEASE_KEEPER_RUSH, Action.RELEASE_PRESSURE, Action.RELEASE_TEAM_PRESSURE):
+    for action in (
+        Action.RELEASE_KEEPER_RUSH,
+        Action.RELEASE_PRESSURE,
+        Action.RELEASE_TEAM_PRESSURE,
+    ):
         held = env.step(action)[0]["sticky_actions"]
     assert not held.any()
     check_env(env)
@@ -57,7 +63,9 @@ def test_every_set_passes_the_checker(action_set: str, left: Any) -> None:
 def test_numbers_run_at_any_angle() -> None:
     env = setpiece.make("academy_empty_goal", action_set="continuous", observation="raw")
     env.reset(seed=1)
-    assert env.action_space == gymnasium.spaces.Box(np.float32([-1, -1, -1, 0]), np.float32([1, 1, 1, 1]))
+    assert env.action_space == gymnasium.spaces.Box(
+        np.float32([-1, -1, -1, 0]), np.float32([1, 1, 1, 1])
+    )
     for _ in range(15):
         seen = env.step([0.6, 0.8, -1.0, 0.0])[0]
     dx, dy = seen["left_team_direction"][1] * (54.4, 83.6)
@@ -81,7 +89,9 @@ def test_numbers_that_are_none_are_refused() -> None:
         setpiece.make(THREE, action_set="continuous", right=1, opponents={"right": "bot"})
 
 
-@pytest.mark.parametrize("observation", ["simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm", "raw"])
+@pytest.mark.parametrize(
+    "observation", ["simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm", "raw"]
+)
 @pytest.mark.parametrize("stack", [1, 3])
 def test_the_layout_covers_the_observation(observation: str, stack: int) -> None:
     if observation == "raw":
@@ -108,7 +118,10 @@ def test_the_layout_covers_the_observation(observation: str, stack: int) -> None
 def test_what_is_egocentric_is_seen_from_the_player() -> None:
     env = setpiece.make(THREE, observation="egocentric")
     raw = env.reset(seed=1)[0], env.look("raw")
-    blocks = {block.meaning: slice(block.start, block.start + block.length) for block in env.observation_layout}
+    blocks = {
+        block.meaning: slice(block.start, block.start + block.length)
+        for block in env.observation_layout
+    }
     me = raw[1]["left_team"][raw[1]["active"]] * (54.4, 83.6)
     ball = raw[1]["ball"][:2] * (54.4, 83.6)
     assert raw[0][blocks["from me to the ball"]] == pytest.approx((ball - me) / 54.4, abs=1e-4)
@@ -134,14 +147,19 @@ def test_a_stack_shows_the_oldest_first_and_begins_with_the_first() -> None:
         shown = [*shown[1:], one]
         assert np.array_equal(wide, np.concatenate(shown))
     other = stacked.clone()
-    assert same(other.step(Action.SHOT), stacked.step(Action.SHOT)), "a clone has what the stack holds"
+    assert same(other.step(Action.SHOT), stacked.step(Action.SHOT)), (
+        "a clone has what the stack holds"
+    )
     with pytest.raises(setpiece.ParameterError, match="can't be stacked"):
         setpiece.make(THREE, observation="raw", stack=2)
 
 
 def test_agents_asked_for_take_the_place_of_the_scenarios() -> None:
     assert setpiece.make(FULL, left=3).agents == ("left_0", "left_1", "left_2")
-    assert setpiece.make(FULL, left=1, right=1, switching="fixed").agents == ("left_RM_1", "right_RM_1")
+    assert setpiece.make(FULL, left=1, right=1, switching="fixed").agents == (
+        "left_RM_1",
+        "right_RM_1",
+    )
     assert len(setpiece.make(FULL, left="all", right="all").agents) == 22
     assert setpiece.make(FULL, left=["left_GK_1", "left_CF_1"]).agents == ("left_GK_1", "left_CF_1")
     env = setpiece.make(THREE, left=2, right=1)

@@ -122,7 +122,11 @@ def test_every_agent_is_paid_for_itself() -> None:
 def test_beside_opponents_the_callers_agents_are_paid() -> None:
     names: list[str] = []
     env = setpiece.make(
-        THREE, left=3, right=1, opponents={"right": "bot"}, rewards=lambda step: names.append(step.agent) or 1.0
+        THREE,
+        left=3,
+        right=1,
+        opponents={"right": "bot"},
+        rewards=lambda step: names.append(step.agent) or 1.0,
     )
     env.reset(seed=1)
     reward = env.step([Action.RIGHT] * 3)[1]
@@ -132,9 +136,16 @@ def test_beside_opponents_the_callers_agents_are_paid() -> None:
 
 @pytest.mark.parametrize(
     ("verdict", "outcome", "success"),
-    [(True, "judge", False), (np.True_, "judge", False), ("tired", "tired", False), ("success", "success", True)],
+    [
+        (True, "judge", False),
+        (np.True_, "judge", False),
+        ("tired", "tired", False),
+        ("success", "success", True),
+    ],
 )
-def test_an_ending_terminates_the_episode_with_its_label(verdict: Any, outcome: str, success: bool) -> None:
+def test_an_ending_terminates_the_episode_with_its_label(
+    verdict: Any, outcome: str, success: bool
+) -> None:
     asked = 0
 
     def judge(_step: Step) -> Any:
@@ -164,9 +175,13 @@ def test_an_ending_terminates_the_episode_with_its_label(verdict: Any, outcome: 
     assert play(env, None, right)[-1][4]["setpiece"]["index"] == 1
 
 
-def test_an_episode_that_python_ended_is_reported_and_replayed_like_any_other(tmp_path: Path) -> None:
+def test_an_episode_that_python_ended_is_reported_and_replayed_like_any_other(
+    tmp_path: Path,
+) -> None:
     text = TEN.replace("reward time", "record way = ball.x\n    reward time")
-    env = setpiece.make(text, ends=lambda step: "far" if step.now["steps_left"] == 4 else None, record=tmp_path)
+    env = setpiece.make(
+        text, ends=lambda step: "far" if step.now["steps_left"] == 4 else None, record=tmp_path
+    )
     info = play(env, 2, right)[-1][4]
     summary = info["setpiece"]
     assert info["records"].keys() == {"way"}
@@ -181,7 +196,9 @@ def test_an_episode_that_python_ended_is_reported_and_replayed_like_any_other(tm
 
 def test_a_reward_sees_how_an_ending_in_python_ended() -> None:
     env = setpiece.make(
-        TEN, rewards=["none", lambda step: float(step.outcome == "at_once")], ends=[lambda _: "at_once"]
+        TEN,
+        rewards=["none", lambda step: float(step.outcome == "at_once")],
+        ends=[lambda _: "at_once"],
     )
     env.reset(seed=1)
     assert env.step(Action.IDLE)[1] == 1.0
@@ -193,7 +210,9 @@ def test_the_files_endings_come_first_and_its_limit_last() -> None:
     trajectory = play(scored, 0, lambda: Action.SHOT if len(asked) > 3 else Action.RIGHT)
     assert trajectory[-1][4]["outcome"] == "scored"
     assert len(asked) == len(trajectory) - 2, "the last step is the file's"
-    last = play(setpiece.make(TEN, ends=lambda step: step.now["steps_left"] == 0 and "full"), 1, right)[-1]
+    last = play(
+        setpiece.make(TEN, ends=lambda step: step.now["steps_left"] == 0 and "full"), 1, right
+    )[-1]
     assert last[2:4] == (True, False)
     assert last[4]["outcome"] == "full"
     assert last[4]["setpiece"]["length"] == 10
@@ -257,7 +276,9 @@ def test_options_that_are_no_functions_are_named() -> None:
         setpiece.make(TEN, rewards=[lambda _: 1.0, lambda _: 2.0])
     taken = Counter()
     taken.__name__ = "time/step"  # type: ignore[attr-defined]
-    with pytest.raises(setpiece.ParameterError, match="`time/step` is a reward of the scenario too"):
+    with pytest.raises(
+        setpiece.ParameterError, match="`time/step` is a reward of the scenario too"
+    ):
         setpiece.make(TEN, rewards=taken).reset()
     with pytest.raises(setpiece.ParameterError, match="there is none"):
         setpiece.make(TEN, left=0, ends=deep)
@@ -281,7 +302,9 @@ def test_clones_and_pickles_go_on_with_their_functions() -> None:
     assert ends[0][1]["setpiece"]["return"]["kept"] == 2.5
 
 
-@pytest.mark.parametrize("copied", [setpiece.FootballEnv.clone, lambda env: pickle.loads(pickle.dumps(env))])
+@pytest.mark.parametrize(
+    "copied", [setpiece.FootballEnv.clone, lambda env: pickle.loads(pickle.dumps(env))]
+)
 @pytest.mark.parametrize("began", [False, True])
 @pytest.mark.parametrize(
     ("options", "terms"),
@@ -309,12 +332,20 @@ def test_what_rewards_and_endings_share_their_copies_share() -> None:
     tracker = Tracker()
     env = setpiece.make(TEN, rewards=tracker.paid, ends=tracker.tired)
     for each in (env.clone(), pickle.loads(pickle.dumps(env)), env):
-        assert [step[4].get("outcome") for step in play(each, 1, right)] == [None, None, None, None, "tired"]
+        assert [step[4].get("outcome") for step in play(each, 1, right)] == [
+            None,
+            None,
+            None,
+            None,
+            "tired",
+        ]
 
 
 def test_a_function_that_can_not_be_copied_is_named() -> None:
     env = setpiece.make(TEN, rewards=Locked())
-    with pytest.raises(setpiece.CallbackError, match="`Locked` can't be copied: TypeError: cannot pickle") as failed:
+    with pytest.raises(
+        setpiece.CallbackError, match="`Locked` can't be copied: TypeError: cannot pickle"
+    ) as failed:
         env.clone()
     assert (failed.value.function, failed.value.agent) == ("Locked", None)
 
@@ -338,14 +369,18 @@ def test_a_recorded_episode_with_an_ending_in_python_is_written(tmp_path: Path) 
 
 def test_passes_the_checker_of_gymnasium() -> None:
     check_env(setpiece.make(THREE, rewards=[forward], ends=[deep]))
-    envs = gymnasium.make_vec(f"setpiece/{THREE}-v0", 2, vectorization_mode="sync", rewards=[forward], ends=[deep])
+    envs = gymnasium.make_vec(
+        f"setpiece/{THREE}-v0", 2, vectorization_mode="sync", rewards=[forward], ends=[deep]
+    )
     envs.reset(seed=1)
     assert envs.step(np.full(2, Action.RIGHT))[4]["reward_terms"]["forward"].shape == (2,)
 
 
 def test_continuous_actions_are_shown_as_they_are() -> None:
     seen: list[Any] = []
-    env = setpiece.make(TEN, action_set="continuous", rewards=lambda step: seen.append(step.action) or 0.0)
+    env = setpiece.make(
+        TEN, action_set="continuous", rewards=lambda step: seen.append(step.action) or 0.0
+    )
     env.reset(seed=1)
     env.step(np.array([1.0, 0.0, -1.0, 0.0], np.float32))
     assert same(seen, [np.array([1.0, 0.0, -1.0, 0.0], np.float32)])
@@ -363,7 +398,9 @@ def test_each_agent_of_a_parallel_environment_is_paid_and_all_end() -> None:
     env.reset(seed=1)
     first, second = env.possible_agents
     for _ in range(3):
-        _, rewards, terminations, truncations, infos = env.step({first: Action.RIGHT, second: Action.LEFT})
+        _, rewards, terminations, truncations, infos = env.step(
+            {first: Action.RIGHT, second: Action.LEFT}
+        )
     assert terminations == {first: True, second: True}
     assert not any(truncations.values())
     assert env.agents == []
@@ -418,7 +455,10 @@ def test_who_judges_a_step_can_close_the_environment(what: type[Meddler]) -> Non
 def test_who_judges_a_step_can_not_play_it(what: str, call: str) -> None:
     meddler = (AtReset if "reset" in what else Meddler)(call)
     ending: Callable[[Step], bool] = lambda step: bool(meddler(step))  # noqa: E731
-    kwargs: dict[str, Any] = {"ending": {"ends": [ending]}, "opponent": {"right": 1, "opponents": {"right": meddler}}}
+    kwargs: dict[str, Any] = {
+        "ending": {"ends": [ending]},
+        "opponent": {"right": 1, "opponents": {"right": meddler}},
+    }
     env = setpiece.make("1_vs_1_easy", **kwargs.get(what, {"rewards": [meddler]}))
     env.reset(seed=1)
     meddler.env = env

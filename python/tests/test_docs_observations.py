@@ -26,7 +26,10 @@ def played_examples() -> dict[str, Any]:
 
 def ranges(low: Any, high: Any, digits: int = 10) -> str:
     """Returns the ranges of numbers, one round of them if they repeat."""
-    each = [f"{least:.{digits}g}..{most:.{digits}g}" for least, most in zip(np.ravel(low), np.ravel(high), strict=True)]
+    each = [
+        f"{least:.{digits}g}..{most:.{digits}g}"
+        for least, most in zip(np.ravel(low), np.ravel(high), strict=True)
+    ]
     round_ = next(n for n in range(1, len(each) + 1) if each == each[:n] * (len(each) // n))
     runs = [(len(list(run)), one) for one, run in groupby(each[:round_])]
     return ", ".join(f"{n} times {one}" if n > 1 else one for n, one in runs)
@@ -46,7 +49,10 @@ def blocks(env: setpiece.FootballEnv) -> str:
 
 def changed(kind: str) -> str:
     """Returns the blocks that `scale` changes; those of teammates and opponents once."""
-    plain, scaled = setpiece.make(NAME, observation=kind), setpiece.make(NAME, observation=kind, scale=True)
+    plain, scaled = (
+        setpiece.make(NAME, observation=kind),
+        setpiece.make(NAME, observation=kind, scale=True),
+    )
     rows, seen = [], set()
     for before, after in zip(plain.observation_layout, scaled.observation_layout, strict=True):
         assert isinstance(before, Block)
@@ -60,9 +66,15 @@ def changed(kind: str) -> str:
         each = [f"{factor:.6g}" for factor in high[1].astype(float) / high[0]]
         round_ = next(n for n in range(1, len(each) + 1) if each == each[:n] * (len(each) // n))
         numbers = str(before.start) if before.length == 1 else f"{before.start}..{where.stop - 1}"
-        bounds = ranges(scaled.observation_space.low[where], scaled.observation_space.high[where], digits=5)
-        rows.append((numbers, before.meaning, before.unit, after.unit, ", ".join(each[:round_]), bounds))
-    return table(("numbers", "meaning", "unit", "with `scale`", "multiplied by", "range with `scale`"), rows)
+        bounds = ranges(
+            scaled.observation_space.low[where], scaled.observation_space.high[where], digits=5
+        )
+        rows.append(
+            (numbers, before.meaning, before.unit, after.unit, ", ".join(each[:round_]), bounds)
+        )
+    return table(
+        ("numbers", "meaning", "unit", "with `scale`", "multiplied by", "range with `scale`"), rows
+    )
 
 
 def keys(env: setpiece.FootballEnv) -> str:
@@ -70,7 +82,9 @@ def keys(env: setpiece.FootballEnv) -> str:
     for key in env.observation_layout:
         assert isinstance(key, Key)
         shape = list(key.shape)
-        for side, letter, players in zip(("left_team", "right_team"), "mn", env._native.players, strict=True):
+        for side, letter, players in zip(
+            ("left_team", "right_team"), "mn", env._native.players, strict=True
+        ):
             if key.name.startswith(side):
                 assert shape[0] == players
                 shape[0] = letter
@@ -80,7 +94,15 @@ def keys(env: setpiece.FootballEnv) -> str:
             bounds = f"{space.start}..{space.start + space.n - 1}"
         else:
             bounds = ranges(space.low.astype(float), space.high.astype(float))
-        rows.append((f"`{key.name}`", key.dtype, f"`{written}`" if key.dtype != "int" else "", key.meaning, bounds))
+        rows.append(
+            (
+                f"`{key.name}`",
+                key.dtype,
+                f"`{written}`" if key.dtype != "int" else "",
+                key.meaning,
+                bounds,
+            )
+        )
     return table(("key", "dtype", "shape", "meaning", "range"), rows)
 
 
@@ -108,7 +130,11 @@ def numbers() -> str:
 def test_the_tables_are_the_layouts() -> None:
     vector = played_examples()["env"]
     assert vector.observation == "vector"
-    tables = {"kinds": kinds(vector), "numbers": numbers(), "raw": keys(setpiece.make(NAME, observation="raw"))}
+    tables = {
+        "kinds": kinds(vector),
+        "numbers": numbers(),
+        "raw": keys(setpiece.make(NAME, observation="raw")),
+    }
     for kind in ("simple115v2", "simple115v2+sticky", "simple115", "smm", "egocentric"):
         tables[kind.removeprefix("simple115v2+")] = blocks(setpiece.make(NAME, observation=kind))
     tables["vector"] = blocks(vector)

@@ -23,12 +23,26 @@ def test_every_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_every_error_is_documented() -> None:
     errors = [getattr(setpiece, name) for name in setpiece.__all__]
-    errors = [error for error in errors if isinstance(error, type) and issubclass(error, setpiece.SetpieceError)]
+    errors = [
+        error
+        for error in errors
+        if isinstance(error, type) and issubclass(error, setpiece.SetpieceError)
+    ]
     rows = []
     for error in errors:
-        others = [base.__name__ for base in error.__bases__ if base not in (setpiece.SetpieceError, Exception)]
+        others = [
+            base.__name__
+            for base in error.__bases__
+            if base not in (setpiece.SetpieceError, Exception)
+        ]
         assert error.__doc__
-        rows.append((f"`{error.__name__}`", ", ".join(others), error.__doc__.splitlines()[0].removesuffix(".")))
+        rows.append(
+            (
+                f"`{error.__name__}`",
+                ", ".join(others),
+                error.__doc__.splitlines()[0].removesuffix("."),
+            )
+        )
     hold_tables(PAGE, {"errors": table(("error", "is also a", "says that"), rows)})
 
 

@@ -12,7 +12,12 @@ import numpy as np
 import pytest
 from conftest import play, same
 from gymnasium.utils.env_checker import check_env
-from gymnasium.wrappers import FlattenObservation, FrameStackObservation, RecordEpisodeStatistics, TimeLimit
+from gymnasium.wrappers import (
+    FlattenObservation,
+    FrameStackObservation,
+    RecordEpisodeStatistics,
+    TimeLimit,
+)
 
 import setpiece
 from setpiece import Action
@@ -32,7 +37,9 @@ def test_every_id_passes_the_checker(env_id: str) -> None:
 @pytest.mark.parametrize("observation", ["simple115v2", "smm", "raw"])
 @pytest.mark.parametrize("name", [THREE, "11_vs_11_stochastic", "1_vs_1_easy"])
 def test_every_observation_passes_the_checker(name: str, observation: str) -> None:
-    check_env(setpiece.make(name, observation=observation, events=True, rewards="scoring,checkpoints"))
+    check_env(
+        setpiece.make(name, observation=observation, events=True, rewards="scoring,checkpoints")
+    )
 
 
 @pytest.mark.parametrize("observation", ["simple115v2", "smm", "raw"])
@@ -45,7 +52,9 @@ def test_observations_stay_in_their_space(name: str, observation: str) -> None:
 
 
 def test_module_prefix_and_wrappers() -> None:
-    env = gymnasium.make(f"setpiece:setpiece/{CLOSE}-v0", observation="smm", params={"difficulty": 0.2})
+    env = gymnasium.make(
+        f"setpiece:setpiece/{CLOSE}-v0", observation="smm", params={"difficulty": 0.2}
+    )
     assert env.observation_space.shape == (72, 96, 4)
     unwrapped = env.unwrapped
     assert isinstance(unwrapped, setpiece.FootballEnv)
@@ -107,7 +116,9 @@ def test_index_is_reproducible() -> None:
 
 
 def test_seed_of_make_is_that_of_the_first_reset() -> None:
-    assert same(play(setpiece.make(THREE, seed=9), None, steps=30), play(setpiece.make(THREE), 9, steps=30))
+    assert same(
+        play(setpiece.make(THREE, seed=9), None, steps=30), play(setpiece.make(THREE), 9, steps=30)
+    )
     unseeded = [play(setpiece.make("11_vs_11_stochastic"), None, steps=100) for _ in range(2)]
     assert not same(*unseeded)
 
@@ -148,7 +159,16 @@ def test_goal_ends_the_episode_and_pays() -> None:
     assert info["reward_terms"]["scoring/goal"] == 1.0
     assert info["records"] == {}
     summary = info["setpiece"]
-    assert summary.keys() == {"return", "length", "seed", "index", "digest", "success", "faults", "scenario"}
+    assert summary.keys() == {
+        "return",
+        "length",
+        "seed",
+        "index",
+        "digest",
+        "success",
+        "faults",
+        "scenario",
+    }
     assert (summary["success"], summary["faults"]) == (True, 0)
     assert summary["return"] == {"scoring/goal": 1.0, "scoring/conceded": 0.0}
     assert summary["length"] == len(trajectory) - 1
@@ -222,7 +242,21 @@ def test_params_of_reset_hold_until_others_come() -> None:
 
 @pytest.mark.parametrize(
     "action",
-    [19, -1, 1.5, "shot", None, True, [1, 2], np.array([1, 2]), np.array([[1]]), np.float32(3), 2**70, {5: 5}, {5}],
+    [
+        19,
+        -1,
+        1.5,
+        "shot",
+        None,
+        True,
+        [1, 2],
+        np.array([1, 2]),
+        np.array([[1]]),
+        np.float32(3),
+        2**70,
+        {5: 5},
+        {5},
+    ],
 )
 def test_wrong_actions_leave_the_episode_untouched(action: Any) -> None:
     env = setpiece.make(THREE)
@@ -235,7 +269,8 @@ def test_wrong_actions_leave_the_episode_untouched(action: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    "action", [5, np.int32(5), np.int64(5), np.uint8(5), Action.RIGHT, [5], (5,), np.array(5), np.array([5])]
+    "action",
+    [5, np.int32(5), np.int64(5), np.uint8(5), Action.RIGHT, [5], (5,), np.array(5), np.array([5])],
 )
 def test_actions_of_every_integer_kind(action: Any) -> None:
     env = setpiece.make(THREE)
@@ -253,7 +288,13 @@ def test_step_needs_an_episode() -> None:
 
 
 def test_unknown_options_are_named() -> None:
-    wrong: list[Any] = [{"param": {}}, {"params": 3}, {"params": {3: 4}}, {"episode": -1}, {"episode": "one"}]
+    wrong: list[Any] = [
+        {"param": {}},
+        {"params": 3},
+        {"params": {3: 4}},
+        {"episode": -1},
+        {"episode": "one"},
+    ]
     for options in wrong:
         with pytest.raises(setpiece.ParameterError):
             setpiece.make(CLOSE).reset(options=options)
@@ -414,13 +455,21 @@ def test_script_pays(pitch_file: PitchFile, tmp_path: Path) -> None:
 
 
 def test_failing_script_says_where(pitch_file: PitchFile, tmp_path: Path) -> None:
-    (tmp_path / "mine.rhai").write_text("fn reward(ctx, now, prev, events) {\n    let x = 0;\n    1 / x\n}\n")
+    (tmp_path / "mine.rhai").write_text(
+        "fn reward(ctx, now, prev, events) {\n    let x = 0;\n    1 / x\n}\n"
+    )
     env = setpiece.make(pitch_file(SCRIPTED))
     env.reset(seed=77)
     with pytest.raises(setpiece.ScriptError) as caught:
         env.step(0)
     error = caught.value
-    assert (error.script, error.line, error.hook, error.seed, error.step) == ("mine.rhai", 3, "reward", 77, 1)
+    assert (error.script, error.line, error.hook, error.seed, error.step) == (
+        "mine.rhai",
+        3,
+        "reward",
+        77,
+        1,
+    )
     with pytest.raises(gymnasium.error.ResetNeeded):
         env.step(0)
     env.reset(seed=78)
@@ -428,7 +477,9 @@ def test_failing_script_says_where(pitch_file: PitchFile, tmp_path: Path) -> Non
 
 def test_requirements_that_are_never_met() -> None:
     text = "scenario s {\n param far = 0.5 in 0..1\n ball at (uniform(0, 0.1), 0)\n team left { CM at (0, 0) }\n"
-    env = setpiece.make(setpiece.compile(text + ' require ball.x > far as "too far"\n end limit 10 steps\n}\n'))
+    env = setpiece.make(
+        setpiece.compile(text + ' require ball.x > far as "too far"\n end limit 10 steps\n}\n')
+    )
     with pytest.raises(setpiece.DrawError, match="too far"):
         env.reset(seed=1)
 
@@ -504,7 +555,9 @@ def test_a_scenario_declares_its_own_observation() -> None:
     assert env.observation_space.contains(observation)
     assert observation[:, 0] == pytest.approx([0.5, 0.5], abs=1e-6)
     assert observation[1, 1:3] == pytest.approx([0.2, 0.1], abs=1e-6)
-    check_env(setpiece.make(setpiece.compile(MEASURED.replace("[one, two]", "1")), observation="vector"))
+    check_env(
+        setpiece.make(setpiece.compile(MEASURED.replace("[one, two]", "1")), observation="vector")
+    )
     with pytest.raises(setpiece.ParameterError, match="declares no observation"):
         setpiece.make(CLOSE, observation="vector")
 
@@ -540,7 +593,9 @@ def test_an_action_of_the_bots_is_asked_for_by_its_set() -> None:
     assert setpiece.make(setpiece.compile(SEVERAL), action_set="v2").action_space.shape == (4,)
     assert v2.reset(seed=1)[1]["action_mask"].shape == (20,)
     assert v2.action_masks()[Action.BUILTIN_AI] == 1
-    assert same(play(default, 1, lambda: 5)[-1][4]["setpiece"], play(v2, 1, lambda: 5)[-1][4]["setpiece"])
+    assert same(
+        play(default, 1, lambda: 5)[-1][4]["setpiece"], play(v2, 1, lambda: 5)[-1][4]["setpiece"]
+    )
     with pytest.raises(setpiece.ParameterError, match="did you mean `default`") as caught:
         setpiece.make(THREE, action_set="defalt")
     assert caught.value.name == "action_set"
@@ -580,7 +635,9 @@ def test_who_follows_the_bots_choice_scores() -> None:
 
 def test_asking_the_bot_changes_nothing() -> None:
     def digest(**options: Any) -> str:
-        return play(setpiece.make("11_vs_11_stochastic", **options), 3, steps=4000)[-1][4]["setpiece"]["digest"]
+        return play(setpiece.make("11_vs_11_stochastic", **options), 3, steps=4000)[-1][4][
+            "setpiece"
+        ]["digest"]
 
     assert digest() == digest(bot_action=True)
 
@@ -614,7 +671,9 @@ scenario nobody extends academy_3_vs_1_with_keeper {
 
 @pytest.mark.parametrize("observation", ["simple115v2", "smm", "raw"])
 def test_bots_among_themselves(observation: str) -> None:
-    env = setpiece.make(setpiece.compile(NOBODY), observation=observation, events=True, bot_action=True)
+    env = setpiece.make(
+        setpiece.compile(NOBODY), observation=observation, events=True, bot_action=True
+    )
     assert env.agents == ()
     trajectory = play(env, 1, lambda: [])
     for observed, reward, _, _, info in trajectory[1:]:
@@ -648,7 +707,9 @@ def test_what_is_closed_says_so(kind: str) -> None:
             env.step([0, 0] if kind == "vector" else 0)
 
 
-@pytest.mark.parametrize("maker", [setpiece.make, setpiece.parallel_env, partial(setpiece.make_vec, num_envs=2)])
+@pytest.mark.parametrize(
+    "maker", [setpiece.make, setpiece.parallel_env, partial(setpiece.make_vec, num_envs=2)]
+)
 def test_parameters_are_a_mapping(maker: Callable[..., Any]) -> None:
     with pytest.raises(setpiece.ParameterError, match="expected `params` as a mapping"):
         maker("academy_corner", params=[1])
@@ -672,6 +733,8 @@ def test_a_copy_goes_over_to_scenarios_that_lack_the_first_ones_parameters() -> 
 
 def test_a_vector_refuses_what_only_single_environments_take() -> None:
     with pytest.raises(TypeError, match="unexpected keyword argument 'events'"):
-        gymnasium.make_vec("setpiece/academy_corner-v0", 2, vectorization_mode="vector_entry_point", events=True)
+        gymnasium.make_vec(
+            "setpiece/academy_corner-v0", 2, vectorization_mode="vector_entry_point", events=True
+        )
     with pytest.raises(TypeError, match="unexpected keyword argument 'observations'"):
         setpiece.FootballEnv("academy_corner", observations="raw")  # type: ignore[call-arg]

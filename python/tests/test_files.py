@@ -15,7 +15,9 @@ import setpiece
 
 PITCH = "scenario {name} extends academy {{ ball at (0.6, 0) team left {{ CM at (0.5, 0) }} }}\n"
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="pipes, limits and bytes of paths are Unix's")
+pytestmark = pytest.mark.skipif(
+    sys.platform == "win32", reason="pipes, limits and bytes of paths are Unix's"
+)
 
 
 @contextmanager
@@ -37,7 +39,9 @@ def played(env: setpiece.FootballEnv, seed: int = 1) -> dict[str, Any]:
             return info
 
 
-def test_a_pipe_is_refused_wherever_a_file_is_read(tmp_path: Path, pitch_file: Callable[[str], Path]) -> None:
+def test_a_pipe_is_refused_wherever_a_file_is_read(
+    tmp_path: Path, pitch_file: Callable[[str], Path]
+) -> None:
     pipe = tmp_path / "pipe.pitch"
     os.mkfifo(pipe)
     env = setpiece.make(pitch_file(PITCH.format(name="mine")))
@@ -52,14 +56,19 @@ def test_a_pipe_is_refused_wherever_a_file_is_read(tmp_path: Path, pitch_file: C
         with pytest.raises(setpiece.FileError, match="is not a regular file") as caught:
             read()
         assert caught.value.code == "SP0017"
-    for line in ('import "pipe.pitch"\n' + PITCH, PITCH.replace("}} }}", '}} reward script "pipe.pitch" }}')):
+    for line in (
+        'import "pipe.pitch"\n' + PITCH,
+        PITCH.replace("}} }}", '}} reward script "pipe.pitch" }}'),
+    ):
         file = pitch_file(line.format(name="mine"))
         with pytest.raises(setpiece.CompileError) as broken:
             setpiece.load(file)
         assert "is not a regular file" in broken.value.diagnostics[0].message
 
 
-def test_a_watched_file_that_becomes_a_pipe_keeps_the_last_scenario(pitch_file: Callable[[str], Path]) -> None:
+def test_a_watched_file_that_becomes_a_pipe_keeps_the_last_scenario(
+    pitch_file: Callable[[str], Path],
+) -> None:
     from time import sleep
 
     file = pitch_file(PITCH.format(name="mine"))
@@ -95,7 +104,10 @@ def test_a_replay_that_does_not_fit_leaves_the_earlier_one(tmp_path: Path) -> No
     env.save_replay(path)
     before = path.read_bytes()
     env.step(0)
-    with small_disk(100), pytest.raises(setpiece.FileError, match=r"kept\.pitchr` can't be written"):
+    with (
+        small_disk(100),
+        pytest.raises(setpiece.FileError, match=r"kept\.pitchr` can't be written"),
+    ):
         env.save_replay(path)
     assert path.read_bytes() == before
     assert [file.name for file in tmp_path.iterdir()] == ["kept.pitchr"]
@@ -215,7 +227,9 @@ def test_the_command_of_the_package_says_that_it_draws_no_pictures(tmp_path: Pat
 def test_the_command_takes_paths_that_are_not_unicode(tmp_path: Path) -> None:
     file = tmp_path / os.fsdecode(b"caf\xe9.pitch")
     file.write_text(PITCH.format(name="mine"))
-    done = subprocess.run([sys.executable, "-m", "setpiece", "check", str(file)], capture_output=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-m", "setpiece", "check", str(file)], capture_output=True, check=False
+    )
     assert done.returncode == 0, done.stderr
 
 

@@ -25,11 +25,23 @@ def test_the_sets_grow() -> None:
 def test_numbers_and_names() -> None:
     default = actions.action_set_dict["default"]
     assert [action.name for action in default[9:]] == [
-        *("long_pass", "high_pass", "short_pass", "shot", "sprint", "release_direction", "release_sprint", "sliding"),
+        *(
+            "long_pass",
+            "high_pass",
+            "short_pass",
+            "shot",
+            "sprint",
+            "release_direction",
+            "release_sprint",
+            "sliding",
+        ),
         *("dribble", "release_dribble"),
     ]
     assert actions.action_set_dict["full"][23] is actions.action_switch
-    assert (actions.action_sprint.backend_action, actions.action_builtin_ai.backend_action) == (18, 32)
+    assert (actions.action_sprint.backend_action, actions.action_builtin_ai.backend_action) == (
+        18,
+        32,
+    )
     assert str(actions.action_short_pass) == "short_pass"
     assert actions.action_shot == actions.CoreAction(12, "shot")
     assert actions.action_shot != actions.action_sliding
@@ -46,8 +58,14 @@ def test_sticky_actions_by_set() -> None:
 def test_an_action_by_its_number() -> None:
     default = actions.get_action_set(DEFAULT)
     assert actions.named_action_from_action_set(default, np.int32(12)) is actions.action_shot
-    assert actions.named_action_from_action_set(default, actions.action_switch) is actions.action_switch
-    assert actions.named_action_from_action_set(default, np.array(actions.action_shot)) is actions.action_shot
+    assert (
+        actions.named_action_from_action_set(default, actions.action_switch)
+        is actions.action_switch
+    )
+    assert (
+        actions.named_action_from_action_set(default, np.array(actions.action_shot))
+        is actions.action_shot
+    )
     with pytest.raises(ActionError, match="found `array"):
         actions.named_action_from_action_set(default, np.array([1, 2]))
     with pytest.raises(ActionError, match=r"outside 0\.\.18"):

@@ -41,7 +41,9 @@ def test_definitions(definition: str, name: str, left: int, right: int) -> None:
 
 
 def test_slots_are_dealt_out_in_order() -> None:
-    config = Config({"level": FULL, "players": ["lazy:left_players=2", "agent:left_players=1,right_players=1"]})
+    config = Config(
+        {"level": FULL, "players": ["lazy:left_players=2", "agent:left_players=1,right_players=1"]}
+    )
     env = FootballEnv(config)
     observation = env.reset()
     assert len(observation) == 2
@@ -93,14 +95,18 @@ def test_a_player_of_ones_own(monkeypatch: pytest.MonkeyPatch) -> None:
     env.reset()
     env.step(0)
     # Its `right` leads to the left of the pitch.
-    assert np.flatnonzero(env.unwrapped._core.whole["right_agent_sticky_actions"][0]).tolist() == [0]
+    assert np.flatnonzero(env.unwrapped._core.whole["right_agent_sticky_actions"][0]).tolist() == [
+        0
+    ]
 
 
 def test_the_bot_needs_the_full_set() -> None:
     with pytest.raises(ParameterError, match="full"):
         create_environment(FULL, extra_players=["bot:right_players=1"])
     options = {"action_set": "full"}
-    env = create_environment(FULL, extra_players=["bot:right_players=1"], other_config_options=options)
+    env = create_environment(
+        FULL, extra_players=["bot:right_players=1"], other_config_options=options
+    )
     env.reset()
     for _ in range(50):
         env.step(0)
@@ -108,7 +114,12 @@ def test_the_bot_needs_the_full_set() -> None:
 
 def bot_sees(**changes: Any) -> dict[str, Any]:
     return {
-        **{"active": 0, "game_mode": 0, "ball_owned_team": 0, "left_team": np.array([[0.0, 0.0], [0.1, 0.2]])},
+        **{
+            "active": 0,
+            "game_mode": 0,
+            "ball_owned_team": 0,
+            "left_team": np.array([[0.0, 0.0], [0.1, 0.2]]),
+        },
         **{"left_team_active": np.array([True, True]), "right_team": np.array([[0.9, 0.3]])},
         **changes,
     }
@@ -124,7 +135,10 @@ def bot_sees(**changes: Any) -> dict[str, Any]:
         ({"ball_owned_team": 1}, ["pressure", "sprint"]),
         ({"right_team": np.array([[0.05, 0.0]])}, ["bottom_right", "short_pass"]),
         (
-            {"right_team": np.array([[0.05, 0.01]]), "left_team": np.array([[0.0, 0.0], [0.9, 0.2]])},
+            {
+                "right_team": np.array([[0.05, 0.01]]),
+                "left_team": np.array([[0.0, 0.0], [0.9, 0.2]]),
+            },
             ["top", "top"],
         ),
         ({"active": -1}, ["idle"]),
@@ -149,7 +163,9 @@ def play(env: Any, episodes: int = 1) -> list[dict[str, str]]:
 
 
 def test_a_whole_episode(tmp_path: Path) -> None:
-    env = create_environment(CLOSE, write_full_episode_dumps=True, logdir=str(tmp_path), representation="raw")
+    env = create_environment(
+        CLOSE, write_full_episode_dumps=True, logdir=str(tmp_path), representation="raw"
+    )
     [dump] = play(env)
     assert dump["name"] == "episode_done"
     path = Path(dump["dump"])
@@ -170,7 +186,9 @@ def test_a_whole_episode(tmp_path: Path) -> None:
 def test_the_run_up_of_a_goal(tmp_path: Path) -> None:
     for seed in range(20):
         options = {"game_engine_random_seed": seed}
-        env = create_environment(CLOSE, write_goal_dumps=True, logdir=str(tmp_path), other_config_options=options)
+        env = create_environment(
+            CLOSE, write_goal_dumps=True, logdir=str(tmp_path), other_config_options=options
+        )
         dumps = play(env)
         if dumps:
             break
@@ -179,7 +197,9 @@ def test_the_run_up_of_a_goal(tmp_path: Path) -> None:
 
 
 def test_every_kth_episode_is_dumped(tmp_path: Path) -> None:
-    env = create_environment(CLOSE, write_full_episode_dumps=True, logdir=str(tmp_path), dump_frequency=3)
+    env = create_environment(
+        CLOSE, write_full_episode_dumps=True, logdir=str(tmp_path), dump_frequency=3
+    )
     assert len(play(env, 7)) == 3
 
 
@@ -221,7 +241,9 @@ def test_a_dump_plays_again(tmp_path: Path, right: int) -> None:
     path = info["dumps"][0]["dump"]
     helpers = ScriptHelpers()
     again = tmp_path / "again"
-    infos = helpers.replay(path, directory=str(again), render=False, config_update={"dump_full_episodes": True})
+    infos = helpers.replay(
+        path, directory=str(again), render=False, config_update={"dump_full_episodes": True}
+    )
     before, after = helpers.load_dump(path), helpers.load_dump(infos[-1]["dumps"][0]["dump"])
     assert len(before) == len(after)
     for old, new in zip(before, after, strict=True):
@@ -240,7 +262,9 @@ def test_a_dump_as_text(tmp_path: Path) -> None:
     assert "steps_left" in text.read_text()
 
 
-def test_the_command_writes_a_dump_as_text(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_writes_a_dump_as_text(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     env = create_environment(CLOSE, write_full_episode_dumps=True, logdir=str(tmp_path))
     [dump] = play(env)
     text = tmp_path / "dump.txt"
@@ -263,7 +287,9 @@ def test_replaying_beyond_the_end(tmp_path: Path) -> None:
     for _ in range(3):
         env.step(5)
     path = env.unwrapped.write_dump("short")
-    again = create_environment(FULL, number_of_left_players_agent_controls=0, extra_players=[f"replay:path={path}"])
+    again = create_environment(
+        FULL, number_of_left_players_agent_controls=0, extra_players=[f"replay:path={path}"]
+    )
     again.reset()
     for _ in range(3):
         again.step([])

@@ -1,4 +1,6 @@
-"""`create_environment`: every parameter, the shapes of every representation, rewards, states, bad input."""
+"""`create_environment`: every parameter, the shapes of every representation, rewards, states, bad
+input.
+"""
 
 import pickle
 from pathlib import Path
@@ -10,7 +12,14 @@ import pytest
 from conftest import same
 
 import setpiece
-from setpiece import ActionError, CompileError, ParameterError, SnapshotError, UnavailableError, UnknownScenarioError
+from setpiece import (
+    ActionError,
+    CompileError,
+    ParameterError,
+    SnapshotError,
+    UnavailableError,
+    UnknownScenarioError,
+)
 from setpiece.gfootball.env import create_environment, create_remote_environment
 from setpiece.gfootball.env import football_action_set as actions
 from setpiece.gfootball.env.config import Config
@@ -54,7 +63,9 @@ SHAPES = [
 
 @pytest.mark.parametrize(("left", "right"), [(1, 0), (0, 1), (3, 0), (0, 2), (2, 2)])
 @pytest.mark.parametrize(("representation", "stacked", "shape", "dtype"), SHAPES)
-def test_shapes(representation: str, stacked: bool, shape: tuple[int, ...], dtype: Any, left: int, right: int) -> None:
+def test_shapes(
+    representation: str, stacked: bool, shape: tuple[int, ...], dtype: Any, left: int, right: int
+) -> None:
     env = make(left=left, right=right, representation=representation, stacked=stacked)
     agents = left + right
     expected = shape if agents == 1 else (agents, *shape)
@@ -71,7 +82,11 @@ def test_shapes(representation: str, stacked: bool, shape: tuple[int, ...], dtyp
     assert reward.dtype == np.float32
     assert done is False
     assert info == {"score_reward": 0.0}
-    space = gymnasium.spaces.Discrete(19) if agents == 1 else gymnasium.spaces.MultiDiscrete([19] * agents)
+    space = (
+        gymnasium.spaces.Discrete(19)
+        if agents == 1
+        else gymnasium.spaces.MultiDiscrete([19] * agents)
+    )
     assert env.action_space == space
 
 
@@ -170,7 +185,10 @@ def test_the_sides_take_turns_to_kick_off_the_left_one_first() -> None:
     kicking = []
     for _ in range(4):
         seen = env.reset()[0]
-        reach = [np.min(np.linalg.norm(seen[team] - seen["ball"][:2], axis=1)) for team in ("left_team", "right_team")]
+        reach = [
+            np.min(np.linalg.norm(seen[team] - seen["ball"][:2], axis=1))
+            for team in ("left_team", "right_team")
+        ]
         kicking.append("left" if reach[0] < reach[1] else "right")
     assert kicking == ["left", "right", "left", "right"]
 
@@ -203,7 +221,11 @@ def test_scoring_pays_both_sides() -> None:
 
 def test_checkpoints_add_up_to_one() -> None:
     for seed in range(20):
-        env = make(CLOSE, rewards="scoring,checkpoints", other_config_options={"game_engine_random_seed": seed})
+        env = make(
+            CLOSE,
+            rewards="scoring,checkpoints",
+            other_config_options={"game_engine_random_seed": seed},
+        )
         total, info = scored(env)
         if info["score_reward"]:
             break
@@ -211,14 +233,22 @@ def test_checkpoints_add_up_to_one() -> None:
 
 
 @pytest.mark.parametrize(
-    ("distance", "collected"), [(1.2, 0), (0.99, 1), (0.9, 2), (0.5, 6), (0.2, 9), (0.19, 10), (0.0, 10)]
+    ("distance", "collected"),
+    [(1.2, 0), (0.99, 1), (0.9, 2), (0.5, 6), (0.2, 9), (0.19, 10), (0.0, 10)],
 )
 def test_checkpoints_by_distance(distance: float, collected: int) -> None:
     wrapper = CheckpointRewardWrapper(inside(make()))
-    seen = {"ball_owned_team": 0, "ball_owned_player": 3, "active": 3, "ball": np.array([1.0 - distance, 0.0, 0.0])}
+    seen = {
+        "ball_owned_team": 0,
+        "ball_owned_player": 3,
+        "active": 3,
+        "ball": np.array([1.0 - distance, 0.0, 0.0]),
+    }
     assert wrapper._paid(0, seen, 0.0) == pytest.approx(0.1 * collected)
     assert wrapper._paid(0, seen, 0.0) == 0.0, "a region pays once"
-    assert wrapper._paid(1, {**seen, "active": 2}, 0.0) == 0.0, "only the player with the ball is paid"
+    assert wrapper._paid(1, {**seen, "active": 2}, 0.0) == 0.0, (
+        "only the player with the ball is paid"
+    )
     assert wrapper._paid(1, {**seen, "ball_owned_team": -1}, 0.0) == 0.0
     assert wrapper._paid(0, seen, 1.0) == pytest.approx(1.0 + 0.1 * (10 - collected))
     assert wrapper._paid(0, seen, 1.0) == 1.0, "a second goal is a goal"
@@ -233,7 +263,13 @@ def test_agents_on_the_right_see_the_match_turned() -> None:
         turned = flip_observation(right, config)
         for key in ("left_team", "right_team", "left_team_direction", "ball", "ball_direction"):
             assert np.allclose(left[key], turned[key], atol=1e-6), key
-        for key in ("left_team_roles", "right_team_active", "score", "ball_owned_team", "ball_owned_player"):
+        for key in (
+            "left_team_roles",
+            "right_team_active",
+            "score",
+            "ball_owned_team",
+            "ball_owned_player",
+        ):
             assert same(left[key], turned[key]), key
         assert turned["ball"][2] == right["ball"][2]
         (left, right), _, done, _ = env.step([5, 5])
@@ -255,7 +291,16 @@ def test_directions_of_agents_on_the_right_are_turned() -> None:
 @pytest.mark.parametrize(
     "action",
     [
-        *(5, np.int32(5), np.int64(5), [5], np.array([5]), np.array(5), actions.action_right, [actions.action_right]),
+        *(
+            5,
+            np.int32(5),
+            np.int64(5),
+            [5],
+            np.array([5]),
+            np.array(5),
+            actions.action_right,
+            [actions.action_right],
+        ),
         *(np.array(actions.action_right), np.array([actions.action_right])),
     ],
 )
@@ -265,7 +310,9 @@ def test_action_formats(action: Any) -> None:
     assert env.step(action)[0][0]["sticky_actions"][4] == 1
 
 
-@pytest.mark.parametrize("action", [19, -1, 1.5, "right", None, [1, 2], [], True, np.True_, np.array("right")])
+@pytest.mark.parametrize(
+    "action", [19, -1, 1.5, "right", None, [1, 2], [], True, np.True_, np.array("right")]
+)
 def test_a_bad_action_leaves_the_episode_untouched(action: Any) -> None:
     env = make()
     env.reset()
@@ -323,7 +370,9 @@ def test_seeds() -> None:
     assert same(play(envs[0]), play(envs[1]))
     env = one(**SEEDED)
     runs = [play(env) for _ in range(3)]
-    assert same(runs[0], runs[2]), "a fixed seed makes every episode with the same kick-off the same"
+    assert same(runs[0], runs[2]), (
+        "a fixed seed makes every episode with the same kick-off the same"
+    )
     assert not same(runs[0], runs[1])
 
 
@@ -368,7 +417,16 @@ def test_a_state_of_something_else_is_refused() -> None:
         assert env.get_state() == before
 
 
-PARTS = ("agents", "source", "played", "snapshot", "waiting", "step_count", "cumulative_reward", "done")
+PARTS = (
+    "agents",
+    "source",
+    "played",
+    "snapshot",
+    "waiting",
+    "step_count",
+    "cumulative_reward",
+    "done",
+)
 
 
 @pytest.mark.parametrize("damage", ["gone", "x", [7]])
@@ -442,7 +500,9 @@ def test_a_waiting_set_piece_is_taken_for_the_agents() -> None:
     env.reset()
     core.waiting = 20
     assert core._hurried([actions.action_idle]) == [actions.action_short_pass]
-    core.slots = [{**core.slots[0], "ball_owned_team": 0, "ball_owned_player": core.slots[0]["active"]}]
+    core.slots = [
+        {**core.slots[0], "ball_owned_team": 0, "ball_owned_player": core.slots[0]["active"]}
+    ]
     core.waiting = 21
     assert core._hurried([actions.action_top]) == [actions.action_right]
     core.waiting = 30
@@ -459,7 +519,12 @@ def test_grf_bugs() -> None:
     assert first(["kick_off_mode"])["game_mode"] == 0
     assert first(["first_active"])["active"] == 6
     assert first(True)["active"] == 6
-    assert make(THREE, representation="raw", other_config_options={"grf_bugs": True}).reset()[0]["active"] == 0
+    assert (
+        make(THREE, representation="raw", other_config_options={"grf_bugs": True}).reset()[0][
+            "active"
+        ]
+        == 0
+    )
     with pytest.raises(ParameterError, match="did you mean `first_active`"):
         first(["first_activ"])
     with pytest.raises(ParameterError):
@@ -471,7 +536,9 @@ def test_players_who_were_sent_off() -> None:
     raw["left_team_active"] = np.array([True, True, False, True])
     numbers = Simple115StateWrapper.convert_observation([raw], fixed_positions=True)[0]
     assert numbers[4:6].tolist() == numbers[26:28].tolist() == [-1, -1]
-    kept = Simple115StateWrapper.convert_observation([raw], fixed_positions=True, sent_off_stay=True)[0]
+    kept = Simple115StateWrapper.convert_observation(
+        [raw], fixed_positions=True, sent_off_stay=True
+    )[0]
     assert np.allclose(kept[4:6], raw["left_team"][2])
     assert np.count_nonzero(generate_smm([raw])[0, :, :, 0]) == 3
     config = Config({"level": THREE, "grf_bugs": ["sent_off"]})
@@ -480,7 +547,10 @@ def test_players_who_were_sent_off() -> None:
 
 def listed(seen: dict[str, Any]) -> dict[str, Any]:
     """An observation as it comes out of JSON."""
-    return {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in seen.items()}
+    return {
+        key: value.tolist() if isinstance(value, np.ndarray) else value
+        for key, value in seen.items()
+    }
 
 
 def test_lists_are_shown_as_arrays_are() -> None:
@@ -492,7 +562,9 @@ def test_lists_are_shown_as_arrays_are() -> None:
     for fixed in (False, True):
         for kept in (False, True):
             numbers = Simple115StateWrapper.convert_observation(lists, fixed, kept)
-            assert np.array_equal(numbers, Simple115StateWrapper.convert_observation(raw, fixed, kept))
+            assert np.array_equal(
+                numbers, Simple115StateWrapper.convert_observation(raw, fixed, kept)
+            )
     config = Config({"level": THREE})
     for seen, plain in zip(raw, lists, strict=True):
         turned, expected = flip_observation(plain, config), flip_observation(seen, config)
@@ -509,7 +581,9 @@ def test_an_agent_of_kaggles_kind_makes_a_minimap() -> None:
 
 def test_observations_that_do_not_tell_all() -> None:
     raw = make(representation="raw").reset()
-    untold = [{key: value for key, value in seen.items() if not key.endswith("_active")} for seen in raw]
+    untold = [
+        {key: value for key, value in seen.items() if not key.endswith("_active")} for seen in raw
+    ]
     assert np.array_equal(generate_smm(untold), generate_smm(raw))
     convert = Simple115StateWrapper.convert_observation
     assert np.array_equal(convert(untold, fixed_positions=True), convert(raw, fixed_positions=True))
@@ -518,12 +592,16 @@ def test_observations_that_do_not_tell_all() -> None:
     whole = [inside(env)._core.whole]
     assert np.array_equal(generate_smm(whole)[..., :3], generate_smm(seen)[..., :3])
     assert not generate_smm(whole)[..., 3].any(), "nobody is the active one of a whole match"
-    assert np.array_equal(convert(whole, fixed_positions=True)[:, :97], convert(seen, fixed_positions=True)[:, :97])
+    assert np.array_equal(
+        convert(whole, fixed_positions=True)[:, :97], convert(seen, fixed_positions=True)[:, :97]
+    )
     assert not convert(whole, fixed_positions=True)[:, 97:108].any()
     assert not generate_smm([{"ball": [0.0, 0.0, 0.1]}])[..., :2].any()
 
 
-@pytest.mark.parametrize("config", [None, {"action_set": "default"}, {}, 7, "smm", Config({"level": THREE})])
+@pytest.mark.parametrize(
+    "config", [None, {"action_set": "default"}, {}, 7, "smm", Config({"level": THREE})]
+)
 def test_a_minimap_needs_no_config(config: Any) -> None:
     raw = make(representation="raw").reset()
     assert np.array_equal(generate_smm(raw, config), generate_smm(raw))
@@ -532,7 +610,13 @@ def test_a_minimap_needs_no_config(config: Any) -> None:
 def test_settings_of_a_dump_wish_bugs_back_too() -> None:
     raw = make(representation="raw").reset()
     raw[0]["left_team_active"][2] = False
-    for bugs, marked in [(True, 4), (["sent_off"], 4), ("sent_off", 4), (False, 3), (["kick_off_mode"], 3)]:
+    for bugs, marked in [
+        (True, 4),
+        (["sent_off"], 4),
+        ("sent_off", 4),
+        (False, 3),
+        (["kick_off_mode"], 3),
+    ]:
         settings = Config({"level": THREE, "grf_bugs": bugs}).get_dictionary()
         assert np.count_nonzero(generate_smm(raw, settings)[0, :, :, 0]) == marked
 
@@ -639,7 +723,10 @@ def test_numbers_of_numpy_are_numbers(tmp_path: Path) -> None:
         number_of_left_players_agent_controls=np.int64(2),
         number_of_right_players_agent_controls=np.uint8(1),
         channel_dimensions=np.array([10, 20]),
-        other_config_options={"game_engine_random_seed": np.int64(7), "episode_number": np.int32(2)},
+        other_config_options={
+            "game_engine_random_seed": np.int64(7),
+            "episode_number": np.int32(2),
+        },
     )
     assert same(env.reset()[0], make(representation="raw", left=2, right=1).reset()[0])
     config = inside(env)._config
@@ -663,12 +750,20 @@ def test_reset_takes_nothing(arguments: dict[str, Any]) -> None:
 
 def test_config() -> None:
     config = Config({"level": THREE, **SEEDED})
-    assert (config["level"], config.get("render_resolution_y"), config.get("nothing", 3)) == (THREE, 720, 3)
+    assert (config["level"], config.get("render_resolution_y"), config.get("nothing", 3)) == (
+        THREE,
+        720,
+        3,
+    )
     assert config["episode_number"] == 1
     config.NewScenario()
     assert config["episode_number"] == 2
     recorded = config.ScenarioConfig()
-    assert (recorded.game_duration, recorded.controllable_left_players, recorded.left_agents) == (400, 4, 1)
+    assert (recorded.game_duration, recorded.controllable_left_players, recorded.left_agents) == (
+        400,
+        4,
+        1,
+    )
     assert recorded.dynamic_player_selection
     assert config["game_engine_random_seed"] == 7
     twin = Config({"level": THREE, **SEEDED})

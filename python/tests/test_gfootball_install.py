@@ -20,9 +20,28 @@ def test_imports_of_grf_work() -> None:
     football_env = importlib.import_module("gfootball.env")
     assert football_env is gfootball.env
     for name in [
-        *("config", "football_action_set", "football_env", "football_env_core", "observation_preprocessing"),
-        *("observation_processor", "observation_rotation", "player_base", "scenario_builder", "script_helpers"),
-        *("wrappers", "players.agent", "players.bot", "players.lazy", "players.replay", "players.builtin_ai"),
+        *(
+            "config",
+            "football_action_set",
+            "football_env",
+            "football_env_core",
+            "observation_preprocessing",
+        ),
+        *(
+            "observation_processor",
+            "observation_rotation",
+            "player_base",
+            "scenario_builder",
+            "script_helpers",
+        ),
+        *(
+            "wrappers",
+            "players.agent",
+            "players.bot",
+            "players.lazy",
+            "players.replay",
+            "players.builtin_ai",
+        ),
     ]:
         alias = importlib.import_module(f"gfootball.env.{name}")
         assert alias is importlib.import_module(f"setpiece.gfootball.env.{name}")
@@ -39,12 +58,16 @@ def test_another_gfootball_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> Non
     assert sys.modules["gfootball"] is real
 
 
-@pytest.mark.parametrize(("suffix", "shape"), [("SMM", (72, 96, 4)), ("simple115", (115,)), ("simple115v2", (115,))])
+@pytest.mark.parametrize(
+    ("suffix", "shape"), [("SMM", (72, 96, 4)), ("simple115", (115,)), ("simple115v2", (115,))]
+)
 def test_ids(suffix: str, shape: tuple[int, ...]) -> None:
     gfootball.install()
     for name in setpiece.list():
         assert f"GFootball-{name}-{suffix}-v0" in gymnasium.registry
-    env = gymnasium.make(f"GFootball-academy_empty_goal_close-{suffix}-v0", rewards="scoring,checkpoints")
+    env = gymnasium.make(
+        f"GFootball-academy_empty_goal_close-{suffix}-v0", rewards="scoring,checkpoints"
+    )
     assert env.reset().shape == shape  # type: ignore[attr-defined]
     assert len(env.step(0)) == 4
 

@@ -19,7 +19,11 @@ from setpiece.gfootball.env import football_action_set as actions
 from setpiece.gfootball.env.config import Config
 from setpiece.gfootball.env.football_env import FootballEnv
 from setpiece.gfootball.env.observation_processor import read_dump
-from setpiece.gfootball.env.observation_rotation import flip_action, flip_observation, flip_single_action
+from setpiece.gfootball.env.observation_rotation import (
+    flip_action,
+    flip_observation,
+    flip_single_action,
+)
 from setpiece.gfootball.env.scenario_config import ScenarioConfig
 from setpiece.gfootball.env.script_helpers import ScriptHelpers
 
@@ -31,7 +35,10 @@ SETTINGS = {"action_set": "default"}
 
 def make(name: str, left: int = 1, right: int = 0, **kwargs: Any) -> Any:
     return create_environment(
-        name, number_of_left_players_agent_controls=left, number_of_right_players_agent_controls=right, **kwargs
+        name,
+        number_of_left_players_agent_controls=left,
+        number_of_right_players_agent_controls=right,
+        **kwargs,
     )
 
 
@@ -54,12 +61,24 @@ def test_any_direction_is_ended_by_one_action(name: str) -> None:
 @pytest.mark.parametrize(
     "name",
     [
-        *("long_pass", "high_pass", "short_pass", "shot", "keeper_rush", "sliding", "pressure", "team_pressure"),
+        *(
+            "long_pass",
+            "high_pass",
+            "short_pass",
+            "shot",
+            "keeper_rush",
+            "sliding",
+            "pressure",
+            "team_pressure",
+        ),
         *("switch", "sprint", "dribble"),
     ],
 )
 def test_a_button_and_its_release_end_each_other(name: str) -> None:
-    pressed, released = getattr(actions, f"action_{name}"), getattr(actions, f"action_release_{name}")
+    pressed, released = (
+        getattr(actions, f"action_{name}"),
+        getattr(actions, f"action_release_{name}"),
+    )
     assert actions.disable_action(pressed) is released
     assert actions.disable_action(released) is pressed
 
@@ -80,7 +99,8 @@ def test_a_part_of_a_team_is_refused_where_agents_play_all(left: int, right: int
 
 
 @pytest.mark.parametrize(
-    ("left", "right", "seen"), [(11, 11, 22), (11, 0, 11), (0, 11, 11), (1, 1, 2), (1, 0, 1), (0, 1, 1)]
+    ("left", "right", "seen"),
+    [(11, 11, 22), (11, 0, 11), (0, 11, 11), (1, 1, 2), (1, 0, 1), (0, 1, 1)],
 )
 def test_nobody_everybody_or_one_for_the_team(left: int, right: int, seen: int) -> None:
     env = make(EVERYBODY, left, right, representation="raw", rewards="scoring,checkpoints")
@@ -140,7 +160,9 @@ def test_a_match_that_was_never_reset_ends_like_any_other() -> None:
 
 def test_the_mode_of_a_kick_off() -> None:
     def shown(**options: Any) -> int:
-        return int(make(FULL, representation="raw", other_config_options=options).reset()[0]["game_mode"])
+        return int(
+            make(FULL, representation="raw", other_config_options=options).reset()[0]["game_mode"]
+        )
 
     assert shown() == 0
     assert shown(grf_bugs=True) == 0
@@ -157,7 +179,13 @@ def test_a_kick_off_is_not_hurried() -> None:
 def test_a_waiting_set_piece_has_no_owner_except_a_throw_in() -> None:
     seen: dict[int, set[bool]] = {}
     for seed in range(12):
-        env = make("11_vs_11_easy_stochastic", 1, 1, representation="raw", other_config_options={"grf_bugs": False})
+        env = make(
+            "11_vs_11_easy_stochastic",
+            1,
+            1,
+            representation="raw",
+            other_config_options={"grf_bugs": False},
+        )
         env.seed(seed)
         env.reset()
         chosen = np.random.default_rng(seed)
@@ -187,7 +215,9 @@ def test_a_waiting_penalty_has_no_owner() -> None:
     assert set(waiting) == {(-1, -1)}
 
 
-@pytest.mark.parametrize("level", ["tests.corner_test", "tests.keeper_test", "tests.offside_test", "tests.goal_test"])
+@pytest.mark.parametrize(
+    "level", ["tests.corner_test", "tests.keeper_test", "tests.offside_test", "tests.goal_test"]
+)
 @pytest.mark.parametrize("episode", [0, 1])
 def test_the_order_of_teams_is_taken_and_changes_nothing(level: str, episode: int) -> None:
     def played(reverse: bool) -> list[Any]:
@@ -242,7 +272,13 @@ def test_flipping_twice_changes_no_value_and_no_type() -> None:
         "steps_left": 9,
     }
     for side in ("left", "right"):
-        for key, values in (("", 22), ("_direction", 22), ("_tired_factor", 11), ("_roles", 11), ("_yellow_card", 11)):
+        for key, values in (
+            ("", 22),
+            ("_direction", 22),
+            ("_tired_factor", 11),
+            ("_roles", 11),
+            ("_yellow_card", 11),
+        ):
             made[f"{side}_team{key}"] = draw.normal(size=values)
         made[f"{side}_team_active"] = [True]
         made[f"{side}_team_designated_player"] = 3
@@ -275,7 +311,12 @@ def test_flipping_actions_twice() -> None:
 
 def dumped(folder: Path) -> Path:
     env = make(
-        "academy_3_vs_1_with_keeper", 2, 1, write_full_episode_dumps=True, logdir=str(folder), representation="raw"
+        "academy_3_vs_1_with_keeper",
+        2,
+        1,
+        write_full_episode_dumps=True,
+        logdir=str(folder),
+        representation="raw",
     )
     env.reset()
     env.action_space.seed(3)
@@ -302,7 +343,9 @@ def test_a_dump_names_nothing_of_this_package(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("nothing_installed")
-def test_a_dump_loads_by_names_of_grf_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_dump_loads_by_names_of_grf_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = dumped(tmp_path)
     records = read_dump(str(path))
     real = ModuleType("gfootball.env.football_action_set")
@@ -314,7 +357,9 @@ def test_a_dump_loads_by_names_of_grf_alone(tmp_path: Path, monkeypatch: pytest.
     with path.open("rb") as file:
         for record in records:
             loaded = pickle.load(file)
-            assert loaded["debug"]["action"] == [f"GRF's {action}" for action in record["debug"]["action"]]
+            assert loaded["debug"]["action"] == [
+                f"GRF's {action}" for action in record["debug"]["action"]
+            ]
             assert same(loaded["observation"], record["observation"])
 
 
@@ -336,7 +381,11 @@ def written_by_grf(records: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatc
     class CoreAction:
         def __init__(self, action: actions.CoreAction) -> None:
             self._backend_action = e_BackendAction(action.backend_action)
-            self._name, self._sticky, self._directional = action.name, action.sticky, action.directional
+            self._name, self._sticky, self._directional = (
+                action.name,
+                action.sticky,
+                action.directional,
+            )
 
     CoreAction.__qualname__ = "CoreAction"
     CoreAction.__module__ = "gfootball.env.football_action_set"
@@ -351,13 +400,18 @@ def written_by_grf(records: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatc
         patch.setitem(sys.modules, engine.__name__, engine)
         patch.setattr(e_BackendAction, "__module__", engine.__name__)
         for record in records:
-            debug = {**record["debug"], "action": [CoreAction(each) for each in record["debug"]["action"]]}
+            debug = {
+                **record["debug"],
+                "action": [CoreAction(each) for each in record["debug"]["action"]],
+            }
             pickle.dump({**record, "debug": debug}, file, 4)
     return file.getvalue()
 
 
 @pytest.mark.usefixtures("nothing_installed")
-def test_a_dump_of_grf_loads_and_plays_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_dump_of_grf_loads_and_plays_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     ours = read_dump(str(dumped(tmp_path)))
     # Settings of GRF that this package doesn't write.
     config = {**ours[0]["debug"]["config"], "reverse_team_processing": True, "write_video": True}
@@ -522,7 +576,9 @@ def test_a_keepers_pass_to_an_offside_mate(episode: int, side: str, reverse: boo
             assert seen["game_mode"] == 3, "the lazy never take it"
 
 
-@pytest.mark.parametrize("sides", ["left_players=1,right_players=1", "left_players=1", "right_players=2"])
+@pytest.mark.parametrize(
+    "sides", ["left_players=1,right_players=1", "left_players=1", "right_players=2"]
+)
 def test_a_symmetric_match_in_the_other_order_is_the_turned_match(sides: str) -> None:
     """Each agent sees what the other one saw: both press the same, in their own frames."""
 

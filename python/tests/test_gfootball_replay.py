@@ -67,7 +67,11 @@ def test_a_dump_holds_every_step(tmp_path: Path) -> None:
     assert [record["reward"] for record in records] == [0.0] * (len(records) - 1) + [1.0]
     assert records[-1]["cumulative_reward"] == 1.0
     config = records[0]["debug"]["config"]
-    assert (config["level"], config["game_engine_random_seed"], config["action_set"]) == (CLOSE, 3, "default")
+    assert (config["level"], config["game_engine_random_seed"], config["action_set"]) == (
+        CLOSE,
+        3,
+        "default",
+    )
     assert all("config" not in record["debug"] for record in records[1:])
 
 
@@ -93,20 +97,30 @@ def test_it_is_the_dump_that_the_drop_in_writes(tmp_path: Path) -> None:
         assert mine.keys() == its.keys()
         assert mine["debug"].keys() == its["debug"].keys()
         assert mine["debug"]["action"] == its["debug"]["action"]
-        assert (mine["reward"], mine["cumulative_reward"]) == (its["reward"], its["cumulative_reward"])
+        assert (mine["reward"], mine["cumulative_reward"]) == (
+            its["reward"],
+            its["cumulative_reward"],
+        )
         # The drop-in plays one step more than a scenario says, like GRF.
         its["observation"]["steps_left"] -= 1
         assert same(mine["observation"], its["observation"])
     assert records[0]["debug"]["config"].keys() == own[0]["debug"]["config"].keys()
 
 
-@pytest.mark.parametrize("seats", [{}, {"left": 3}, {"left": 0, "right": 1}, {"left": 1, "right": 1}])
+@pytest.mark.parametrize(
+    "seats", [{}, {"left": 3}, {"left": 0, "right": 1}, {"left": 1, "right": 1}]
+)
 @pytest.mark.parametrize("index", [0, 1])
-def test_the_drop_in_plays_the_match_again(tmp_path: Path, seats: dict[str, Any], index: int) -> None:
+def test_the_drop_in_plays_the_match_again(
+    tmp_path: Path, seats: dict[str, Any], index: int
+) -> None:
     ended(tmp_path / "x.pitchr", THREE, index, **seats)
     dump, before = dumped(tmp_path / "x.pitchr")
     infos = HELPERS.replay(
-        str(dump), directory=str(tmp_path / "again"), render=False, config_update={"dump_full_episodes": True}
+        str(dump),
+        directory=str(tmp_path / "again"),
+        render=False,
+        config_update={"dump_full_episodes": True},
     )
     after = HELPERS.load_dump(infos[-1]["dumps"][0]["dump"])
     assert len(before) == len(after)
@@ -182,13 +196,24 @@ def test_a_set_piece_that_waits_too_long_for_the_drop_in(tmp_path: Path) -> None
 
 def test_the_command_of_the_package_converts(tmp_path: Path) -> None:
     path, dump = recorded(tmp_path / "x.pitchr", CLOSE, steps=3), tmp_path / "deep" / "x.dump"
-    words = [sys.executable, "-m", "setpiece", "replay", str(path), "--format=grf", "--output", str(dump)]
+    words = [
+        sys.executable,
+        "-m",
+        "setpiece",
+        "replay",
+        str(path),
+        "--format=grf",
+        "--output",
+        str(dump),
+    ]
     result = subprocess.run(words, capture_output=True, text=True, check=False, timeout=300)
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
     assert len(HELPERS.load_dump(str(dump))) == 3
 
 
-def test_other_formats_are_reported_as_before(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_other_formats_are_reported_as_before(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     path = str(recorded(tmp_path / "x.pitchr", CLOSE, steps=3))
     assert main([path]) == main(["--color", "never", path, "--format", "text"]) == 0
     printed = capfd.readouterr().out
@@ -199,9 +224,16 @@ def test_other_formats_are_reported_as_before(tmp_path: Path, capfd: pytest.Capt
     assert "grf: a dump" in capfd.readouterr().out
 
 
-def test_what_can_not_be_converted_is_reported(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_what_can_not_be_converted_is_reported(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     path, dump = str(recorded(tmp_path / "x.pitchr", CLOSE, steps=3)), str(tmp_path / "x.dump")
-    for wrong in ([path, "--format", "grf"], [path, "--format", "grff"], [path, "-o", dump], ["--format", "grf"]):
+    for wrong in (
+        [path, "--format", "grf"],
+        [path, "--format", "grff"],
+        [path, "-o", dump],
+        ["--format", "grf"],
+    ):
         assert main(wrong) == 2, wrong
     nobody = recorded(tmp_path / "nobody.pitchr", "11_vs_11_stochastic", steps=2, left=0)
     numbers = recorded(tmp_path / "numbers.pitchr", CLOSE, steps=2, action_set="continuous")

@@ -120,8 +120,17 @@ COMPONENTS = """
 SHAPES = {
     name.lower(): text
     for name, text in {
-        **{"PLAIN": PLAIN, "LOOPS": LOOPS, "EVERYTHING": EVERYTHING, "BALL_TAKES_TURNS": BALL_TAKES_TURNS},
-        **{"PLACES_TAKE_TURNS": PLACES_TAKE_TURNS, "SIDES_TAKE_TURNS": SIDES_TAKE_TURNS, "ONE_TEAM": ONE_TEAM},
+        **{
+            "PLAIN": PLAIN,
+            "LOOPS": LOOPS,
+            "EVERYTHING": EVERYTHING,
+            "BALL_TAKES_TURNS": BALL_TAKES_TURNS,
+        },
+        **{
+            "PLACES_TAKE_TURNS": PLACES_TAKE_TURNS,
+            "SIDES_TAKE_TURNS": SIDES_TAKE_TURNS,
+            "ONE_TEAM": ONE_TEAM,
+        },
         **{"COMPONENTS": COMPONENTS},
     }.items()
 }
@@ -141,7 +150,10 @@ def recorded(path: str, episode: int) -> ScenarioConfig:
 
 def places(entries: list[FormationEntry], sign: float) -> list[tuple[float, float]]:
     # Scripts place players on a wider scale than that of observations.
-    return [(sign * entry.position[0] * 55 / 54.4, sign * entry.position[1] * 84.96 / 83.6) for entry in entries]
+    return [
+        (sign * entry.position[0] * 55 / 54.4, sign * entry.position[1] * 84.96 / 83.6)
+        for entry in entries
+    ]
 
 
 def starts_as(seen: dict[str, Any], said: ScenarioConfig) -> None:
@@ -170,7 +182,9 @@ def test_a_script_plays_as_it_says(shape: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_an_imported_script_starts_as_the_script(shape: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_an_imported_script_starts_as_the_script(
+    shape: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     path = script_file(tmp_path, SHAPES[shape], shape)
     out = tmp_path / f"{shape}.pitch"
     assert main(["grf", path, "-o", str(out)]) == 0
@@ -225,7 +239,10 @@ scenario everything {
 
 def test_sides_that_take_turns_become_a_kick_off(tmp_path: Path) -> None:
     text = import_script(script_file(tmp_path, SIDES_TAKE_TURNS, "turns"))
-    assert "kickoff alternate(left, right) { kicking: turns_kicking, receiving: turns_receiving }" in text
+    assert (
+        "kickoff alternate(left, right) { kicking: turns_kicking, receiving: turns_receiving }"
+        in text
+    )
     assert "GK at (-1.011, 0) { controllable: off }" in text
     assert "half_time: 100 steps" in text
 
@@ -273,28 +290,37 @@ CANT_SAY = {
         "    config.deterministic = True\n    config.game_engine_random_seed = 7\n" + ONE_TEAM,
         "no seed of its own",
     ),
-    "rule": ("    config.offsides = builder.EpisodeNumber() % 2 == 0\n" + ONE_TEAM, "`offsides` is True in even"),
+    "rule": (
+        "    config.offsides = builder.EpisodeNumber() % 2 == 0\n" + ONE_TEAM,
+        "`offsides` is True in even",
+    ),
     "players": (
-        ONE_TEAM + "    if builder.EpisodeNumber() % 2:\n        builder.AddPlayer(0, 0, e_PlayerRole_CM)\n",
+        ONE_TEAM
+        + "    if builder.EpisodeNumber() % 2:\n        builder.AddPlayer(0, 0, e_PlayerRole_CM)\n",
         "left team",
     ),
     "lazy": (
-        ONE_TEAM + "    builder.AddPlayer(0, 0.1, e_PlayerRole_CM, lazy=builder.EpisodeNumber() % 2 == 0)\n",
+        ONE_TEAM
+        + "    builder.AddPlayer(0, 0.1, e_PlayerRole_CM, lazy=builder.EpisodeNumber() % 2 == 0)\n",
         "left team",
     ),
     "thirds": (
-        ONE_TEAM + "    builder.AddPlayer(0.1 * (builder.EpisodeNumber() % 3), 0, e_PlayerRole_CM)\n",
+        ONE_TEAM
+        + "    builder.AddPlayer(0.1 * (builder.EpisodeNumber() % 3), 0, e_PlayerRole_CM)\n",
         "take turns",
     ),
     "random": (
-        ONE_TEAM + "    import random\n    builder.AddPlayer(random.random(), 0, e_PlayerRole_CM)\n",
+        ONE_TEAM
+        + "    import random\n    builder.AddPlayer(random.random(), 0, e_PlayerRole_CM)\n",
         "at random",
     ),
 }
 
 
 @pytest.mark.parametrize("case", CANT_SAY)
-def test_what_a_text_cannot_say(case: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_a_text_cannot_say(
+    case: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     text, words = CANT_SAY[case]
     path = script_file(tmp_path, text)
     with pytest.raises(TranslationError, match=words) as caught:
@@ -327,7 +353,9 @@ def test_an_episode_longer_than_a_limit_has_none() -> None:
     assert setpiece.compile(text).name == "longer"
 
 
-@pytest.mark.parametrize("call", ["AddPlayer(math.nan, 0, 1)", "AddPlayer(0, 'x', 1)", "SetBallPosition(0, math.inf)"])
+@pytest.mark.parametrize(
+    "call", ["AddPlayer(math.nan, 0, 1)", "AddPlayer(0, 'x', 1)", "SetBallPosition(0, math.inf)"]
+)
 def test_places_are_numbers(call: str, tmp_path: Path) -> None:
     path = script_file(tmp_path, f"    import math\n    builder.{call}\n", "odd")
     with pytest.raises(SetpieceError, match=call.partition("(")[0]):
@@ -336,8 +364,13 @@ def test_places_are_numbers(call: str, tmp_path: Path) -> None:
 
 def test_a_fixed_seed_makes_the_same_match(tmp_path: Path) -> None:
     def play(seed: int) -> list[Any]:
-        text = f"    config.deterministic = True\n    config.game_engine_random_seed = {seed}\n" + SIDES_TAKE_TURNS
-        env = create_environment(script_file(tmp_path, text, f"seed_{seed}"), representation="simple115v2")
+        text = (
+            f"    config.deterministic = True\n    config.game_engine_random_seed = {seed}\n"
+            + SIDES_TAKE_TURNS
+        )
+        env = create_environment(
+            script_file(tmp_path, text, f"seed_{seed}"), representation="simple115v2"
+        )
         return [env.reset(), *(env.step(12)[0] for _ in range(100))]
 
     assert same(play(7), play(7))
@@ -367,7 +400,9 @@ def test_scenarios_by_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 def test_a_pitch_file(tmp_path: Path) -> None:
     path = tmp_path / "wide.pitch"
     path.write_text("scenario wide extends academy_3_vs_1_with_keeper { end limit 9 steps }")
-    env = create_environment(str(path), number_of_left_players_agent_controls=2, representation="simple115v2")
+    env = create_environment(
+        str(path), number_of_left_players_agent_controls=2, representation="simple115v2"
+    )
     assert env.reset().shape == (2, 115)
     steps = 1
     while not env.step([0, 0])[2]:
@@ -376,7 +411,9 @@ def test_a_pitch_file(tmp_path: Path) -> None:
 
 
 def test_a_state_of_the_other_kick_off(tmp_path: Path) -> None:
-    env = create_environment(script_file(tmp_path, SIDES_TAKE_TURNS, "both"), representation="simple115v2")
+    env = create_environment(
+        script_file(tmp_path, SIDES_TAKE_TURNS, "both"), representation="simple115v2"
+    )
     env.reset()
     state = env.get_state()
     later = [env.step(5) for _ in range(5)]
@@ -401,7 +438,9 @@ def test_bad_scripts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     with pytest.raises(ParameterError, match=r"Team\.e_Left"):
         create_environment(script_file(tmp_path, "    builder.SetTeam(3)\n", "team"))
     with pytest.raises(ParameterError, match="e_PlayerRole_CM"):
-        create_environment(script_file(tmp_path, "    builder.AddPlayer('a', 0, e_PlayerRole_GK)\n", "player"))
+        create_environment(
+            script_file(tmp_path, "    builder.AddPlayer('a', 0, e_PlayerRole_GK)\n", "player")
+        )
     with pytest.raises(CompileError):
         create_environment(script_file(tmp_path, "    builder.SetBallPosition(3, 3)\n", "outside"))
     assert main(["grf", script_file(tmp_path, "    nonsense\n", "broken")]) == 1
@@ -413,10 +452,14 @@ def test_the_command(tmp_path: Path) -> None:
         folder = str(Path(setpiece.__file__).parents[1])
         environment = {**os.environ, "PYTHONPATH": folder, "PYTHONIOENCODING": "utf-8"}
         command = [sys.executable, "-m", "setpiece", *arguments]
-        return subprocess.run(command, capture_output=True, text=True, env=environment, cwd=tmp_path, check=False)
+        return subprocess.run(
+            command, capture_output=True, text=True, env=environment, cwd=tmp_path, check=False
+        )
 
     text = "    print('hello')\n" + PLAIN
-    (tmp_path / "drill.py").write_text("from gfootball.scenarios import *\n" + HEAD.split("\n", 1)[1] + text)
+    (tmp_path / "drill.py").write_text(
+        "from gfootball.scenarios import *\n" + HEAD.split("\n", 1)[1] + text
+    )
     shown = run("import", "grf", "drill.py")
     assert shown.returncode == 0, shown.stderr
     assert "scenario drill {" in shown.stdout
@@ -440,8 +483,13 @@ def test_the_level_of_the_example_of_many_agents() -> None:
 
 
 def test_a_state_of_an_episode_with_other_players_to_control(tmp_path: Path) -> None:
-    text = ONE_TEAM + "    builder.AddPlayer(0, 0, e_PlayerRole_CM, controllable=builder.EpisodeNumber() % 2 == 0)\n"
-    env = create_environment(script_file(tmp_path, text), number_of_left_players_agent_controls=2, representation="raw")
+    text = (
+        ONE_TEAM
+        + "    builder.AddPlayer(0, 0, e_PlayerRole_CM, controllable=builder.EpisodeNumber() % 2 == 0)\n"
+    )
+    env = create_environment(
+        script_file(tmp_path, text), number_of_left_players_agent_controls=2, representation="raw"
+    )
     assert [seen["active"] for seen in env.reset()] == [0, 1]
     state = env.get_state()
     later = env.step([5, 5])
@@ -452,18 +500,47 @@ def test_a_state_of_an_episode_with_other_players_to_control(tmp_path: Path) -> 
 
 NAMES = {
     "": (
-        *("11_vs_11_competition", "11_vs_11_easy_stochastic", "11_vs_11_hard_stochastic", "11_vs_11_kaggle"),
-        *("11_vs_11_stochastic", "1_vs_1_easy", "5_vs_5", "academy_3_vs_1_with_keeper", "academy_corner"),
+        *(
+            "11_vs_11_competition",
+            "11_vs_11_easy_stochastic",
+            "11_vs_11_hard_stochastic",
+            "11_vs_11_kaggle",
+        ),
+        *(
+            "11_vs_11_stochastic",
+            "1_vs_1_easy",
+            "5_vs_5",
+            "academy_3_vs_1_with_keeper",
+            "academy_corner",
+        ),
         *("academy_counterattack_easy", "academy_counterattack_hard", "academy_empty_goal"),
-        *("academy_empty_goal_close", "academy_pass_and_shoot_with_keeper", "academy_run_pass_and_shoot_with_keeper"),
-        *("academy_run_to_score", "academy_run_to_score_with_keeper", "academy_single_goal_versus_lazy"),
+        *(
+            "academy_empty_goal_close",
+            "academy_pass_and_shoot_with_keeper",
+            "academy_run_pass_and_shoot_with_keeper",
+        ),
+        *(
+            "academy_run_to_score",
+            "academy_run_to_score_with_keeper",
+            "academy_single_goal_versus_lazy",
+        ),
         "test_example_multiagent",
     ),
     "tests.": (
         *("11_vs_11_deterministic", "11_vs_11_easy_deterministic", "11_vs_11_hard_deterministic"),
-        *("11_vs_11_single_goal_deterministic", "11_vs_11_single_goal_stochastic", "11_vs_4_offence_deterministic"),
+        *(
+            "11_vs_11_single_goal_deterministic",
+            "11_vs_11_single_goal_stochastic",
+            "11_vs_4_offence_deterministic",
+        ),
         *("11_vs_4_offence_stochastic", "corner_test", "goal_test", "keeper_test"),
-        *("kickoff_for_goal_loosing_team_test", "multiagent_wrapper", "offside_test", "penalty", "second_half"),
+        *(
+            "kickoff_for_goal_loosing_team_test",
+            "multiagent_wrapper",
+            "offside_test",
+            "penalty",
+            "second_half",
+        ),
         "symmetric",
     ),
 }
@@ -474,10 +551,16 @@ def test_the_library_has_every_scenario_of_grf_and_no_other() -> None:
     assert sorted(name for names in NAMES.values() for name in names) == all_scenarios()
 
 
-@pytest.mark.parametrize("level", [folder + name for folder, names in NAMES.items() for name in names])
+@pytest.mark.parametrize(
+    "level", [folder + name for folder, names in NAMES.items() for name in names]
+)
 def test_every_scenario_of_grf_plays(level: str) -> None:
-    env = create_environment(level, representation="simple115v2", number_of_right_players_agent_controls=1)
-    again = create_environment(level.removeprefix("tests."), number_of_right_players_agent_controls=1)
+    env = create_environment(
+        level, representation="simple115v2", number_of_right_players_agent_controls=1
+    )
+    again = create_environment(
+        level.removeprefix("tests."), number_of_right_players_agent_controls=1
+    )
     for _ in range(2):
         assert env.reset().shape == (2, 115)
         again.reset()
@@ -493,7 +576,14 @@ STARTS: dict[str, tuple[int, tuple[Any, ...], tuple[Any, ...]]] = {
     # Steps, then ball, left and right team in even and in odd episodes; each team in its own frame.
     "test_example_multiagent": (
         100,
-        *(((0.62, 0), [KEEPER, (0.6, 0, CM), (0.7, 0.2, CM), (0.7, -0.2, CM)], [(1, 0, GK), (-0.75, 0, CB)]),) * 2,
+        *(
+            (
+                (0.62, 0),
+                [KEEPER, (0.6, 0, CM), (0.7, 0.2, CM), (0.7, -0.2, CM)],
+                [(1, 0, GK), (-0.75, 0, CB)],
+            ),
+        )
+        * 2,
     ),
     "tests.corner_test": (
         30,
@@ -566,7 +656,12 @@ def test_a_script_that_fails_is_named(tmp_path: Path, script: str, why: str) -> 
         ("raising", "from . import *\nraise ValueError('hm')\n", 2, "ValueError: hm"),
         ("lacking", "import no_such_package_at_all\n", 1, "ModuleNotFoundError: No module named"),
         ("leaving", "import sys\n\nsys.exit(3)\n", 3, "SystemExit: 3"),
-        ("deep", HEAD + "    deeper(config)\n\ndef deeper(config):\n    1 / 0\n", 8, "ZeroDivisionError"),
+        (
+            "deep",
+            HEAD + "    deeper(config)\n\ndef deeper(config):\n    1 / 0\n",
+            8,
+            "ZeroDivisionError",
+        ),
     ],
 )
 def test_a_script_that_fails_says_where(
@@ -576,7 +671,9 @@ def test_a_script_that_fails_says_where(
     path.write_text(script)
     monkeypatch.setattr(scenarios, "__path__", [*scenarios.__path__, str(tmp_path)])
     for level in (name, str(path)):
-        with pytest.raises(setpiece.GrfScriptError, match=f"failed at line {line}: {why}") as caught:
+        with pytest.raises(
+            setpiece.GrfScriptError, match=f"failed at line {line}: {why}"
+        ) as caught:
             create_environment(level)
         assert Path(caught.value.path) == path
         assert caught.value.__cause__ is not None
@@ -629,11 +726,15 @@ def test_a_list_filled_with_something_else_is_named(
 
 
 @pytest.mark.parametrize("name", ["position", "role"])
-def test_a_players_place_and_role_are_said_once(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_players_place_and_role_are_said_once(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     added = "    builder.AddPlayer(-1, 0, e_PlayerRole_GK)\n    config.left_team[0].lazy = True\n"
     path = script_file(tmp_path, added + f"    config.left_team[0].{name} = None\n")
     assert main(["grf", path]) == 1
-    assert capsys.readouterr().err.startswith(f"`{path}` at line 7: a player's `{name}` can only be read\n")
+    assert capsys.readouterr().err.startswith(
+        f"`{path}` at line 7: a player's `{name}` can only be read\n"
+    )
     assert "GK at (-1.011, 0) { ai: lazy" in import_script(script_file(tmp_path, added, "lazy_one"))
 
 

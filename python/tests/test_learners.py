@@ -25,7 +25,9 @@ def episode(env: Any, steps: int = 60) -> list[Any]:
     observation, info = env.reset(seed=2)
     seen = [(observation, info["action_mask"])]
     for _ in range(steps):
-        observation, _, terminated, truncated, info = env.step(generator.integers(19, size=env.action_space.shape))
+        observation, _, terminated, truncated, info = env.step(
+            generator.integers(19, size=env.action_space.shape)
+        )
         seen.append((observation, info["action_mask"]))
         if terminated or truncated:
             break
@@ -103,11 +105,15 @@ def test_scaled_simple115v2_is_in_metres_and_seconds() -> None:
             for start, side, n in ((0, "left_team", 4), (44, "right_team", 2)):
                 places, ways = shown[start : start + 22], shown[start + 22 : start + 44]
                 assert np.allclose(places[: 2 * n], (raw[side] * metres / 50).ravel(), atol=1e-5)
-                assert np.allclose(ways[: 2 * n], (raw[f"{side}_direction"] * metres * 10 / 10).ravel(), atol=1e-4)
+                assert np.allclose(
+                    ways[: 2 * n], (raw[f"{side}_direction"] * metres * 10 / 10).ravel(), atol=1e-4
+                )
                 # Constants would be -83.6 in some columns.
                 assert not places[2 * n :].any()
                 assert not ways[2 * n :].any()
-            assert np.allclose(shown[88:91], raw["ball"] * [54.4 / 50, 83.6 / 50, 1 / 10], atol=1e-5)
+            assert np.allclose(
+                shown[88:91], raw["ball"] * [54.4 / 50, 83.6 / 50, 1 / 10], atol=1e-5
+            )
             assert np.allclose(shown[91:94], raw["ball_direction"] * [54.4, 83.6, 1], atol=1e-4)
             assert np.array_equal(shown[94:], env.look("simple115v2")[94:])
             shown, _, terminated, truncated, _ = env.step(Action.RIGHT)
@@ -116,14 +122,24 @@ def test_scaled_simple115v2_is_in_metres_and_seconds() -> None:
 
 @pytest.mark.parametrize("kind", SCALABLE)
 def test_most_scaled_numbers_are_of_the_size_of_one(kind: str) -> None:
-    seen = np.array([shown for shown, _ in episode(setpiece.make("11_vs_11_stochastic", observation=kind, scale=True))])
+    seen = np.array(
+        [
+            shown
+            for shown, _ in episode(
+                setpiece.make("11_vs_11_stochastic", observation=kind, scale=True)
+            )
+        ]
+    )
     assert np.abs(seen).max() < 5
     assert np.quantile(np.abs(seen), 0.95) <= 1.3
 
 
 @pytest.mark.parametrize("kind", SCALABLE)
 def test_flags_and_the_meanings_stay(kind: str) -> None:
-    plain, scaled = setpiece.make(THREE, observation=kind), setpiece.make(THREE, observation=kind, scale=True)
+    plain, scaled = (
+        setpiece.make(THREE, observation=kind),
+        setpiece.make(THREE, observation=kind, scale=True),
+    )
     assert scaled.observation_space.shape == plain.observation_space.shape
     pairs = zip(plain.observation_layout, scaled.observation_layout, strict=True)
     changed = 0
@@ -132,7 +148,9 @@ def test_flags_and_the_meanings_stay(kind: str) -> None:
         assert (before[:3]) == after[:3]
         where = slice(after.start, after.start + after.length)
         if before[3] == after.unit:
-            assert np.array_equal(plain.observation_space.high[where], scaled.observation_space.high[where])
+            assert np.array_equal(
+                plain.observation_space.high[where], scaled.observation_space.high[where]
+            )
         else:
             changed += 1
     assert changed >= 6
@@ -141,7 +159,13 @@ def test_flags_and_the_meanings_stay(kind: str) -> None:
 @pytest.mark.parametrize("kind", SCALABLE)
 @pytest.mark.parametrize("stack", [1, 3])
 def test_every_kind_of_environment_scales_alike(kind: str, stack: int) -> None:
-    shown: dict[str, Any] = {"observation": kind, "scale": True, "stack": stack, "left": 2, "switching": "fixed"}
+    shown: dict[str, Any] = {
+        "observation": kind,
+        "scale": True,
+        "stack": stack,
+        "left": 2,
+        "switching": "fixed",
+    }
     single, vector = setpiece.make(THREE, **shown), setpiece.make_vec(THREE, 2, **shown)
     assert vector.single_observation_space == single.observation_space
     assert vector.observation_layout == single.observation_layout
@@ -155,7 +179,10 @@ def test_every_kind_of_environment_scales_alike(kind: str, stack: int) -> None:
 @pytest.mark.parametrize("kind", SCALABLE)
 def test_parallel_environments_scale_too(kind: str) -> None:
     shown: dict[str, Any] = {"observation": kind, "scale": True, "left": 2}
-    single, parallel = setpiece.make(THREE, switching="fixed", **shown), setpiece.parallel_env(THREE, **shown)
+    single, parallel = (
+        setpiece.make(THREE, switching="fixed", **shown),
+        setpiece.parallel_env(THREE, **shown),
+    )
     expected, parts = single.reset(seed=4)[0], parallel.reset(seed=4)[0]
     assert parallel.observation_layout == single.observation_layout
     assert same(np.stack([*parts.values()]), expected)

@@ -59,7 +59,9 @@ def last(env: Any, seed: int = 1, action: int = Action.IDLE) -> dict[str, Any]:
 
 
 def test_the_caller_has_what_the_opponents_leave() -> None:
-    env = setpiece.make(THREE, left="all", right="all", opponents={"right": forward, "left_GK_1": "bot"})
+    env = setpiece.make(
+        THREE, left="all", right="all", opponents={"right": forward, "left_GK_1": "bot"}
+    )
     assert env.agents == ("left_CM_1", "left_CM_2", "left_CM_3")
     assert env.slots[0].id == "left_GK_1"
     assert env.action_space == gymnasium.spaces.MultiDiscrete([19] * 3)
@@ -75,11 +77,15 @@ def test_the_caller_has_what_the_opponents_leave() -> None:
 @pytest.mark.parametrize("observation", ["simple115v2", "smm", "raw"])
 @pytest.mark.parametrize("opponents", [{"right": forward}, {"right": "bot"}])
 def test_passes_the_checker_of_gymnasium(opponents: dict[str, Any], observation: str) -> None:
-    check_env(setpiece.make(DUEL, right=1, opponents=opponents, observation=observation, bot_action=True))
+    check_env(
+        setpiece.make(DUEL, right=1, opponents=opponents, observation=observation, bot_action=True)
+    )
 
 
 def test_one_agent_left_is_a_single_agent() -> None:
-    env = setpiece.make(DUEL, right=1, opponents={"right": forward}, observation="raw", bot_action=True)
+    env = setpiece.make(
+        DUEL, right=1, opponents={"right": forward}, observation="raw", bot_action=True
+    )
     observation, info = env.reset(seed=1)
     assert isinstance(observation, dict)
     assert isinstance(info["bot_action"], int)
@@ -123,12 +129,15 @@ def test_the_bot_is_the_builtin_ai() -> None:
 
 
 @pytest.mark.parametrize(
-    "kind", ["simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm", "extracted", "raw"]
+    "kind",
+    ["simple115v2", "simple115v2+sticky", "simple115", "egocentric", "smm", "extracted", "raw"],
 )
 def test_opponents_see_themselves_from_the_left_in_their_own_observation(kind: str) -> None:
     """An opponent sees exactly what a caller in its place would."""
     recorder = Recorder(Action.RIGHT)
-    opposed = setpiece.make(DUEL, right=1, opponents={"right": Policy(recorder, observation=kind, batched=False)})
+    opposed = setpiece.make(
+        DUEL, right=1, opponents={"right": Policy(recorder, observation=kind, batched=False)}
+    )
     caller = setpiece.make(DUEL, right=1, observation=kind)
     opposed.reset(seed=2, options={"params": {"difficulty": 0.3}})
     expected = [caller.reset(seed=2, options={"params": {"difficulty": 0.3}})[0][1]]
@@ -140,7 +149,9 @@ def test_opponents_see_themselves_from_the_left_in_their_own_observation(kind: s
 
 def test_a_function_sees_one_agent_and_a_policy_a_batch() -> None:
     function, policy = Recorder(), Recorder()
-    env = setpiece.make(THREE, left="all", right="all", opponents={"right": function, "left": Policy(policy)})
+    env = setpiece.make(
+        THREE, left="all", right="all", opponents={"right": function, "left": Policy(policy)}
+    )
     env.reset(seed=1)
     env.step([])
     assert [seen.shape for seen in function.seen] == [(115,), (115,)]
@@ -163,7 +174,9 @@ def test_what_stable_baselines_predicts() -> None:
             return np.full(len(observation), Action.RIGHT), None
 
     digests = {
-        last(setpiece.make(DUEL, right=1, opponents={"right": one}), action=Action.RIGHT)["setpiece"]["digest"]
+        last(setpiece.make(DUEL, right=1, opponents={"right": one}), action=Action.RIGHT)[
+            "setpiece"
+        ]["digest"]
         for one in (Model(), Policy(Model()), forward)
     }
     assert len(digests) == 1
@@ -184,14 +197,18 @@ def test_behaviours_play_a_side(pitch_file: PitchFile) -> None:
     with pytest.raises(setpiece.ParameterError, match="can't be played with `chase`") as caught:
         setpiece.make(path, opponents={"right": "chase"})
     assert caught.value.help
-    with pytest.raises(setpiece.ParameterError, match="a compiled scenario keeps who plays its players"):
+    with pytest.raises(
+        setpiece.ParameterError, match="a compiled scenario keeps who plays its players"
+    ):
         setpiece.make(setpiece.load(path), opponents={"right": "chaser"})
 
 
 def test_a_behaviour_that_is_not_there_is_named_before_what_the_text_is_warned_of() -> None:
     warned = MARKED.replace("extends academy {", "extends academy {\n    param unused = 3 in 1..5")
     warnings = setpiece.load(warned).warnings
-    with pytest.raises(setpiece.ParameterError, match="can't be played with `chase`: no player's `ai` is") as caught:
+    with pytest.raises(
+        setpiece.ParameterError, match="can't be played with `chase`: no player's `ai` is"
+    ) as caught:
         setpiece.make(warned, opponents={"right": "chase"})
     assert warnings
     assert caught.value.code not in [warning.code for warning in warnings]
@@ -206,7 +223,9 @@ def moved(env: Any, side: str = "right_team", steps: int = 20) -> list[bool]:
     """The players of a side that run while the caller idles."""
     first, _ = env.reset(seed=1)
     for _ in range(steps):
-        after, *_ = env.step([Action.IDLE] * len(env.agents) if len(env.agents) != 1 else Action.IDLE)
+        after, *_ = env.step(
+            [Action.IDLE] * len(env.agents) if len(env.agents) != 1 else Action.IDLE
+        )
     after, first = (one[0] if isinstance(one, tuple) else one for one in (after, first))
     return [bool(way > 0.03) for way in np.hypot(*(after[side] - first[side]).T)]
 
@@ -228,21 +247,29 @@ def test_a_behaviour_plays_one_agent(pitch_file: PitchFile) -> None:
 
 
 def test_a_behaviour_plays_an_agent_without_a_name_in_the_file() -> None:
-    env = setpiece.make(THREE, left="all", opponents={"left_CM_2": "lazy", "left_GK_1": "lazy"}, observation="raw")
+    env = setpiece.make(
+        THREE, left="all", opponents={"left_CM_2": "lazy", "left_GK_1": "lazy"}, observation="raw"
+    )
     assert env.agents == ("left_CM_1", "left_CM_3")
     env.reset(seed=1)
     env.step([Action.RIGHT] * 2)
     assert "left_CM_2" not in env.played(), "nobody plays who is lazy"
     twin = setpiece.make(THREE, left="all", observation="raw")
     assert env.scenario.name == twin.scenario.name
-    vec = setpiece.make_vec(THREE, 2, left="all", opponents={"left_CM_2": "lazy", "left_GK_1": "lazy"})
+    vec = setpiece.make_vec(
+        THREE, 2, left="all", opponents={"left_CM_2": "lazy", "left_GK_1": "lazy"}
+    )
     assert vec.agents == env.agents
     assert vec.scenario.digest == env.scenario.digest
 
 
 def test_a_behaviour_follows_its_agent_to_another_scenario(pitch_file: PitchFile) -> None:
-    env = setpiece.make(pitch_file(MARKED), opponents={"carla": "chaser", "dora": "lazy"}, observation="raw")
-    other = MARKED.replace("dora: CB", "dora: LB").replace("carla: CB at (0.3, 0)", "carla: CB at (0.35, 0)")
+    env = setpiece.make(
+        pitch_file(MARKED), opponents={"carla": "chaser", "dora": "lazy"}, observation="raw"
+    )
+    other = MARKED.replace("dora: CB", "dora: LB").replace(
+        "carla: CB at (0.3, 0)", "carla: CB at (0.35, 0)"
+    )
     env.reset(seed=1)
     for copy in (env, env.clone(), pickle.loads(pickle.dumps(env))):
         copy.reset(seed=1, options={"scenario": other})
@@ -253,7 +280,9 @@ def test_a_behaviour_follows_its_agent_to_another_scenario(pitch_file: PitchFile
 
 
 def test_a_behaviour_needs_an_agent_that_keeps_its_player() -> None:
-    with pytest.raises(setpiece.ParameterError, match="`lazy` can't play `right_0`, which changes players") as caught:
+    with pytest.raises(
+        setpiece.ParameterError, match="`lazy` can't play `right_0`, which changes players"
+    ) as caught:
         setpiece.make("5_vs_5", right=1, opponents={"right_0": "lazy"})
     assert "switching='fixed'" in str(caught.value.help)
     env = setpiece.make("5_vs_5", right=1, switching="fixed", opponents={"right_RM_1": "lazy"})
@@ -261,7 +290,13 @@ def test_a_behaviour_needs_an_agent_that_keeps_its_player() -> None:
 
 
 def test_a_behaviour_from_outside_is_one_word() -> None:
-    for wrong in ("lazy } } } scenario x { ball at centre", "", "lazy, difficulty: 1", "3", "marker("):
+    for wrong in (
+        "lazy } } } scenario x { ball at centre",
+        "",
+        "lazy, difficulty: 1",
+        "3",
+        "marker(",
+    ):
         with pytest.raises(setpiece.ParameterError, match="can't be played with"):
             setpiece.make(MARKED, opponents={"carla": wrong})
 
@@ -275,7 +310,12 @@ def test_a_script_plays_a_side(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     script = tmp_path / "climber.rhai"
     script.write_text(CLIMBER, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    drill = {"ball": (0, 0), "left": [("CF", -0.5, 0)], "right": [("CF", 0.5, 0, {"name": "carla"})], "limit": 9}
+    drill = {
+        "ball": (0, 0),
+        "left": [("CF", -0.5, 0)],
+        "right": [("CF", 0.5, 0, {"name": "carla"})],
+        "limit": 9,
+    }
     for path in ("climber.rhai", str(script), script):
         for scenario, agents in ((drill, 0), (drill, 1), (MARKED, ["carla"])):
             env = setpiece.make(scenario, left=1, right=agents, opponents={"right": path})
@@ -305,7 +345,9 @@ def test_an_opponent_that_fails_is_named_and_the_next_episode_plays() -> None:
 
     env = setpiece.make(DUEL, right=1, opponents={"right": moody})
     env.reset(seed=1)
-    with pytest.raises(setpiece.OpponentError, match="of `right_GK_1` failed: ZeroDivisionError: no idea") as caught:
+    with pytest.raises(
+        setpiece.OpponentError, match="of `right_GK_1` failed: ZeroDivisionError: no idea"
+    ) as caught:
         env.step(0)
     assert caught.value.slots == ("right_GK_1",)
     assert caught.value.side == "right"
@@ -321,7 +363,9 @@ def test_an_opponent_that_fails_is_named_and_the_next_episode_plays() -> None:
 def test_an_opponent_must_give_an_action(given: Any) -> None:
     env = setpiece.make(DUEL, right=1, opponents={"right": lambda _: given})
     env.reset(seed=1)
-    with pytest.raises(setpiece.OpponentError, match=r"gave no action: expected an integer in 0\.\.19"):
+    with pytest.raises(
+        setpiece.OpponentError, match=r"gave no action: expected an integer in 0\.\.19"
+    ):
         env.step(0)
 
 
@@ -340,8 +384,9 @@ def test_a_function_that_fails_for_one_agent_of_several_names_the_agent() -> Non
             env.reset(seed=1)
             with pytest.raises(setpiece.OpponentError) as caught:
                 env.step(np.zeros(env.action_space.shape, int))
-            assert f"of `right_CB_1` gave no action: expected an integer in 0..19, found `{given!r}`" in str(
-                caught.value
+            assert (
+                f"of `right_CB_1` gave no action: expected an integer in 0..19, found `{given!r}`"
+                in str(caught.value)
             )
             assert caught.value.slots == ("right_GK_1", "right_CB_1")
 
@@ -378,7 +423,9 @@ def test_the_shapes_of_actions_are_the_same_beside_opponents(right: int) -> None
 def test_a_policy_must_give_as_many_actions(given: Any) -> None:
     env = setpiece.make(DUEL, right=1, opponents={"right": Policy(lambda _: given)})
     env.reset(seed=1)
-    with pytest.raises(setpiece.OpponentError, match=r"gave no action: expected 1 actions, integers in 0\.\.19"):
+    with pytest.raises(
+        setpiece.OpponentError, match=r"gave no action: expected 1 actions, integers in 0\.\.19"
+    ):
         env.step(0)
 
 
@@ -386,11 +433,20 @@ def test_opponents_that_are_not_there() -> None:
     for kwargs, message in [
         ({"opponents": {"rigth": "bot"}}, "did you mean `right`"),
         ({"opponents": {"right_GK_1": forward}}, "no agent `right_GK_1`"),
-        ({"opponents": {"right": forward}}, "the right side has no agent that an opponent could play"),
+        (
+            {"opponents": {"right": forward}},
+            "the right side has no agent that an opponent could play",
+        ),
         ({"right": 1, "opponents": {"right": 7}}, r"`opponents\['right'\]` is 7"),
         ({"right": 1, "opponents": {"right": "bott"}}, "can't be played with"),
-        ({"right": 1, "opponents": {"right": Policy(forward, observation="sm")}}, "did you mean `smm`"),
-        ({"right": 1, "opponents": {"right": Policy(forward, observation="vector")}}, "declares no observation"),
+        (
+            {"right": 1, "opponents": {"right": Policy(forward, observation="sm")}},
+            "did you mean `smm`",
+        ),
+        (
+            {"right": 1, "opponents": {"right": Policy(forward, observation="vector")}},
+            "declares no observation",
+        ),
         ({"right": 1, "opponents": {"right": Policy(7)}}, "a policy can't be played by 7"),
         ({"right": 1, "opponents": ["bot"]}, "expected `opponents` as a mapping"),
     ]:
@@ -401,7 +457,9 @@ def test_opponents_that_are_not_there() -> None:
             setpiece.make(DUEL, right=1, opponents={"right": missing})
 
 
-def test_without_onnxruntime_the_error_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_onnxruntime_the_error_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setitem(sys.modules, "onnxruntime", None)
     with pytest.raises(setpiece.MissingPackageError, match=r"pip install 'setpiece\[onnx\]'"):
         setpiece.make(DUEL, right=1, opponents={"right": "policy.onnx"})
@@ -412,7 +470,11 @@ def test_copies_snapshots_and_pickles_keep_their_opponents(pitch_file: PitchFile
     env = setpiece.make(pitch_file(MARKED), opponents=opponents)
     env.reset(seed=3)
     env.step(Action.RIGHT)
-    others = [env.clone(), pickle.loads(pickle.dumps(env)), setpiece.make(pitch_file(MARKED), opponents=opponents)]
+    others = [
+        env.clone(),
+        pickle.loads(pickle.dumps(env)),
+        setpiece.make(pitch_file(MARKED), opponents=opponents),
+    ]
     others[2].restore(env.snapshot())
     expected = [env.step(Action.RIGHT) for _ in range(10)]
     for other in others:
@@ -436,7 +498,9 @@ def test_a_clone_has_the_same_opponents() -> None:
 def test_the_same_opponents_of_many_agents() -> None:
     """`parallel_env` and `make` seat the same opponents in the same way."""
     recorder = Recorder()
-    env = parallel_env(THREE, left=3, right="all", opponents={"right": recorder, "left_CM_2": "bot"})
+    env = parallel_env(
+        THREE, left=3, right="all", opponents={"right": recorder, "left_CM_2": "bot"}
+    )
     assert env.possible_agents == ["left_CM_1", "left_CM_3"]
     env.reset(seed=1)
     observations, rewards, *_, infos = env.step({"left_CM_1": 0, "left_CM_3": 5})
@@ -444,7 +508,11 @@ def test_the_same_opponents_of_many_agents() -> None:
     assert len(recorder.seen) == 2
     assert infos["left_CM_1"]["action_mask"].shape == (19,)
     single = setpiece.make(
-        THREE, left=3, right="all", switching="fixed", opponents={"right": recorder, "left_CM_2": "bot"}
+        THREE,
+        left=3,
+        right="all",
+        switching="fixed",
+        opponents={"right": recorder, "left_CM_2": "bot"},
     )
     single.reset(seed=1)
     joint = single.step([0, 5])[0]

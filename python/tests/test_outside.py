@@ -61,7 +61,9 @@ def test_environments_take_it_as_load_does(
     (tmp_path / "fine.pitch").write_text("const fine = 0.1\n")
     root = inner / "root.pitch"
     text = SCENARIO.format(path="../fine.pitch")
-    text = text.replace("require", "team right { CM at (0.2, 0) } agents { left: 0 right: 1 } require")
+    text = text.replace(
+        "require", "team right { CM at (0.2, 0) } agents { left: 0 right: 1 } require"
+    )
     root.write_text(text)
     monkeypatch.chdir(inner)
     for source in (root, text):

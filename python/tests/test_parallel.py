@@ -98,7 +98,9 @@ SHOWN: list[tuple[dict[str, Any], tuple[int, ...]]] = [
 
 @pytest.mark.filterwarnings("ignore:no reset option `options`")
 @pytest.mark.parametrize(("kwargs", "shape"), SHOWN)
-def test_everyone_sees_a_stack_and_a_map_of_another_size(kwargs: dict[str, Any], shape: tuple[int, ...]) -> None:
+def test_everyone_sees_a_stack_and_a_map_of_another_size(
+    kwargs: dict[str, Any], shape: tuple[int, ...]
+) -> None:
     make = lambda: parallel_env(THREE, left=2, right="all", **kwargs)  # noqa: E731
     parallel_api_test(make(), num_cycles=50)
     env, joint = make(), setpiece.make(THREE, left=2, right="all", switching="fixed", **kwargs)
@@ -110,14 +112,19 @@ def test_everyone_sees_a_stack_and_a_map_of_another_size(kwargs: dict[str, Any],
         assert np.array_equal(np.stack([*observations.values()]), expected)
         observations, expected = act(env, Action.RIGHT)[0], joint.step([Action.RIGHT] * 4)[0]
     for wrong in ({"stack": 0}, {"size": (0, 72)}, {"stack": 2, "observation": "raw"}):
-        with pytest.raises(setpiece.ParameterError, match=next(iter(wrong)) if "observation" not in wrong else "raw"):
+        with pytest.raises(
+            setpiece.ParameterError,
+            match=next(iter(wrong)) if "observation" not in wrong else "raw",
+        ):
             parallel_env(THREE, **wrong)
 
 
 @pytest.mark.parametrize("kwargs", SIDES)
 def test_passes_the_other_tests_of_pettingzoo(kwargs: dict[str, Any]) -> None:
     make = lambda **more: parallel_env(**kwargs, **more)  # noqa: E731
-    max_cycles_test(SimpleNamespace(parallel_env=make, env=lambda **more: parallel_to_aec(make(**more))))
+    max_cycles_test(
+        SimpleNamespace(parallel_env=make, env=lambda **more: parallel_to_aec(make(**more)))
+    )
     state_test(parallel_to_aec(make()), make())
 
 
@@ -126,14 +133,20 @@ def test_passes_the_render_test_of_pettingzoo() -> None:
 
     def make(render_mode: str) -> Any:
         # The test first requests "human" from every environment.
-        return parallel_to_aec(parallel_env(THREE, left=2, render_mode=render_mode if render_mode in modes else "ansi"))
+        return parallel_to_aec(
+            parallel_env(THREE, left=2, render_mode=render_mode if render_mode in modes else "ansi")
+        )
 
     render_test(make)
 
 
 def test_any_number_of_agents_on_each_side(pitch_file: PitchFile) -> None:
     assert len(parallel_env(FULL, left="all", right="all").possible_agents) == 22
-    assert parallel_env(FULL, left=0, right=3).possible_agents == ["right_RM_1", "right_CF_1", "right_LB_1"]
+    assert parallel_env(FULL, left=0, right=3).possible_agents == [
+        "right_RM_1",
+        "right_CF_1",
+        "right_LB_1",
+    ]
     assert parallel_env(THREE).possible_agents == ["left_CM_1"]
     duel = pitch_file(DUEL)
     assert parallel_env(duel).possible_agents == ["anna", "bea", "carla"]
@@ -148,7 +161,9 @@ def test_every_agent_keeps_its_player() -> None:
     assert len(set(first.values())) == 3
     for _ in range(100):
         observations, *_ = act(env, Action.RIGHT)
-        assert {agent: observation["active"] for agent, observation in observations.items()} == first
+        assert {
+            agent: observation["active"] for agent, observation in observations.items()
+        } == first
 
 
 def test_both_sides_attack_to_the_right() -> None:
@@ -164,7 +179,9 @@ def test_both_sides_attack_to_the_right() -> None:
 
 def test_agents_are_given_their_part() -> None:
     """An agent gets its row of the same match with all agents in one array."""
-    env = parallel_env(THREE, left="all", right=1, events=True, bot_action=True, rewards="scoring,checkpoints")
+    env = parallel_env(
+        THREE, left="all", right=1, events=True, bot_action=True, rewards="scoring,checkpoints"
+    )
     other = env.env.clone()
     observations, infos = env.reset(seed=4)
     joint, joint_info = other.reset(seed=4)
@@ -185,7 +202,9 @@ def test_agents_are_given_their_part() -> None:
         assert all(type(reward) is float for reward in rewards.values())
     for at, agent in enumerate(env.possible_agents):
         assert infos[agent]["setpiece"]["digest"] == joint_info["setpiece"]["digest"]
-        returned = {name: paid[at].item() for name, paid in joint_info["setpiece"]["return"].items()}
+        returned = {
+            name: paid[at].item() for name, paid in joint_info["setpiece"]["return"].items()
+        }
         assert same(infos[agent]["setpiece"]["return"], returned)
         assert infos[agent]["outcome"] == joint_info["outcome"]
 
@@ -242,7 +261,9 @@ def test_an_agent_whose_player_is_sent_off_is_terminated(pitch_file: PitchFile) 
         env.reset(seed=seed)
         while "hothead" in env.agents and len(env.agents) == 3:
             agents = list(env.agents)
-            observations, rewards, terminations, truncations, infos = act(env, hothead=Action.SLIDING)
+            observations, rewards, terminations, truncations, infos = act(
+                env, hothead=Action.SLIDING
+            )
         if env.agents == ["mate", "victim"]:
             break
     else:
@@ -250,7 +271,9 @@ def test_an_agent_whose_player_is_sent_off_is_terminated(pitch_file: PitchFile) 
     assert "red_card" in [event["kind"] for event in infos["mate"]["events"]]
     assert terminations == {"hothead": True, "mate": False, "victim": False}
     assert truncations == dict.fromkeys(agents, False)
-    assert set(observations) == set(rewards) == set(infos) == set(agents), "the last step is everyone's"
+    assert set(observations) == set(rewards) == set(infos) == set(agents), (
+        "the last step is everyone's"
+    )
     with pytest.raises(setpiece.ActionError, match="`hothead`, which no longer plays"):
         env.step({"hothead": 0, "mate": 0, "victim": 0})
     snapshot = env.snapshot()
@@ -290,7 +313,9 @@ def test_state_has_the_documented_layout() -> None:
         np.testing.assert_allclose(players[:4, 4], raw["left_team_tired_factor"], atol=1e-6)
         assert players[:, 6].all()
         assert players[:, 7].sum() == (raw["ball_owned_team"] != -1)
-        np.testing.assert_allclose(rest[:9], [*raw["ball"], *raw["ball_direction"], *raw["ball_rotation"]], atol=1e-6)
+        np.testing.assert_allclose(
+            rest[:9], [*raw["ball"], *raw["ball_direction"], *raw["ball_rotation"]], atol=1e-6
+        )
         assert rest[9:16].argmax() == raw["game_mode"]
         assert rest[16:18].tolist() == raw["score"].tolist()
         assert rest[18] == pytest.approx(raw["steps_left"] / 1000)
@@ -320,7 +345,10 @@ def test_seeds_and_options_are_those_of_the_single_environment() -> None:
     env.reset(options={"params": {"difficulty": 0.1}, "episode": 4})
     while env.agents:
         infos = act(env)[4]
-    assert (infos["left_CB_1"]["setpiece"]["seed"], infos["left_CB_1"]["setpiece"]["index"]) == (7, 4)
+    assert (infos["left_CB_1"]["setpiece"]["seed"], infos["left_CB_1"]["setpiece"]["index"]) == (
+        7,
+        4,
+    )
     with pytest.warns(UserWarning, match="no reset option `parms`"):
         env.reset(options={"parms": {}})
 
@@ -353,7 +381,11 @@ def test_what_is_closed_says_so_and_not_to_reset() -> None:
     env = parallel_env(THREE, left=2)
     env.reset(seed=1)
     env.close()
-    for use in (env.reset, lambda: env.step({"left_CM_1": 0, "left_CM_2": 0}), lambda: env.step({})):
+    for use in (
+        env.reset,
+        lambda: env.step({"left_CM_1": 0, "left_CM_2": 0}),
+        lambda: env.step({}),
+    ):
         with pytest.raises(gymnasium.error.ClosedEnvironmentError):
             use()
 
@@ -388,13 +420,17 @@ def test_registers_with_pettingzoo() -> None:
         env.reset(seed=1)
         act(env)
     assert pettingzoo.make("parallel", f"setpiece/{THREE}-v0", left=3, max_cycles=4).max_cycles == 4
-    small = pettingzoo.make("parallel", f"setpiece/{THREE}-v0", observation="smm", stack=2, size=(40, 30))
+    small = pettingzoo.make(
+        "parallel", f"setpiece/{THREE}-v0", observation="smm", stack=2, size=(40, 30)
+    )
     assert small.observation_space("left_CM_1").shape == (30, 40, 8)
 
 
 def test_without_pettingzoo_the_error_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pettingzoo", None)
-    with pytest.raises(setpiece.MissingPackageError, match=r"pip install 'setpiece\[pettingzoo\]'") as caught:
+    with pytest.raises(
+        setpiece.MissingPackageError, match=r"pip install 'setpiece\[pettingzoo\]'"
+    ) as caught:
         parallel_env(THREE)
     assert caught.value.name == "pettingzoo"
     assert isinstance(caught.value, ImportError)

@@ -120,7 +120,10 @@ def broken(observation: Any) -> list[int]:
 def test_an_agent_that_fails_loses_or_raises(bad: Any) -> None:
     with pytest.raises(setpiece.OpponentError, match="of `right_GK_1`"):
         setpiece.play(DUEL, runner, bad)
-    for agents, loser, winner in (((runner, bad), "right", "left"), ((bad, runner), "left", "right")):
+    for agents, loser, winner in (
+        ((runner, bad), "right", "left"),
+        ((bad, runner), "left", "right"),
+    ):
         played = setpiece.play(DUEL, *agents, on_error="lose")
         assert played.winner == winner
         assert list(played.errors) == [loser]

@@ -61,7 +61,9 @@ CASES = [(kind, what) for what in REFUSED for kind in (KINDS if what != "option"
 
 
 @pytest.mark.parametrize(("kind", "what"), CASES)
-def test_a_reset_that_is_refused_leaves_the_running_episode(kind: Any, what: str, tmp_path: Path) -> None:
+def test_a_reset_that_is_refused_leaves_the_running_episode(
+    kind: Any, what: str, tmp_path: Path
+) -> None:
     def begun() -> Any:
         env = kind(NEVER, rewards=[paid], seed=3)
         env.reset(seed=1)
@@ -96,7 +98,10 @@ def test_a_reset_that_fails_later_ends_the_running_episode(kind: Any) -> None:
             return 0.0
 
     env = kind(NEVER, rewards=[Moody()])
-    for options, error in (({"params": {"far": 1}}, setpiece.DrawError), (None, setpiece.CallbackError)):
+    for options, error in (
+        ({"params": {"far": 1}}, setpiece.DrawError),
+        (None, setpiece.CallbackError),
+    ):
         env.reset(seed=1, options={"params": {}})
         failing = error is setpiece.CallbackError
         with pytest.raises(error):
@@ -105,7 +110,9 @@ def test_a_reset_that_fails_later_ends_the_running_episode(kind: Any) -> None:
             env.step({} if kind is not setpiece.make else 0)
 
 
-def test_a_refused_reset_of_a_watched_file_takes_over_what_has_changed(pitch_file: Callable[..., Path]) -> None:
+def test_a_refused_reset_of_a_watched_file_takes_over_what_has_changed(
+    pitch_file: Callable[..., Path],
+) -> None:
     path = pitch_file(NEVER)
     env = setpiece.make(path, watch=True)
     env.reset(seed=1)

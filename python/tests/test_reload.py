@@ -63,7 +63,10 @@ def test_a_watched_file_takes_effect_at_the_next_reset(pitch_file: Callable[[str
     assert isinstance(broken.error, setpiece.CompileError)
     assert length(env) == 7
     # A change of the agents is held back.
-    save(path, SHOT.replace("LIMIT", "7").replace("CM at (0.5, 0)", "CM at (0.5, 0)  CFF at (0.4, 0)"))
+    save(
+        path,
+        SHOT.replace("LIMIT", "7").replace("CM at (0.5, 0)", "CM at (0.5, 0)  CFF at (0.4, 0)"),
+    )
     assert wait_for_reload(env, broken).state == "broken"
     two = SHOT.replace("LIMIT", "9").replace(
         "CM at (0.5, 0) }", "CM at (0.5, 0)  CF at (0.4, 0) }\n    agents { left: all }"
@@ -76,7 +79,13 @@ def test_a_watched_file_takes_effect_at_the_next_reset(pitch_file: Callable[[str
     save(path, SHOT.replace("LIMIT", "11"))
     wait_for_reload(env, held)
     assert length(env) == 11
-    assert [reload.state for reload in reloads] == ["applied", "broken", "broken", "held back", "applied"]
+    assert [reload.state for reload in reloads] == [
+        "applied",
+        "broken",
+        "broken",
+        "held back",
+        "applied",
+    ]
 
 
 def test_a_file_that_is_deleted_and_comes_back_is_taken(pitch_file: Callable[[str], Path]) -> None:
@@ -135,7 +144,10 @@ def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Pat
         env.save_replay(path.with_suffix(".pitchr"))
     # A broken script is reported at once, and the last good one stays in use.
     path.write_text(scripted("100.0 +"))
-    assert step_until(env, lambda: env.last_reload is not None and env.last_reload.state == "broken") > 101.0
+    assert (
+        step_until(env, lambda: env.last_reload is not None and env.last_reload.state == "broken")
+        > 101.0
+    )
     # Any other change waits for the next episode.
     path.write_text(scripted("5.0", limit=7))
     for _ in range(30):
@@ -148,7 +160,9 @@ def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Pat
         setpiece.make(path, watch="soon")  # type: ignore[arg-type]
 
 
-def test_an_on_reload_that_fails_is_reported_and_loses_nothing(pitch_file: Callable[[str], Path]) -> None:
+def test_an_on_reload_that_fails_is_reported_and_loses_nothing(
+    pitch_file: Callable[[str], Path],
+) -> None:
     path = pitch_file(SHOT.replace("LIMIT", "5"))
     reloads: list[setpiece.Reload] = []
 
@@ -165,7 +179,9 @@ def test_an_on_reload_that_fails_is_reported_and_loses_nothing(pitch_file: Calla
     assert length(env) == 7
 
 
-def test_an_on_reload_that_fails_in_a_step_ends_the_episode(pitch_file: Callable[[str], Path]) -> None:
+def test_an_on_reload_that_fails_in_a_step_ends_the_episode(
+    pitch_file: Callable[[str], Path],
+) -> None:
     def fails(_reload: setpiece.Reload) -> None:
         raise ValueError("a full disk")
 
@@ -181,7 +197,9 @@ def test_an_on_reload_that_fails_in_a_step_ends_the_episode(pitch_file: Callable
     assert env.step(0)[1] == 2.0, "the change has been taken over"
 
 
-def test_an_on_reload_can_not_play_the_environment_that_tells_it(pitch_file: Callable[[str], Path]) -> None:
+def test_an_on_reload_can_not_play_the_environment_that_tells_it(
+    pitch_file: Callable[[str], Path],
+) -> None:
     path = pitch_file(SHOT.replace("LIMIT", "5"))
     env = setpiece.make(path, watch=True, on_reload=lambda _: env.reset())
     env.reset(seed=1)

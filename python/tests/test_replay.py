@@ -23,7 +23,9 @@ def replayed(path: str | Path, capfd: pytest.CaptureFixture[str], *options: str)
     return capfd.readouterr().out
 
 
-def test_a_recorded_episode_is_played_again(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_recorded_episode_is_played_again(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     env = setpiece.make(THREE, record=tmp_path / "runs")
     for name in (f"{THREE}_7_0.pitchr", f"{THREE}_7_0_2.pitchr", f"{THREE}_7_0_3.pitchr"):
         end = play(env, 7)[-1][4]["setpiece"]
@@ -36,21 +38,29 @@ def test_a_recorded_episode_is_played_again(tmp_path: Path, capfd: pytest.Captur
 def test_each_step_is_a_line_of_json(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     env = setpiece.make(CLOSE, record=tmp_path, observation="raw")
     trajectory = play(env, 3, lambda: setpiece.Action.SHOT)
-    lines = replayed(trajectory[-1][4]["setpiece"]["replay"], capfd, "--format", "jsonl").splitlines()
+    lines = replayed(
+        trajectory[-1][4]["setpiece"]["replay"], capfd, "--format", "jsonl"
+    ).splitlines()
     moments: list[dict[str, Any]] = [json.loads(line) for line in lines]
     assert [moment["step"] for moment in moments] == list(range(len(trajectory)))
     for moment, (seen, *_rest) in zip(moments, trajectory, strict=True):
         assert moment["ball"] == pytest.approx(seen["ball"], abs=1e-4)
-    assert moments[1]["actions"] == {"left_0": "shot"} or moments[1]["actions"] == {env.agents[0]: "shot"}
+    assert moments[1]["actions"] == {"left_0": "shot"} or moments[1]["actions"] == {
+        env.agents[0]: "shot"
+    }
     assert moments[-1]["outcome"] == trajectory[-1][4]["outcome"]
 
 
-def test_actions_of_numbers_and_opponents_are_recorded(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_actions_of_numbers_and_opponents_are_recorded(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     env = setpiece.make(THREE, action_set="continuous", record=tmp_path)
     rng = np.random.default_rng(1)
     end = play(env, 5, lambda: rng.uniform(-1, 1, 4))[-1][4]["setpiece"]
     assert end["digest"] in replayed(end["replay"], capfd)
-    rival = setpiece.make(THREE, right=1, opponents={"right": lambda _: int(rng.integers(20))}, record=tmp_path)
+    rival = setpiece.make(
+        THREE, right=1, opponents={"right": lambda _: int(rng.integers(20))}, record=tmp_path
+    )
     end = play(rival, 6)[-1][4]["setpiece"]
     assert end["digest"] in replayed(end["replay"], capfd)
 
@@ -130,7 +140,9 @@ def ended(env: Any, seed: int | None) -> dict[str, Any]:
     return last
 
 
-def test_a_parallel_environment_records_as_a_single_one(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_parallel_environment_records_as_a_single_one(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     env = setpiece.parallel_env(THREE, left=3, record=tmp_path)
     for seed, index in ((7, 0), (None, 1)):
         infos = ended(env, seed)
@@ -147,19 +159,27 @@ def test_a_parallel_environment_records_as_a_single_one(tmp_path: Path, capfd: p
         setpiece.parallel_env(CLOSE, record_when="goal")
 
 
-def test_an_episode_that_max_cycles_end_is_recorded(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_an_episode_that_max_cycles_end_is_recorded(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     env = setpiece.parallel_env(FULL, left=2, max_cycles=4, record=tmp_path)
     infos = ended(env, 3)
-    assert "max_cycles after 4 steps" in replayed(infos[env.possible_agents[0]]["setpiece"]["replay"], capfd)
+    assert "max_cycles after 4 steps" in replayed(
+        infos[env.possible_agents[0]]["setpiece"]["replay"], capfd
+    )
     env.save_replay(tmp_path / "again.pitchr")
-    assert (tmp_path / "again.pitchr").read_bytes() == (tmp_path / f"{FULL}_3_0.pitchr").read_bytes()
+    assert (tmp_path / "again.pitchr").read_bytes() == (
+        tmp_path / f"{FULL}_3_0.pitchr"
+    ).read_bytes()
 
 
 def test_an_environment_that_records_does_so_where_max_cycles_end_it(tmp_path: Path) -> None:
     pytest.importorskip("pettingzoo")
     from setpiece._parallel import ParallelFootballEnv
 
-    env = ParallelFootballEnv(setpiece.make(FULL, left=2, switching="fixed", record=tmp_path), max_cycles=2)
+    env = ParallelFootballEnv(
+        setpiece.make(FULL, left=2, switching="fixed", record=tmp_path), max_cycles=2
+    )
     env.reset(seed=1)
     for _ in range(2):
         infos = env.step(dict.fromkeys(env.agents, 0))[-1]

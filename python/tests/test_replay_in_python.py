@@ -16,7 +16,9 @@ THREE = "academy_3_vs_1_with_keeper"
 FULL = "11_vs_11_stochastic"
 
 
-def recorded(path: Path, scenario: Any, steps: int = 60, seed: int = 4, **kwargs: Any) -> Trajectory:
+def recorded(
+    path: Path, scenario: Any, steps: int = 60, seed: int = 4, **kwargs: Any
+) -> Trajectory:
     """Plays at random and saves the replay; returns the results of `reset` and each `step`."""
     env = setpiece.make(scenario, events=True, **kwargs)
     env.action_space.seed(seed)
@@ -57,7 +59,9 @@ def test_every_moment_is_shown_as_it_was(
     for moment, (seen, reward, *_, info) in zip(moments, trajectory, strict=True):
         seen = (seen,) if n_agents == 1 else seen
         assert list(moment.observations) == [agent.id for agent in replay.agents]
-        assert all(same(mine, its) for mine, its in zip(moment.observations.values(), seen, strict=True))
+        assert all(
+            same(mine, its) for mine, its in zip(moment.observations.values(), seen, strict=True)
+        )
         if moment.step:
             assert list(moment.rewards.values()) == np.atleast_1d(reward).tolist()
         assert moment.events == info["events"]
@@ -69,13 +73,19 @@ def test_every_moment_is_shown_as_it_was(
 def test_it_tells_what_was_played(tmp_path: Path) -> None:
     env = setpiece.make(THREE, left=2, record=tmp_path, params={})
     env.reset(seed=7, options={"episode": 3})
-    pressed = [[setpiece.Action.RIGHT, setpiece.Action.SPRINT], [setpiece.Action.SHOT, setpiece.Action.IDLE]]
+    pressed = [
+        [setpiece.Action.RIGHT, setpiece.Action.SPRINT],
+        [setpiece.Action.SHOT, setpiece.Action.IDLE],
+    ]
     info: dict[str, Any] = {}
     while "setpiece" not in info:
         info = env.step(pressed[0] if not info else pressed[1])[4]
     replay = setpiece.Replay(info["setpiece"]["replay"])
     assert (replay.scenario.name, replay.seed, replay.index) == (THREE, 7, 3)
-    assert (replay.length, replay.digest) == (info["setpiece"]["length"], info["setpiece"]["digest"])
+    assert (replay.length, replay.digest) == (
+        info["setpiece"]["length"],
+        info["setpiece"]["digest"],
+    )
     assert (replay.outcome, replay.score) == (info["outcome"], info["score"])
     start, first, *rest = replay
     assert (start.step, start.actions, start.rewards, start.events) == (0, {}, {}, [])
@@ -153,7 +163,10 @@ def test_files_that_are_no_replays_are_named(tmp_path: Path) -> None:
         (sealed(b"\x9b" + b"\xff" * 8), "the replay is damaged"),
         (sealed(b"\x81" * 100_000), "the replay is damaged"),
         (sealed(body[:-9]), "the replay is damaged"),
-        (sealed(body.replace(b"flength\x05", b"flength\x06")), "one action for each agent and step"),
+        (
+            sealed(body.replace(b"flength\x05", b"flength\x06")),
+            "one action for each agent and step",
+        ),
         (sealed(body.replace(b"flength\x05", b"flength\x25")), "the replay is damaged"),
         (sealed(head + b"dacts\x85\x18\x40" + acts[1:]), "no action has the number 64"),
         (sealed(body.replace(b"\x18\x8b\x18p", b"\x18\x8b\x18q")), "the replay is damaged"),
@@ -175,11 +188,17 @@ def test_an_episode_that_diverges_is_reported(tmp_path: Path) -> None:
     recorded(path, CLOSE, steps=5)
     body = zlib.decompress(path.read_bytes()[24:], -zlib.MAX_WBITS)
     head, acts = body.split(b"dacts\x85")
-    path.write_bytes(sealed(head + b"dacts\x85" + bytes(5 if act != 5 else 1 for act in acts[:5]) + acts[5:]))
+    path.write_bytes(
+        sealed(head + b"dacts\x85" + bytes(5 if act != 5 else 1 for act in acts[:5]) + acts[5:])
+    )
     replay = setpiece.Replay(path)
-    with pytest.raises(setpiece.ReplayError, match="step 5: this build diverges from the recording"):
+    with pytest.raises(
+        setpiece.ReplayError, match="step 5: this build diverges from the recording"
+    ):
         list(replay)
     assert head.count(b"flength\x05") == 1
     path.write_bytes(sealed(head.replace(b"flength\x05", b"flength\x00") + b"dacts\x80" + acts[5:]))
-    with pytest.raises(setpiece.ReplayError, match="step 0: this build diverges from the recording"):
+    with pytest.raises(
+        setpiece.ReplayError, match="step 0: this build diverges from the recording"
+    ):
         list(setpiece.Replay(path))

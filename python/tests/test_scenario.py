@@ -35,7 +35,12 @@ def test_every_scenario_of_the_library_loads_with_both_difficulties() -> None:
 
 def test_params_say_what_they_are() -> None:
     param = setpiece.load(CLOSE).params["difficulty"]
-    assert (param.name, param.type, param.range, param.choices) == ("difficulty", "number", (0.0, 1.0), ())
+    assert (param.name, param.type, param.range, param.choices) == (
+        "difficulty",
+        "number",
+        (0.0, 1.0),
+        (),
+    )
     assert "right team" in param.doc
     assert repr(param) == "Param(difficulty: number = 0.6, 0..1)"
 
@@ -167,7 +172,11 @@ def test_three_mistakes_are_three_diagnostics() -> None:
     errors = [one for one in caught.value.diagnostics if one.severity == "error"]
     assert [one.labels[0].line for one in errors] == [4, 7, 8]
     role = errors[0]
-    assert (role.labels[0].file, role.labels[0].column, role.labels[0].end_column) == ("wrong.pitch", 9, 12)
+    assert (role.labels[0].file, role.labels[0].column, role.labels[0].end_column) == (
+        "wrong.pitch",
+        9,
+        12,
+    )
     assert role.code == "SP0203"
     assert "`CBB`" in role.message
     assert role.help == "did you mean `CB`?"
@@ -182,10 +191,18 @@ def test_columns_count_characters() -> None:
     with pytest.raises(setpiece.CompileError) as caught:
         setpiece.compile("scenario s {\n  /* äöü⚽ */ team left { CBB at (0, 0) }\n}\n")
     label = next(one for one in caught.value.diagnostics if one.code == "SP0203").labels[0]
-    assert (label.file, label.line, label.column, label.end_line, label.end_column) == ("<text>", 2, 26, 2, 29)
+    assert (label.file, label.line, label.column, label.end_line, label.end_column) == (
+        "<text>",
+        2,
+        26,
+        2,
+        29,
+    )
 
 
-@pytest.mark.parametrize("text", ["", "\n\n", "// nothing\n", "\0", "scenario", "(" * 10_000, "x" * 10_000])
+@pytest.mark.parametrize(
+    "text", ["", "\n\n", "// nothing\n", "\0", "scenario", "(" * 10_000, "x" * 10_000]
+)
 def test_odd_texts_are_compile_errors(text: str) -> None:
     with pytest.raises(setpiece.CompileError) as caught:
         setpiece.compile(text)
@@ -206,14 +223,18 @@ def test_errors_survive_pickling() -> None:
     for error in (
         setpiece.FileError("no file", path="a.pitch", help="b"),
         setpiece.UnknownScenarioError("no scenario", name="a"),
-        setpiece.ScriptError("failed", script="a.rhai", line=3, column=1, hook="reward", seed=5, step=6),
+        setpiece.ScriptError(
+            "failed", script="a.rhai", line=3, column=1, hook="reward", seed=5, step=6
+        ),
     ):
         assert vars(pickle.loads(pickle.dumps(error))) == vars(error)
         assert str(pickle.loads(pickle.dumps(error))) == str(error)
 
 
 def test_a_compiled_scenario_is_never_saved_over_a_source(pitch_file: PitchFile) -> None:
-    path = pitch_file("scenario s { ball at centre  team left { CM at (-0.1, 0) }  end limit 5 steps }")
+    path = pitch_file(
+        "scenario s { ball at centre  team left { CM at (-0.1, 0) }  end limit 5 steps }"
+    )
     text = path.read_text()
     with pytest.raises(setpiece.SetpieceError, match=r"ends in \.pitchc"):
         setpiece.load(path).save(path)

@@ -55,7 +55,9 @@ scenario duo extends academy {
 """
 
 
-def test_the_text_is_what_one_would_write(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_the_text_is_what_one_would_write(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     assert setpiece.pitch_text(DUO) == TEXT
     path = tmp_path / "duo.pitch"
     path.write_text(TEXT, encoding="utf-8")
@@ -85,7 +87,9 @@ def test_wherever_there_is_a_scenario_there_may_be_a_dict() -> None:
 
 
 def test_behaviours_play_a_side_of_a_dict_or_a_text() -> None:
-    env = setpiece.make({**DUO, "right": [("GK", 1, 0), ("CB", 0.7, 0.1)]}, opponents={"right": "hold"})
+    env = setpiece.make(
+        {**DUO, "right": [("GK", 1, 0), ("CB", 0.7, 0.1)]}, opponents={"right": "hold"}
+    )
     env.reset(seed=1)
     before = env.look("raw")[0]["right_team"].copy()
     for _ in range(5):
@@ -125,7 +129,9 @@ def test_the_smallest_one_plays() -> None:
         ({"limit": True}, "limit", "expected steps as an integer"),
     ],
 )
-def test_what_is_not_of_this_form_is_named(changes: dict[str, Any], name: str, message: str) -> None:
+def test_what_is_not_of_this_form_is_named(
+    changes: dict[str, Any], name: str, message: str
+) -> None:
     wrong: Any = {**DUO, **changes}
     with pytest.raises(setpiece.ParameterError) as refused:
         setpiece.make(wrong)
@@ -142,7 +148,9 @@ def test_what_is_not_of_this_form_is_named(changes: dict[str, Any], name: str, m
         ({"ball": "nowhere"}, "SP0101", "expected a place"),
     ],
 )
-def test_what_has_no_meaning_the_compiler_says(changes: dict[str, Any], code: str, message: str) -> None:
+def test_what_has_no_meaning_the_compiler_says(
+    changes: dict[str, Any], code: str, message: str
+) -> None:
     wrong: Any = {**DUO, **changes}
     with pytest.raises(setpiece.CompileError) as refused:
         setpiece.make(wrong)

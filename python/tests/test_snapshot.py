@@ -90,7 +90,8 @@ def test_an_ended_episode_stays_ended() -> None:
 
 
 @pytest.mark.parametrize(
-    "copied", [setpiece.FootballEnv.clone, copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))]
+    "copied",
+    [setpiece.FootballEnv.clone, copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))],
 )
 @pytest.mark.parametrize("scenario", [THREE, setpiece.compile(SCRIPTED)])
 def test_copies_go_on_by_themselves(scenario: Any, copied: Any) -> None:
@@ -153,7 +154,9 @@ def test_hindsight_in_another_scenario() -> None:
         hard.restore(snapshot)
     assert caught.value.code == "SP0013"
     assert "reset(options=" in str(caught.value)
-    with pytest.raises(setpiece.SnapshotError, match="the left players differ: the snapshot has 11"):
+    with pytest.raises(
+        setpiece.SnapshotError, match="the left players differ: the snapshot has 11"
+    ):
         setpiece.make(THREE).reset(options={"snapshot": snapshot})
 
 
@@ -205,7 +208,9 @@ def hashed(seen: Any) -> int:
 
 
 @pytest.mark.parametrize("stack", [1, 4])
-@pytest.mark.parametrize("copied", [setpiece.FootballEnv.clone, lambda env: pickle.loads(pickle.dumps(env))])
+@pytest.mark.parametrize(
+    "copied", [setpiece.FootballEnv.clone, lambda env: pickle.loads(pickle.dumps(env))]
+)
 def test_a_copy_goes_on_with_what_opponents_have_seen(stack: int, copied: Any) -> None:
     env = setpiece.make("5_vs_5", left=1, right=1, opponents={"right": hashed}, stack=stack)
     env.reset(seed=1)

@@ -40,7 +40,9 @@ PAIR = {
     "rewards": ["scoring", "checkpoints"],
     "limit": 30,
 }
-NEVER = "scenario never { ball at centre team left { CF at (0, 0) } require 1 > 2 end limit 9 steps }"
+NEVER = (
+    "scenario never { ball at centre team left { CF at (0, 0) } require 1 > 2 end limit 9 steps }"
+)
 
 
 def agree(env: Any, other: Any, seed: int, options: dict[str, Any], steps: int = 60) -> None:
@@ -51,7 +53,9 @@ def agree(env: Any, other: Any, seed: int, options: dict[str, Any], steps: int =
 
 @pytest.mark.parametrize("form", ["name", "path", "text", "compiled", "dict"])
 @pytest.mark.parametrize("observation", ["simple115v2", "smm", "egocentric"])
-def test_the_episode_is_that_of_a_new_environment(form: str, observation: str, pitch_file: PitchFile) -> None:
+def test_the_episode_is_that_of_a_new_environment(
+    form: str, observation: str, pitch_file: PitchFile
+) -> None:
     # The number of visible teammates stays the same.
     start = {"name": THREE, "dict": PAIR}.get(form, DRILL) if observation == "egocentric" else THREE
     source: Any = {
@@ -63,7 +67,12 @@ def test_the_episode_is_that_of_a_new_environment(form: str, observation: str, p
     }[form]
     env = setpiece.make(start, observation=observation, events=True, bot_action=True)
     play(env, 3, steps=40)
-    agree(env, setpiece.make(source, observation=observation, events=True, bot_action=True), 5, {"scenario": source})
+    agree(
+        env,
+        setpiece.make(source, observation=observation, events=True, bot_action=True),
+        5,
+        {"scenario": source},
+    )
     assert env.scenario.digest == setpiece.load(source).digest
 
 
@@ -105,7 +114,9 @@ def test_several_agents_opponents_stacks_and_callbacks_go_over_too(pitch_file: P
     ):
         env = setpiece.make(path, **options)
         env.reset(seed=4)
-        act = (lambda: [Action.RIGHT, Action.LEFT]) if len(env.agents) == 2 else lambda: Action.RIGHT
+        act = (
+            (lambda: [Action.RIGHT, Action.LEFT]) if len(env.agents) == 2 else lambda: Action.RIGHT
+        )
         env.step(act())
         other = DRILL.replace("scenario drill", "scenario other").replace("-5m", "-8m")
         new = setpiece.make(other, **options)
@@ -126,9 +137,21 @@ def test_copies_go_over_as_well() -> None:
     ("options", "source", "message"),
     [
         ({"left": "all"}, PAIR, r"the action space would change from 4 actions to 2 actions"),
-        ({"left": 2, "observation": "raw"}, PAIR, r"the observation space would change .* at `left_team`"),
-        ({"observation": "raw"}, DRILL, r"from float64 \(4, 2\) to float64 \(1, 2\) at `left_team`"),
-        ({"observation": "egocentric"}, DRILL, r"the observation space would change from float32 \(\d+,\) to"),
+        (
+            {"left": 2, "observation": "raw"},
+            PAIR,
+            r"the observation space would change .* at `left_team`",
+        ),
+        (
+            {"observation": "raw"},
+            DRILL,
+            r"from float64 \(4, 2\) to float64 \(1, 2\) at `left_team`",
+        ),
+        (
+            {"observation": "egocentric"},
+            DRILL,
+            r"the observation space would change from float32 \(\d+,\) to",
+        ),
         ({}, "academy_corne", "no scenario is called"),
         ({}, {"bal": (0, 0)}, "did you mean `ball`"),
         ({}, "scenario broken { ball nowhere }", "SP0101"),
@@ -137,7 +160,9 @@ def test_copies_go_over_as_well() -> None:
         ({"rewards": "checkpoints,stay"}, THREE, "stay"),
     ],
 )
-def test_a_scenario_that_does_not_fit_leaves_the_old_one(options: dict[str, Any], source: Any, message: str) -> None:
+def test_a_scenario_that_does_not_fit_leaves_the_old_one(
+    options: dict[str, Any], source: Any, message: str
+) -> None:
     start = DRILL if "rewards" in options else "academy_3_vs_1_with_keeper"
     if options.get("left") == "all":
         start = {**PAIR, "left": [("CM", 0.1 * n, 0.1 * n) for n in range(4)], "rewards": []}
@@ -191,7 +216,10 @@ def test_agents_of_a_parallel_environment_keep_their_names() -> None:
         assert same(env.step(actions), new.step(actions))
     assert same(env.state(), new.state())
     for text, what in (
-        (DRILL.replace("CF at", "anna: CF at"), "the agents would change from left_CF_1, right_CB_1 to anna"),
+        (
+            DRILL.replace("CF at", "anna: CF at"),
+            "the agents would change from left_CF_1, right_CB_1 to anna",
+        ),
         (DRILL.replace("CB at", "CM at (0.3, 0.3) CB at"), "would change"),
     ):
         with pytest.raises(setpiece.ParameterError, match=what):

@@ -28,11 +28,15 @@ def real_maps() -> np.ndarray:
     """
     with np.load(LAB / "recorded" / "real_maps.npz") as file:
         shape = tuple(file["shape"])
-        return (np.unpackbits(file["bits"], count=int(np.prod(shape))).reshape(shape) * 255).astype(np.uint8)
+        return (np.unpackbits(file["bits"], count=int(np.prod(shape))).reshape(shape) * 255).astype(
+            np.uint8
+        )
 
 
 def stacked(maps: np.ndarray) -> np.ndarray:
-    """The same maps in stacks of four on the last axis, oldest first, as both games' packages make them."""
+    """The same maps in stacks of four on the last axis, oldest first, as both games' packages make
+    them.
+    """
     padded = np.concatenate([maps[:1]] * 3 + [maps])
     return np.concatenate([padded[k : k + len(maps)] for k in range(4)], -1)
 
@@ -40,7 +44,9 @@ def stacked(maps: np.ndarray) -> np.ndarray:
 def features(maps: np.ndarray, roster: object = None) -> np.ndarray:
     """The features of an episode's maps, one after another."""
     tracker = places.Tracker(roster or places.Roster.of(maps[:10]), 1)
-    return np.concatenate([tracker.see(maps[k : k + 1], np.array([k == 0])) for k in range(len(maps))])
+    return np.concatenate(
+        [tracker.see(maps[k : k + 1], np.array([k == 0])) for k in range(len(maps))]
+    )
 
 
 def test_real_maps_give_the_same_features_in_either_layout() -> None:
@@ -151,7 +157,9 @@ def test_differences_show_where_players_come_from() -> None:
 
 
 def test_players_who_start_in_one_cell_are_counted() -> None:
-    maps = np.concatenate([drawn_map([(10, 10), (40, 40)]), drawn_map([(10, 11), (40, 40), (41, 40)])])
+    maps = np.concatenate(
+        [drawn_map([(10, 10), (40, 40)]), drawn_map([(10, 11), (40, 40), (41, 40)])]
+    )
     roster = places.Roster.of(maps)
     assert sorted(roster.own.tolist()) == [[10, 10], [40, 40], [40, 40]]
     assert features(maps, roster)[:, 14:18].all()
@@ -161,7 +169,9 @@ def test_intervals() -> None:
     low, high = intervals.mean_interval(np.ones(100))
     assert 0.95 < low < 0.97
     assert high == 1
-    share, low, high = intervals.share_interval(np.repeat([0, 1], [20, 80]), np.repeat([0, 1], [36, 64]))
+    share, low, high = intervals.share_interval(
+        np.repeat([0, 1], [20, 80]), np.repeat([0, 1], [36, 64])
+    )
     assert share == pytest.approx(0.8)
     assert low < 0.8 < high
     assert intervals.share_interval(np.zeros(10), np.ones(10)) is None
@@ -193,7 +203,9 @@ def test_a_policy_is_trained_stored_and_played(tmp_path: Path) -> None:
         (["--recorded", "--steps", "20000"], "--steps has no meaning with --recorded"),
     ],
 )
-def test_a_mistyped_option_is_reported(words: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_mistyped_option_is_reported(
+    words: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     with pytest.raises(SystemExit) as stopped:
         options.parse(words)
     assert stopped.value.code == 2

@@ -41,8 +41,14 @@ def test_a_vector_plays_what_single_environments_play(observation: str, stack: i
     [
         {"left_CM_2": "bot"},
         {"left_CM_1": setpiece.Policy(hashed), "left_CM_3": "bot"},
-        {"left_CM_1": setpiece.Policy(hashed, observation="egocentric"), "right": setpiece.Policy(of_dicts, "raw")},
-        {"left_CM_3": lambda seen: int(seen.sum() * 31) % 19, "right": setpiece.Policy(hashed, "smm")},
+        {
+            "left_CM_1": setpiece.Policy(hashed, observation="egocentric"),
+            "right": setpiece.Policy(of_dicts, "raw"),
+        },
+        {
+            "left_CM_3": lambda seen: int(seen.sum() * 31) % 19,
+            "right": setpiece.Policy(hashed, "smm"),
+        },
         {"left_CM_2": setpiece.Policy(hashed, observation="simple115v2")},
         {
             "left_CM_2": setpiece.Policy(hashed, "egocentric", scale=True),
@@ -52,9 +58,13 @@ def test_a_vector_plays_what_single_environments_play(observation: str, stack: i
     ],
 )
 @pytest.mark.parametrize("stack", [1, 2])
-def test_opponents_play_in_a_vector_as_in_single_environments(opponents: dict[str, Any], stack: int) -> None:
+def test_opponents_play_in_a_vector_as_in_single_environments(
+    opponents: dict[str, Any], stack: int
+) -> None:
     right = None if opponents.get("right") in (None, "lazy") else 1
-    check_parity({"left": 3, "right": right, "switching": "fixed", "opponents": opponents, "stack": stack})
+    check_parity(
+        {"left": 3, "right": right, "switching": "fixed", "opponents": opponents, "stack": stack}
+    )
 
 
 def test_an_opponent_that_fails_leaves_a_vector_as_it_is() -> None:
@@ -65,13 +75,23 @@ def test_an_opponent_that_fails_leaves_a_vector_as_it_is() -> None:
         return [0] * (3 if len(asked) == 1 else 8)
 
     opponents = {"right": setpiece.Policy(fails_once)}
-    envs = setpiece.make_vec("5_vs_5", 4, left=1, right=2, opponents=opponents, observation="egocentric")
+    envs = setpiece.make_vec(
+        "5_vs_5", 4, left=1, right=2, opponents=opponents, observation="egocentric"
+    )
     before, _ = envs.reset(seed=1)
     assert envs.agents == ("left_0",)
-    with pytest.raises(setpiece.OpponentError, match=r"expected 8 actions, integers in 0\.\.19") as caught:
+    with pytest.raises(
+        setpiece.OpponentError, match=r"expected 8 actions, integers in 0\.\.19"
+    ) as caught:
         envs.step(np.zeros(4, int))
     assert caught.value.side == "right"
-    for wrong in (np.zeros(3, int), np.zeros(4), np.full(4, 19), [0, 0, 0, -1], [[0], [0, 0], 0, 0]):
+    for wrong in (
+        np.zeros(3, int),
+        np.zeros(4),
+        np.full(4, 19),
+        [0, 0, 0, -1],
+        [[0], [0, 0], 0, 0],
+    ):
         with pytest.raises(setpiece.ActionError):
             envs.step(wrong)
     assert same(before, envs._shown())
@@ -90,7 +110,9 @@ def test_an_opponent_can_not_play_the_vector_that_asks_it() -> None:
     calls: list[Callable[[], object]] = [int, lambda: envs.reset(seed=2), lambda: envs.step([0, 0])]
     envs.reset(seed=1)
     for _ in range(2):
-        with pytest.raises(setpiece.OpponentError, match="InUseError: this environment is in the middle of a step"):
+        with pytest.raises(
+            setpiece.OpponentError, match="InUseError: this environment is in the middle of a step"
+        ):
             envs.step([0, 0])
     envs.step([0, 0])
 
@@ -202,7 +224,9 @@ def test_the_same_step_begins_the_next_episode() -> None:
     single.reset(seed=5)
     ended = 0
     for _ in range(200):
-        observations, rewards, terminated, truncated, infos = envs.step(np.full(3, setpiece.Action.SHOT))
+        observations, rewards, terminated, truncated, infos = envs.step(
+            np.full(3, setpiece.Action.SHOT)
+        )
         result = single.step(setpiece.Action.SHOT)
         assert (rewards[0], terminated[0], truncated[0]) == result[1:4]
         if result[2] or result[3]:
@@ -240,7 +264,9 @@ def test_a_disabled_autoreset_waits_to_be_asked() -> None:
 
 
 def test_gymnasium_makes_it() -> None:
-    envs = gymnasium.make_vec(f"setpiece/{THREE}-v0", 4, vectorization_mode="vector_entry_point", stack=2)
+    envs = gymnasium.make_vec(
+        f"setpiece/{THREE}-v0", 4, vectorization_mode="vector_entry_point", stack=2
+    )
     assert envs.observation_space.shape == (4, 230)
     recorded = gymnasium.wrappers.vector.RecordEpisodeStatistics(envs)
     recorded.reset(seed=1)
@@ -273,7 +299,9 @@ def test_its_spec_makes_another_vector_and_a_single_environment() -> None:
 
 def test_spaces_hold_what_is_shown() -> None:
     for observation in [*KINDS]:
-        envs = setpiece.make_vec(THREE, 3, observation=observation, left="all", right="all", size=(48, 36))
+        envs = setpiece.make_vec(
+            THREE, 3, observation=observation, left="all", right="all", size=(48, 36)
+        )
         seen, _ = envs.reset(seed=1)
         assert envs.observation_space.contains(seen)
         assert envs.single_observation_space.contains(seen[0])
@@ -316,7 +344,16 @@ def test_what_is_wrong_is_named_and_nothing_is_played() -> None:
     envs.reset(seed=1)
     other = setpiece.make_vec(THREE, 3)
     other.reset(seed=1)
-    for wrong in ([0, 0], [0, 0, 19], np.zeros(3), [0, -1, 0], "abc", None, [[0, 0, 0], [0, 0, 0]], [[0], [0, 0], 0]):
+    for wrong in (
+        [0, 0],
+        [0, 0, 19],
+        np.zeros(3),
+        [0, -1, 0],
+        "abc",
+        None,
+        [[0, 0, 0], [0, 0, 0]],
+        [[0], [0, 0], 0],
+    ):
         with pytest.raises(setpiece.ActionError):
             envs.step(wrong)
     assert np.array_equal(envs.step([1, 2, 3])[0], other.step(np.array([1, 2, 3]))[0])

@@ -15,11 +15,12 @@ use std::path::Path;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let side = |at: usize, usual: usize| words.get(at).and_then(|word| word.parse().ok()).unwrap_or(usual);
+    let side =
+        |at: usize, usual: usize| words.get(at).and_then(|word| word.parse().ok()).unwrap_or(usual);
     match words.first().map(String::as_str) {
-        None => {
-            [(1280, 720), (640, 360), (96, 72), (84, 84)].iter().try_for_each(|(width, height)| cost(*width, *height))
-        }
+        None => [(1280, 720), (640, 360), (96, 72), (84, 84)]
+            .iter()
+            .try_for_each(|(width, height)| cost(*width, *height)),
         Some("--cost") => cost(side(1, 1280), side(2, 720)),
         Some(folder) => pictures(Path::new(folder), side(1, 1280), side(2, 720)),
     }
@@ -28,7 +29,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn pictures(folder: &Path, width: usize, height: usize) -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all(folder)?;
     for (name, scene) in scenes::all() {
-        for (camera, view) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(PitchRegion::Whole))] {
+        for (camera, view) in
+            [("broadcast", Camera::Broadcast), ("above", Camera::Above(PitchRegion::Whole))]
+        {
             let overlays = Overlays { terms: true, ..Overlays::default() };
             let mut renderer = Renderer::new(width, height, Options { camera: view, overlays })?;
             let mut rgba = vec![0; width * height * 4];
@@ -49,7 +52,8 @@ fn trail(scene: &Scene) -> Vec<Scene> {
         let mut then = scene.clone();
         let seconds = steps as f32 * 0.1;
         for player in &mut then.players {
-            player.pos = [player.pos[0] - player.vel[0] * seconds, player.pos[1] - player.vel[1] * seconds];
+            player.pos =
+                [player.pos[0] - player.vel[0] * seconds, player.pos[1] - player.vel[1] * seconds];
         }
         for axis in 0..2 {
             then.ball.pos[axis] -= then.ball.vel[axis] * seconds;
@@ -62,7 +66,9 @@ fn trail(scene: &Scene) -> Vec<Scene> {
 /// Prints the least time of five runs, each long enough for the clock.
 fn cost(width: usize, height: usize) -> Result<(), Box<dyn Error>> {
     let count = (60_000_000 / (width * height)).clamp(8, 8000);
-    for (name, camera) in [("broadcast", Camera::Broadcast), ("above", Camera::Above(PitchRegion::Whole))] {
+    for (name, camera) in
+        [("broadcast", Camera::Broadcast), ("above", Camera::Above(PitchRegion::Whole))]
+    {
         let mut renderer = Renderer::new(width, height, Options { camera, ..Options::default() })?;
         let mut rgba = vec![0; width * height * 4];
         let all = scenes::all();

@@ -1,4 +1,5 @@
-//! The plan: discs with numbers that show where players face, what their bodies do, where they came from.
+//! The plan: discs with numbers that show where players face, what their bodies do, where they came
+//! from.
 
 use crate::canvas::{Capsule, Mask, Raster, Wash};
 use crate::color::{Rgb, WHITE, WOOD, YELLOW_CARD, kit, mixed, scaled};
@@ -59,10 +60,13 @@ pub(crate) fn draw(
         goal(canvas, &plan, pitch, side);
     }
     trails(canvas, mask, &plan, before, scene);
-    let ranks = |player: &ScenePlayer| (player.posture == Posture::Upright, scene.ball.owner == Some(player.id));
+    let ranks = |player: &ScenePlayer| {
+        (player.posture == Posture::Upright, scene.ball.owner == Some(player.id))
+    };
     // Who lies is below who stands, and the ball's owner is on top.
     for rank in [(false, false), (false, true), (true, false), (true, true)] {
-        for player in scene.players.iter().filter(|player| player.present && ranks(player) == rank) {
+        for player in scene.players.iter().filter(|player| player.present && ranks(player) == rank)
+        {
             disc(canvas, &plan, player, scene);
         }
     }
@@ -96,7 +100,13 @@ fn goal(canvas: &mut Raster<'_>, plan: &PlanView, pitch: &Pitch, side: f32) {
 }
 
 /// Tails from the scenes before, back to the last that was placed.
-fn trails(canvas: &mut Raster<'_>, mask: &mut Mask, plan: &PlanView, before: &[Scene], scene: &Scene) {
+fn trails(
+    canvas: &mut Raster<'_>,
+    mask: &mut Mask,
+    plan: &PlanView,
+    before: &[Scene],
+    scene: &Scene,
+) {
     if scene.placed {
         return;
     }
@@ -104,14 +114,26 @@ fn trails(canvas: &mut Raster<'_>, mask: &mut Mask, plan: &PlanView, before: &[S
     let past = &before[first..];
     let count = past.len() as f32;
     // Pairs of scenes that follow each other, with how recent the second one is.
-    let pairs =
-        past.iter().enumerate().map(|(i, then)| (then, past.get(i + 1).unwrap_or(scene), (i as f32 + 1.0) / count));
+    let pairs = past
+        .iter()
+        .enumerate()
+        .map(|(i, then)| (then, past.get(i + 1).unwrap_or(scene), (i as f32 + 1.0) / count));
     let wash = |color| Wash { color, opacity: 0.62, squash: 1.0, soft: 0.7 };
     for player in scene.players.iter().filter(|player| player.present) {
         let tail = pairs.clone().filter_map(|(then, next, new)| {
-            let find = |scene: &Scene| scene.players.iter().find(|it| it.id == player.id).map(|it| plan.player(it));
+            let find = |scene: &Scene| {
+                scene.players.iter().find(|it| it.id == player.id).map(|it| plan.player(it))
+            };
             let radius = plan.radius * 0.6;
-            Some((Capsule { a: find(then)?, b: find(next)?, ra: radius * (new - 1.0 / count), rb: radius * new }, new))
+            Some((
+                Capsule {
+                    a: find(then)?,
+                    b: find(next)?,
+                    ra: radius * (new - 1.0 / count),
+                    rb: radius * new,
+                },
+                new,
+            ))
         });
         mask.wash(canvas, tail, wash(kit(player).shirt));
     }
@@ -211,7 +233,9 @@ fn ball(canvas: &mut Raster<'_>, plan: &PlanView, scene: &Scene) {
     let edge = (radius * 0.28).max(0.6);
     canvas.disc(at, radius + edge * 0.6, [16, 20, 24], 0.9);
     let shape = Capsule { a: at, b: at, ra: radius, rb: radius };
-    canvas.capsule(shape, 1.0, |off| scaled(WHITE, within(1.0 - 0.12 * (off.x + off.y).max(0.0), 0.7, 1.0)));
+    canvas.capsule(shape, 1.0, |off| {
+        scaled(WHITE, within(1.0 - 0.12 * (off.x + off.y).max(0.0), 0.7, 1.0))
+    });
     if radius >= 4.0 {
         canvas.disc(at, radius * 0.3, [40, 44, 50], 1.0);
     }

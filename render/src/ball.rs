@@ -29,7 +29,13 @@ pub(crate) fn below(canvas: &mut Raster<'_>, view: &CameraView, ball: &SceneBall
     let Some(spot) = view.spot(on) else { return };
     let radius = (DRAWN_M * spot.scale).max(LEAST_PX);
     let fade = 1.0 / (1.0 + high * 0.12);
-    canvas.ellipse(spot.at, Vec2::new(radius * 1.15, (radius * view.squash()).max(0.6)), None, [6, 16, 8], 0.55 * fade);
+    canvas.ellipse(
+        spot.at,
+        Vec2::new(radius * 1.15, (radius * view.squash()).max(0.6)),
+        None,
+        [6, 16, 8],
+        0.55 * fade,
+    );
 }
 
 /// Draws the ball.
@@ -77,12 +83,13 @@ struct Turn {
 impl Turn {
     /// The point of the ball that is now at a direction.
     fn apply(&self, v: Vec3) -> Vec3 {
-        v * self.cos - self.axis.cross(v) * self.sin + self.axis * (self.axis.dot(v) * (1.0 - self.cos))
+        v * self.cos - self.axis.cross(v) * self.sin
+            + self.axis * (self.axis.dot(v) * (1.0 - self.cos))
     }
 }
 
-/// How the ball is turned. A scene has no history: the way along the velocity decides, or the time if it spins in
-/// place.
+/// How the ball is turned. A scene has no history: the way along the velocity decides, or the time
+/// if it spins in place.
 fn turned(ball: &SceneBall, time_s: f32) -> Turn {
     let (pos, vel, spin) = (place(ball), space(ball.vel), space(ball.spin));
     let roll = Vec3::new(-vel.y, vel.x, 0.0);

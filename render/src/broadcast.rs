@@ -63,7 +63,9 @@ impl Broadcast {
                         figure.draw(canvas, view);
                     }
                 }
-                What::Goal { right, band } => goals[usize::from(right)].draw(canvas, view, usize::from(band)),
+                What::Goal { right, band } => {
+                    goals[usize::from(right)].draw(canvas, view, usize::from(band))
+                }
                 What::Flag { right, near } => flag(canvas, view, pitch, right, near, time),
                 What::SceneBall => ball::draw(canvas, view, &scene.ball, time),
             }
@@ -73,8 +75,10 @@ impl Broadcast {
     /// Lists everything, the furthest first.
     fn collect(&mut self, scene: &Scene, pitch: &Pitch, goals: &[Goal; 2]) {
         self.items.clear();
-        for (index, player) in scene.players.iter().enumerate().filter(|(_, player)| player.present) {
-            self.items.push(Drawable { y: ground(player.pos).y, what: What::ScenePlayer(index as u32) });
+        for (index, player) in scene.players.iter().enumerate().filter(|(_, player)| player.present)
+        {
+            self.items
+                .push(Drawable { y: ground(player.pos).y, what: What::ScenePlayer(index as u32) });
         }
         // A ball at someone's feet is in front of them.
         self.items.push(Drawable { y: ball::place(&scene.ball).y + 0.12, what: What::SceneBall });
@@ -100,9 +104,17 @@ impl Broadcast {
 }
 
 /// A corner flag, which the wind moves.
-fn flag(canvas: &mut Raster<'_>, view: &CameraView, pitch: &Pitch, right: bool, near: bool, time_s: f32) {
+fn flag(
+    canvas: &mut Raster<'_>,
+    view: &CameraView,
+    pitch: &Pitch,
+    right: bool,
+    near: bool,
+    time_s: f32,
+) {
     let side = if right { 1.0 } else { -1.0 };
-    let foot = Vec3::new(side * pitch.length_m * 0.5, pitch.width_m * if near { 0.5 } else { -0.5 }, 0.0);
+    let foot =
+        Vec3::new(side * pitch.length_m * 0.5, pitch.width_m * if near { 0.5 } else { -0.5 }, 0.0);
     let wave = sin(time_s * std::f32::consts::TAU * 0.8 + side) * 0.07;
     let points = [
         foot,

@@ -1,6 +1,8 @@
-//! The picture's memory, and the few shapes that everything is made of: capsules, discs, boxes, triangles.
+//! The picture's memory, and the few shapes that everything is made of: capsules, discs, boxes,
+//! triangles.
 //!
-//! A shape covers a pixel by its signed distance to the pixel's centre, which smooths its edge by itself.
+//! A shape covers a pixel by its signed distance to the pixel's centre, which smooths its edge by
+//! itself.
 
 use crate::color::Rgb;
 use crate::math::{Vec2, within};
@@ -24,7 +26,8 @@ pub(crate) struct RowSpan {
     pub(crate) y1: usize,
 }
 
-/// A tapered capsule in pixels: a disc of radius `ra` at `a` drawn along to one of radius `rb` at `b`.
+/// A tapered capsule in pixels: a disc of radius `ra` at `a` drawn along to one of radius `rb` at
+/// `b`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Capsule {
     pub(crate) a: Vec2,
@@ -64,7 +67,8 @@ pub(crate) fn cover(share: f32) -> u32 {
 }
 
 impl Capsule {
-    /// The point of the axis nearest to a pixel, and the radius there: offset from the point, radius.
+    /// The point of the axis nearest to a pixel, and the radius there: offset from the point,
+    /// radius.
     #[inline]
     fn nearest(&self, axis: Vec2, inverse: f32, at: Vec2) -> (Vec2, f32) {
         let from = at - self.a;
@@ -94,7 +98,8 @@ impl Raster<'_> {
         &mut self.px[y * self.width + x0..y * self.width + x1]
     }
 
-    /// A capsule; `paint` gives the colour from the offset of a pixel to the axis over the radius, −1..1.
+    /// A capsule; `paint` gives the colour from the offset of a pixel to the axis over the radius,
+    /// −1..1.
     #[inline]
     pub(crate) fn capsule(&mut self, shape: Capsule, opacity: f32, paint: impl Fn(Vec2) -> Rgb) {
         let pad = shape.ra.max(shape.rb) + 0.5;
@@ -119,7 +124,8 @@ impl Raster<'_> {
     /// A capsule of one colour.
     pub(crate) fn stroke(&mut self, a: Vec2, b: Vec2, radius: f32, color: Rgb, opacity: f32) {
         // A line thinner than a pixel is a fainter line of one pixel.
-        let (radius, opacity) = if radius < 0.5 { (0.5, opacity * radius * 2.0) } else { (radius, opacity) };
+        let (radius, opacity) =
+            if radius < 0.5 { (0.5, opacity * radius * 2.0) } else { (radius, opacity) };
         self.capsule(Capsule { a, b, ra: radius, rb: radius }, opacity, |_| color);
     }
 
@@ -129,7 +135,14 @@ impl Raster<'_> {
     }
 
     /// An upright ellipse, or its outline if `line` is the half width of one.
-    pub(crate) fn ellipse(&mut self, at: Vec2, radii: Vec2, line: Option<f32>, color: Rgb, opacity: f32) {
+    pub(crate) fn ellipse(
+        &mut self,
+        at: Vec2,
+        radii: Vec2,
+        line: Option<f32>,
+        color: Rgb,
+        opacity: f32,
+    ) {
         let pad = line.unwrap_or(0.0) + 1.0;
         let Some(span) = self.span(at - radii - pad, at + radii + pad) else { return };
         for y in span.y0..span.y1 {
@@ -140,7 +153,8 @@ impl Raster<'_> {
                 dx += 1.0;
                 let k = (u * u + v * v).sqrt();
                 // The distance, to first order: the value over the length of its slope.
-                let slope = ((u / radii.x) * (u / radii.x) + (v / radii.y) * (v / radii.y)).sqrt() / k.max(1e-3);
+                let slope = ((u / radii.x) * (u / radii.x) + (v / radii.y) * (v / radii.y)).sqrt()
+                    / k.max(1e-3);
                 let away = (k - 1.0) / slope.max(1e-3);
                 let inside = line.map_or(-away, |half| half - away.abs());
                 blend(px, color, cover(within(inside + 0.5, 0.0, 1.0) * opacity));
@@ -166,8 +180,11 @@ impl Raster<'_> {
             for x in (span.x0..from).chain(to..span.x1) {
                 let px = &mut self.px[y * self.width + x];
                 let dx = ((x as f32 + 0.5 - middle.x).abs() - half.x).max(0.0);
-                let inside =
-                    if dx == 0.0 || dy == 0.0 { corner - dx - dy } else { corner - (dx * dx + dy * dy).sqrt() };
+                let inside = if dx == 0.0 || dy == 0.0 {
+                    corner - dx - dy
+                } else {
+                    corner - (dx * dx + dy * dy).sqrt()
+                };
                 blend(px, color, cover(within(inside + 0.5, 0.0, 1.0) * opacity));
             }
         }
@@ -188,7 +205,10 @@ impl Raster<'_> {
         for y in span.y0..span.y1 {
             let mut at = Vec2::new(span.x0 as f32 + 0.5, y as f32 + 0.5);
             for px in self.part(y, span.x0, span.x1) {
-                let inside = edges.iter().map(|(from, normal)| (at - *from).dot(*normal)).fold(1.0, f32::min);
+                let inside = edges
+                    .iter()
+                    .map(|(from, normal)| (at - *from).dot(*normal))
+                    .fold(1.0, f32::min);
                 at.x += 1.0;
                 blend(px, color, cover(within(inside + 0.5, 0.0, 1.0) * opacity));
             }
@@ -237,9 +257,13 @@ impl Mask {
         let flat = |v: Vec2| Vec2::new(v.x, v.y * stretch);
         for (shape, strength) in shapes {
             let pad = Vec2::new(1.0, squash) * shape.ra.max(shape.rb) + soft;
-            let Some(span) = canvas.span(shape.a.min(shape.b) - pad, shape.a.max(shape.b) + pad) else { continue };
+            let Some(span) = canvas.span(shape.a.min(shape.b) - pad, shape.a.max(shape.b) + pad)
+            else {
+                continue;
+            };
             let tall = Capsule { a: flat(shape.a), b: flat(shape.b), ..shape };
-            let (axis, inverse, edge) = (tall.b - tall.a, tall.inverse(), strength * 255.0 / (2.0 * soft));
+            let (axis, inverse, edge) =
+                (tall.b - tall.a, tall.inverse(), strength * 255.0 / (2.0 * soft));
             let most = strength * 255.0;
             for y in span.y0..span.y1 {
                 let mut at = flat(Vec2::new(span.x0 as f32 + 0.5, y as f32 + 0.5));

@@ -95,7 +95,10 @@ const FACES: [(Rgb, Rgb); 6] = [
 /// A player's skin and hair, the same in every scene.
 pub(crate) fn face(player: &ScenePlayer) -> (Rgb, Rgb) {
     // Neighbours of a team look different, and so do the two teams.
-    let pick = usize::from(player.id.slot) * 5 + usize::from(player.id.slot) / 6 + player.id.team.index() * 3 + 1;
+    let pick = usize::from(player.id.slot) * 5
+        + usize::from(player.id.slot) / 6
+        + player.id.team.index() * 3
+        + 1;
     FACES[pick % FACES.len()]
 }
 

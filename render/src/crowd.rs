@@ -73,12 +73,22 @@ pub(crate) fn crowd(per_m: f32) -> Tile {
             let y = (row as f32 + 0.5 + (pick(7, 16) as f32 - 7.5) * 0.014) * back;
             if aisle || pick(11, 100) < 7 {
                 let color = if aisle { [74, 78, 86] } else { [58, 66, 88] };
-                person(&mut canvas, Vec2::new(x, y + 0.3 * back), seat, back, [color; 2], size, aisle);
+                person(
+                    &mut canvas,
+                    Vec2::new(x, y + 0.3 * back),
+                    seat,
+                    back,
+                    [color; 2],
+                    size,
+                    aisle,
+                );
                 continue;
             }
             // Friends sit together.
-            let block = hash(place as u32 / 7 + 9, (row.rem_euclid(ROWS as i32)) as u32 / 3 + 50) as usize;
-            let coat = if pick(14, 100) < 45 { COATS[block % 5] } else { COATS[pick(17, COATS.len())] };
+            let block =
+                hash(place as u32 / 7 + 9, (row.rem_euclid(ROWS as i32)) as u32 / 3 + 50) as usize;
+            let coat =
+                if pick(14, 100) < 45 { COATS[block % 5] } else { COATS[pick(17, COATS.len())] };
             let light = 0.72 + pick(21, 32) as f32 * 0.0085;
             let colors = [scaled(coat, light), scaled(SKINS[pick(26, SKINS.len())], light)];
             person(&mut canvas, Vec2::new(x, y), seat, back, colors, size, false);
@@ -88,7 +98,15 @@ pub(crate) fn crowd(per_m: f32) -> Tile {
 }
 
 /// A spectator: shoulders and head, drawn on both sides of the tile's seam.
-fn person(canvas: &mut Raster<'_>, at: Vec2, seat: f32, back: f32, colors: [Rgb; 2], size: f32, flat: bool) {
+fn person(
+    canvas: &mut Raster<'_>,
+    at: Vec2,
+    seat: f32,
+    back: f32,
+    colors: [Rgb; 2],
+    size: f32,
+    flat: bool,
+) {
     for seam in [-size, 0.0, size] {
         let at = at + Vec2::new(seam, 0.0);
         if at.x < -seat || at.x > canvas.width as f32 + seat {
@@ -98,11 +116,17 @@ fn person(canvas: &mut Raster<'_>, at: Vec2, seat: f32, back: f32, colors: [Rgb;
         let low = at + Vec2::new(0.0, back * 0.55);
         let body = Capsule { a: at, b: low, ra: radius * 0.92, rb: radius };
         let [coat, skin] = colors;
-        let shaded = |off: Vec2| scaled(coat, within(1.0 - 0.28 * off.x.abs() - 0.1 * off.y, 0.5, 1.0));
+        let shaded =
+            |off: Vec2| scaled(coat, within(1.0 - 0.28 * off.x.abs() - 0.1 * off.y, 0.5, 1.0));
         canvas.capsule(body, 1.0, shaded);
         if !flat {
             let head = at - Vec2::new(0.0, back * 0.36);
-            canvas.disc(head + Vec2::new(0.0, radius * 0.18), radius * 0.66, scaled(coat, 0.5), 0.6);
+            canvas.disc(
+                head + Vec2::new(0.0, radius * 0.18),
+                radius * 0.66,
+                scaled(coat, 0.5),
+                0.6,
+            );
             canvas.disc(head, radius * 0.58, skin, 1.0);
         }
     }

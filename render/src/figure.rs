@@ -1,4 +1,5 @@
-//! A player from the stand: a figure of tapered, shaded capsules, with fewer of them the smaller it is.
+//! A player from the stand: a figure of tapered, shaded capsules, with fewer of them the smaller it
+//! is.
 
 use crate::canvas::{Capsule, Mask, Raster, Wash};
 use crate::color::{ACCENTS, Kit, RING, Rgb, YELLOW_CARD, face, kit, scaled};
@@ -55,12 +56,14 @@ impl BodyShape<'_> {
         }
         let squash = view.squash();
         if foot.scale < LIMBS {
-            let radii = Vec2::new((0.5 * foot.scale).max(0.8), (0.5 * foot.scale * squash).max(0.5));
+            let radii =
+                Vec2::new((0.5 * foot.scale).max(0.8), (0.5 * foot.scale * squash).max(0.5));
             canvas.ellipse(foot.at, radii, None, [10, 24, 12], 0.4);
         } else {
             let skeleton = Skeleton::new(&LimbPose::of(self.player, self.time_s), at);
             let capsules = shadow(&skeleton, view);
-            let wash = Wash { color: SHADE, opacity: 0.52, squash, soft: (foot.scale * 0.05).max(0.7) };
+            let wash =
+                Wash { color: SHADE, opacity: 0.52, squash, soft: (foot.scale * 0.05).max(0.7) };
             mask.wash(canvas, capsules.iter().map(|shape| (*shape, 1.0)), wash);
         }
         if self.player.agent {
@@ -108,11 +111,14 @@ impl BodyShape<'_> {
     /// A figure of a few pixels: legs, trunk, head.
     fn tiny(&self, canvas: &mut Raster<'_>, view: &CameraView, at: Vec3, foot: &Spot) {
         let (kit, (skin, _)) = (kit(self.player), face(self.player));
-        let lift = if self.player.height_m.is_nan() { 0.0 } else { self.player.height_m.clamp(0.0, 3.0) };
+        let lift =
+            if self.player.height_m.is_nan() { 0.0 } else { self.player.height_m.clamp(0.0, 3.0) };
         let way = unit_or(space([self.player.vel[0], self.player.vel[1], 0.0]), Vec3::ZERO);
         let (up, hips) = match self.player.posture {
             Posture::Sliding => (Vec3::Z * 0.5 - way * 0.8, 0.25),
-            Posture::Fallen => (-unit_or(space([self.player.facing[0], self.player.facing[1], 0.0]), Vec3::X), 0.2),
+            Posture::Fallen => {
+                (-unit_or(space([self.player.facing[0], self.player.facing[1], 0.0]), Vec3::X), 0.2)
+            }
             Posture::Diving => (way + Vec3::Z * 0.25, 0.6),
             _ => (Vec3::Z, 0.85),
         };
@@ -256,7 +262,12 @@ impl BodyParts {
     fn add(&mut self, view: &CameraView, a: Vec3, b: Vec3, ra: f32, rb: f32, color: Rgb) {
         let (ra, rb) = (ra * GROWN, rb * GROWN);
         let (Some(from), Some(to)) = (view.spot(a), view.spot(b)) else { return };
-        let shape = Capsule { a: from.at, b: to.at, ra: (ra * from.scale).max(0.6), rb: (rb * to.scale).max(0.6) };
+        let shape = Capsule {
+            a: from.at,
+            b: to.at,
+            ra: (ra * from.scale).max(0.6),
+            rb: (rb * to.scale).max(0.6),
+        };
         // The nearest point counts: a shirt lies over the shorts that it hangs over.
         let depth = |p: Vec3, radius: f32| -p.y * 0.89 - p.z * 0.45 - radius;
         let away = (depth(a, ra) + depth(b, rb)) * 0.5;
@@ -295,6 +306,7 @@ fn number(canvas: &mut Raster<'_>, view: &CameraView, skeleton: &Skeleton, playe
     let digits = Digits::new(u32::from(player.number.min(99)), 1);
     let mut style = Lettering::bold(0.3 * spot.scale, kit(player).number);
     style.weight = 0.2;
-    style.stretch = within(shown.abs() * 1.1 - 0.1, 0.4, 1.0) * if player.number > 9 { 0.62 } else { 0.9 };
+    style.stretch =
+        within(shown.abs() * 1.1 - 0.1, 0.4, 1.0) * if player.number > 9 { 0.62 } else { 0.9 };
     style.centre(canvas, digits.as_str(), spot.at);
 }

@@ -1,6 +1,7 @@
 //! Goals from the stand: posts, bar, and a net that bulges where the ball lies in it.
 //!
-//! A goal is drawn in bands across, so that whoever stands in the mouth is in front of one part and behind another.
+//! A goal is drawn in bands across, so that whoever stands in the mouth is in front of one part and
+//! behind another.
 
 use crate::ball;
 use crate::canvas::Raster;
@@ -43,7 +44,15 @@ impl Goal {
             && behind < pitch.goal_depth_m + 0.8
             && ball.y.abs() < half + 0.6
             && ball.z < pitch.goal_height_m + 0.6;
-        Goal { side, line, half, height: pitch.goal_height_m, depth: pitch.goal_depth_m, ball, inside }
+        Goal {
+            side,
+            line,
+            half,
+            height: pitch.goal_height_m,
+            depth: pitch.goal_depth_m,
+            ball,
+            inside,
+        }
     }
 
     /// The y at which a band begins; band 0 is at the far post.
@@ -56,7 +65,8 @@ impl Goal {
         Vec3::new((self.line + behind) * self.side, y, z)
     }
 
-    /// A point of the net, pushed out by the ball; `out` is the panel's outward direction in (behind, y, z).
+    /// A point of the net, pushed out by the ball; `out` is the panel's outward direction in
+    /// (behind, y, z).
     fn net(&self, behind: f32, y: f32, z: f32, out: Vec3) -> Vec3 {
         let at = self.point(behind, y, z);
         if !self.inside {
@@ -124,8 +134,11 @@ impl Goal {
     fn small(&self, canvas: &mut Raster<'_>, view: &CameraView, band: usize) {
         let (from, to) = (self.band_y(band), self.band_y(band + 1));
         let corners = [(0.0, self.height), (self.depth * TOP, self.height), (self.depth, 0.0)];
-        let spots = |y: f32| corners.map(|(behind, z)| view.spot(self.point(behind, y, z)).map(|spot| spot.at));
-        if let ([Some(a), Some(b), Some(c)], [Some(d), Some(e), Some(f)]) = (spots(from), spots(to)) {
+        let spots = |y: f32| {
+            corners.map(|(behind, z)| view.spot(self.point(behind, y, z)).map(|spot| spot.at))
+        };
+        if let ([Some(a), Some(b), Some(c)], [Some(d), Some(e), Some(f)]) = (spots(from), spots(to))
+        {
             for corners in [[a, b, d], [b, d, e], [b, c, e], [c, e, f]] {
                 canvas.triangle(corners, WOOD, 0.3);
             }
@@ -153,7 +166,8 @@ impl Goal {
         let step_y = (to - from) / columns as f32;
         let edge = self.depth * TOP;
         let behind_out = Vec3::X;
-        let roof_at = |i: usize, y: f32| self.net(edge * i as f32 / roof as f32, y, self.height, Vec3::Z);
+        let roof_at =
+            |i: usize, y: f32| self.net(edge * i as f32 / roof as f32, y, self.height, Vec3::Z);
         let back_at = |j: usize, y: f32| {
             let z = self.height * (1.0 - j as f32 / rows as f32);
             self.net(self.deep(z), y, z, behind_out)
@@ -171,7 +185,12 @@ impl Goal {
         }
         for j in 1..=rows {
             let strength = if j == rows { 0.7 } else { 0.38 };
-            thread(canvas, view, (0..=columns).map(|c| back_at(j, from + step_y * c as f32)), strength);
+            thread(
+                canvas,
+                view,
+                (0..=columns).map(|c| back_at(j, from + step_y * c as f32)),
+                strength,
+            );
         }
     }
 
@@ -198,7 +217,12 @@ fn cells(count: f32) -> usize {
 }
 
 /// A thread of the net through some points.
-fn thread(canvas: &mut Raster<'_>, view: &CameraView, points: impl Iterator<Item = Vec3>, strength: f32) {
+fn thread(
+    canvas: &mut Raster<'_>,
+    view: &CameraView,
+    points: impl Iterator<Item = Vec3>,
+    strength: f32,
+) {
     let mut last = None;
     for point in points {
         let spot = view.spot(point);
@@ -216,7 +240,13 @@ fn line(canvas: &mut Raster<'_>, from: Vec2, to: crate::view::Spot, strength: f3
 /// A piece of woodwork, lit from the left.
 fn wood(canvas: &mut Raster<'_>, view: &CameraView, a: Vec3, b: Vec3) {
     let (Some(a), Some(b)) = (view.spot(a), view.spot(b)) else { return };
-    let shape =
-        crate::canvas::Capsule { a: a.at, b: b.at, ra: (POST_M * a.scale).max(0.55), rb: (POST_M * b.scale).max(0.55) };
-    canvas.capsule(shape, 1.0, |off| scaled(WOOD, within(0.9 - 0.22 * off.x - 0.1 * off.y, 0.6, 1.0)));
+    let shape = crate::canvas::Capsule {
+        a: a.at,
+        b: b.at,
+        ra: (POST_M * a.scale).max(0.55),
+        rb: (POST_M * b.scale).max(0.55),
+    };
+    canvas.capsule(shape, 1.0, |off| {
+        scaled(WOOD, within(0.9 - 0.22 * off.x - 0.1 * off.y, 0.6, 1.0))
+    });
 }

@@ -30,8 +30,10 @@ pub(crate) struct Lawn {
 }
 
 /// The look of the ground from the stand, and the calmer one of a plan.
-pub(crate) const STADIUM: Lawn = Lawn { stripes: [[80, 156, 66], [64, 138, 56]], verge: [44, 104, 48] };
-pub(crate) const PLAN: Lawn = Lawn { stripes: [[58, 122, 72], [65, 131, 79]], verge: [48, 106, 62] };
+pub(crate) const STADIUM: Lawn =
+    Lawn { stripes: [[80, 156, 66], [64, 138, 56]], verge: [44, 104, 48] };
+pub(crate) const PLAN: Lawn =
+    Lawn { stripes: [[58, 122, 72], [65, 131, 79]], verge: [48, 106, 62] };
 
 /// Paints the ground; keeps the tables of its grain.
 #[derive(Debug, Default)]
@@ -70,7 +72,15 @@ impl Ground {
     }
 
     /// Paints one row of ground with its lines.
-    pub(crate) fn paint(&self, row: &Row, px: &mut [Px], pitch: &Pitch, marks: &Marks, lawn: &Lawn, light: f32) {
+    pub(crate) fn paint(
+        &self,
+        row: &Row,
+        px: &mut [Px],
+        pitch: &Pitch,
+        marks: &Marks,
+        lawn: &Lawn,
+        light: f32,
+    ) {
         let half = [pitch.length_m * 0.5, pitch.width_m * 0.5];
         let mown = row.y.abs() < half[1] + VERGE_M;
         if self.fine.is_empty() {
@@ -130,7 +140,9 @@ impl Ground {
         let (x, y) = (x + 16384.0, y + 16384.0);
         let (i, j) = (x as usize, y as usize);
         let (u, v) = (x - i as f32, y - j as f32);
-        let cell = |i: usize, j: usize| f32::from(self.coarse[(j & (COARSE - 1)) * COARSE + (i & (COARSE - 1))]);
+        let cell = |i: usize, j: usize| {
+            f32::from(self.coarse[(j & (COARSE - 1)) * COARSE + (i & (COARSE - 1))])
+        };
         let top = cell(i, j) + (cell(i + 1, j) - cell(i, j)) * u;
         let bottom = cell(i, j + 1) + (cell(i + 1, j + 1) - cell(i, j + 1)) * u;
         top + (bottom - top) * v
@@ -138,7 +150,13 @@ impl Ground {
 }
 
 /// Paints the ground of a whole picture, row by row.
-pub(crate) fn paint_all(ground: &Ground, canvas: &mut Raster<'_>, view: &CameraView, pitch: &Pitch, lawn: &Lawn) {
+pub(crate) fn paint_all(
+    ground: &Ground,
+    canvas: &mut Raster<'_>,
+    view: &CameraView,
+    pitch: &Pitch,
+    lawn: &Lawn,
+) {
     let marks = Marks::new(pitch);
     for y in 0..canvas.height {
         if let Some(row) = view.row(y) {
@@ -150,7 +168,8 @@ pub(crate) fn paint_all(ground: &Ground, canvas: &mut Raster<'_>, view: &CameraV
 
 /// Grass without a grain.
 fn plain(row: &Row, px: &mut [Px], half_x: f32, mown: bool, lawn: &Lawn, light: f32) {
-    let colors = [lawn.stripes[0], lawn.stripes[1], lawn.verge].map(|color| solid(lit(color, light)));
+    let colors =
+        [lawn.stripes[0], lawn.stripes[1], lawn.verge].map(|color| solid(lit(color, light)));
     runs(row, px.len(), half_x, mown, |kind, from, to| px[from..to].fill(colors[kind]));
     soften(row, px, half_x, mown, |kind| colors[kind]);
 }
@@ -168,7 +187,8 @@ fn shades(color: Rgb, light: f32) -> [Px; SHADES] {
     table
 }
 
-/// The x at which stripes change, from the left: the edge of the mown grass, the stripes' borders, the other edge.
+/// The x at which stripes change, from the left: the edge of the mown grass, the stripes' borders,
+/// the other edge.
 fn border(index: i32, half_x: f32) -> f32 {
     match index {
         0 => -half_x - VERGE_M,
@@ -177,7 +197,8 @@ fn border(index: i32, half_x: f32) -> f32 {
     }
 }
 
-/// The colour between the border before and the one of this index: the stripes 0 and 1, and 2 beside the pitch.
+/// The colour between the border before and the one of this index: the stripes 0 and 1, and 2
+/// beside the pitch.
 fn kind(index: i32) -> usize {
     if (1..=STRIPES).contains(&index) { (index as usize + 1) % 2 } else { 2 }
 }
@@ -189,13 +210,20 @@ fn first(row: &Row, half_x: f32) -> i32 {
 }
 
 /// Goes through the runs of one colour of a row, from the left: kind, first pixel, end.
-fn runs(row: &Row, width: usize, half_x: f32, mown: bool, mut take: impl FnMut(usize, usize, usize)) {
+fn runs(
+    row: &Row,
+    width: usize,
+    half_x: f32,
+    mown: bool,
+    mut take: impl FnMut(usize, usize, usize),
+) {
     let inverse = row.per_m;
     let mut from = 0;
     if mown {
         for index in first(row, half_x)..=STRIPES {
             // The first pixel whose middle is past the border.
-            let to = (((border(index, half_x) - row.x0) * inverse + 1.0) as i64).clamp(0, width as i64) as usize;
+            let to = (((border(index, half_x) - row.x0) * inverse + 1.0) as i64)
+                .clamp(0, width as i64) as usize;
             if from < to {
                 take(kind(index), from, to);
                 from = to;

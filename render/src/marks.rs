@@ -57,9 +57,10 @@ impl Marks {
         for side in [-1.0, 1.0] {
             marks.push(Mark::Across(side * y, -x, x));
             marks.push(Mark::Along(side * x, -y, y));
-            for (depth, width) in
-                [(pitch.box_depth_m, pitch.box_width_m), (pitch.six_yard_depth_m, pitch.six_yard_width_m)]
-            {
+            for (depth, width) in [
+                (pitch.box_depth_m, pitch.box_width_m),
+                (pitch.six_yard_depth_m, pitch.six_yard_width_m),
+            ] {
                 let (inner, half) = (x - depth, width * 0.5);
                 marks.push(Mark::Along(side * inner, -half, half));
                 let (from, to) = if side > 0.0 { (inner, x) } else { (-x, -inner) };
@@ -71,7 +72,12 @@ impl Marks {
             let keep = Keep::Below(x - pitch.box_depth_m);
             marks.push(Mark::Ring { x: side * spot, y: 0.0, radius: pitch.circle_m, keep });
             for corner in [-y, y] {
-                marks.push(Mark::Ring { x: side * x, y: corner, radius: CORNER_M, keep: Keep::Inside(x, y) });
+                marks.push(Mark::Ring {
+                    x: side * x,
+                    y: corner,
+                    radius: CORNER_M,
+                    keep: Keep::Inside(x, y),
+                });
             }
         }
         marks.push(Mark::Along(0.0, -y, y));
@@ -144,7 +150,8 @@ fn band(row: &Row, px: &mut [Px], from: f32, to: f32, blur: f32, covered: f32) {
     let whole = clip(left - pad, right + pad - 1.0, px);
     // Between the two edges the line covers every pixel alike.
     let inner = clip(left + pad, right - pad - 1.0, px);
-    let (start, end) = if inner.is_empty() { (whole.end, whole.end) } else { (inner.start, inner.end) };
+    let (start, end) =
+        if inner.is_empty() { (whole.end, whole.end) } else { (inner.start, inner.end) };
     let mut edges = |range: std::ops::Range<usize>| {
         let mut at = range.start as f32 + 0.5;
         for px in &mut px[range] {

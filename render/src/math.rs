@@ -1,4 +1,5 @@
-//! Arithmetic that gives the same bits everywhere: sums, products, quotients and square roots alone.
+//! Arithmetic that gives the same bits everywhere: sums, products, quotients and square roots
+//! alone.
 
 pub(crate) use glam::{Vec2, Vec3};
 

@@ -33,7 +33,8 @@ impl Default for Overlays {
 
 impl Overlays {
     /// Nothing over the picture.
-    pub const NONE: Overlays = Overlays { scoreboard: false, radar: false, banner: false, terms: false };
+    pub const NONE: Overlays =
+        Overlays { scoreboard: false, radar: false, banner: false, terms: false };
 
     /// Whether a picture has room for them.
     pub(crate) fn fit(width: usize, height: usize) -> bool {

@@ -63,6 +63,10 @@ impl PixelObserver {
     /// # Errors
     /// [`RenderError::Buffer`] if `out` has another length than [`Pixels::len`].
     pub fn observe(&mut self, scene: &Scene, out: &mut [u8]) -> Result<(), RenderError> {
-        if self.pixels.gray { self.renderer.render_gray(scene, out) } else { self.renderer.render_rgb(scene, out) }
+        if self.pixels.gray {
+            self.renderer.render_gray(scene, out)
+        } else {
+            self.renderer.render_rgb(scene, out)
+        }
     }
 }

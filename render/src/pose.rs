@@ -1,12 +1,14 @@
 //! How a body holds itself: a player's speed and posture as the angles of trunk and limbs.
 //!
-//! A scene has no history, so legs move with the step: the cadence is the same for everyone, and the length of the
-//! stride follows the speed, as it mostly does with people. Nothing jumps when a player turns or brakes.
+//! A scene has no history, so legs move with the step: the cadence is the same for everyone, and
+//! the length of the stride follows the speed, as it mostly does with people. Nothing jumps when a
+//! player turns or brakes.
 
 use crate::math::{Vec3, cos, mix, sin, smooth, space, unit_or, within};
 use crate::scene::{Id, Posture, Scene, ScenePlayer};
 
-/// Strides (two steps) per second. Ten steps of the match are a second, so the pattern repeats after five seconds.
+/// Strides (two steps) per second. Ten steps of the match are a second, so the pattern repeats
+/// after five seconds.
 const STRIDES_HZ: f32 = 1.4;
 const PATTERN_STEPS: u32 = 50;
 
@@ -107,7 +109,11 @@ fn running(facing: Vec3, way: Vec3, speed: f32, phase: f32) -> LimbPose {
         let (swing, rising) = (sin(phase + turn), cos(phase + turn));
         // The knee folds while the leg comes forward, and is nearly straight while it carries.
         let fold = mix(0.5, 1.9, within(pace, 0.0, 1.0)) * smooth(rising * 0.75 + 0.25);
-        pose.legs[side] = Limb { swing: swing * reach + 0.1 * pace, spread: 0.04, bend: 0.12 + 0.12 * pace + fold };
+        pose.legs[side] = Limb {
+            swing: swing * reach + 0.1 * pace,
+            spread: 0.04,
+            bend: 0.12 + 0.12 * pace + fold,
+        };
         pose.arms[side] = Limb {
             swing: -swing * reach * 0.95 - 0.1,
             spread: 0.14,
@@ -125,7 +131,8 @@ fn running(facing: Vec3, way: Vec3, speed: f32, phase: f32) -> LimbPose {
 fn stumbling(facing: Vec3, way: Vec3, speed: f32, phase: f32) -> LimbPose {
     let mut pose = running(facing, way, speed.max(2.0), phase);
     pose.up = unit_or(Vec3::Z + way * 0.7, Vec3::Z);
-    pose.arms = [Limb { swing: 0.9, spread: 0.9, bend: 0.4 }, Limb { swing: 0.4, spread: 1.2, bend: 0.5 }];
+    pose.arms =
+        [Limb { swing: 0.9, spread: 0.9, bend: 0.4 }, Limb { swing: 0.4, spread: 1.2, bend: 0.5 }];
     pose
 }
 
@@ -137,8 +144,14 @@ fn sliding(way: Vec3, progress: f32) -> LimbPose {
         front: unit_or(Vec3::Z * 0.8 + way * 0.6, way),
         legs_up: Vec3::Z,
         legs_front: way,
-        legs: [Limb { swing: 1.48, spread: 0.06, bend: 0.08 }, Limb { swing: 1.25, spread: 0.28, bend: 1.9 }],
-        arms: [Limb { swing: -0.7, spread: 0.5, bend: 0.2 }, Limb { swing: 0.7, spread: 1.2, bend: 0.4 }],
+        legs: [
+            Limb { swing: 1.48, spread: 0.06, bend: 0.08 },
+            Limb { swing: 1.25, spread: 0.28, bend: 1.9 },
+        ],
+        arms: [
+            Limb { swing: -0.7, spread: 0.5, bend: 0.2 },
+            Limb { swing: 0.7, spread: 1.2, bend: 0.4 },
+        ],
         hips_m: Some(mix(0.45, 0.17, down)),
         lift_m: 0.0,
     }
@@ -151,8 +164,14 @@ fn fallen(facing: Vec3) -> LimbPose {
         front: unit_or(Vec3::new(-facing.y, facing.x, 0.0) * 0.6 + Vec3::Z, Vec3::Z),
         legs_up: along,
         legs_front: Vec3::Z,
-        legs: [Limb { swing: 0.45, spread: 0.15, bend: 0.95 }, Limb { swing: 0.06, spread: 0.2, bend: 0.15 }],
-        arms: [Limb { swing: 0.5, spread: 0.7, bend: 0.9 }, Limb { swing: 0.0, spread: 1.2, bend: 0.3 }],
+        legs: [
+            Limb { swing: 0.45, spread: 0.15, bend: 0.95 },
+            Limb { swing: 0.06, spread: 0.2, bend: 0.15 },
+        ],
+        arms: [
+            Limb { swing: 0.5, spread: 0.7, bend: 0.9 },
+            Limb { swing: 0.0, spread: 1.2, bend: 0.3 },
+        ],
         hips_m: Some(0.15),
         lift_m: 0.0,
     }
@@ -161,7 +180,8 @@ fn fallen(facing: Vec3) -> LimbPose {
 fn jumping(facing: Vec3, progress: f32) -> LimbPose {
     let high = sin(progress * std::f32::consts::PI).max(0.0);
     let mut pose = upright(facing);
-    pose.up = unit_or(Vec3::Z - facing * 0.12 + facing * 0.3 * smooth(progress * 2.0 - 0.8), Vec3::Z);
+    pose.up =
+        unit_or(Vec3::Z - facing * 0.12 + facing * 0.3 * smooth(progress * 2.0 - 0.8), Vec3::Z);
     pose.legs = [
         Limb { swing: 0.35 * high, spread: 0.1, bend: 0.3 + 0.9 * high },
         Limb { swing: -0.25 * high, spread: 0.1, bend: 0.2 + 1.0 * high },
@@ -177,15 +197,24 @@ fn diving(facing: Vec3, way: Vec3, speed: f32, progress: f32) -> LimbPose {
     let up = Vec3::Z * cos(tilt) + way * sin(tilt);
     let chest = facing - up * facing.dot(up);
     let front = unit_or(chest, Vec3::new(-way.y, way.x, 0.0));
-    let hips =
-        if progress < 0.45 { mix(0.8, 0.95, progress / 0.45) } else { mix(0.95, 0.17, smooth(progress * 1.8 - 0.8)) };
+    let hips = if progress < 0.45 {
+        mix(0.8, 0.95, progress / 0.45)
+    } else {
+        mix(0.95, 0.17, smooth(progress * 1.8 - 0.8))
+    };
     LimbPose {
         up,
         front,
         legs_up: unit_or(up + Vec3::Z * 0.15, up),
         legs_front: front,
-        legs: [Limb { swing: -0.1, spread: 0.2, bend: 0.25 }, Limb { swing: 0.6, spread: 0.05, bend: 1.0 }],
-        arms: [Limb { swing: 2.85, spread: 0.1, bend: 0.12 }, Limb { swing: 2.6, spread: 0.05, bend: 0.2 }],
+        legs: [
+            Limb { swing: -0.1, spread: 0.2, bend: 0.25 },
+            Limb { swing: 0.6, spread: 0.05, bend: 1.0 },
+        ],
+        arms: [
+            Limb { swing: 2.85, spread: 0.1, bend: 0.12 },
+            Limb { swing: 2.6, spread: 0.05, bend: 0.2 },
+        ],
         hips_m: Some(hips),
         lift_m: 0.0,
     }
@@ -196,7 +225,10 @@ fn kicking(facing: Vec3, speed: f32, progress: f32) -> LimbPose {
     let (back, through) = (smooth(progress / 0.35), smooth((progress - 0.35) / 0.35));
     let swing = mix(mix(0.0, -1.0, back), 1.15, through) - 0.6 * smooth((progress - 0.75) / 0.25);
     let bend = mix(mix(0.2, 1.5, back), 0.12, smooth((progress - 0.38) / 0.2));
-    pose.legs = [Limb { swing: mix(0.3, -0.2, progress), spread: 0.1, bend: 0.25 }, Limb { swing, spread: 0.12, bend }];
+    pose.legs = [
+        Limb { swing: mix(0.3, -0.2, progress), spread: 0.1, bend: 0.25 },
+        Limb { swing, spread: 0.12, bend },
+    ];
     pose.arms = [
         Limb { swing: mix(-0.4, 0.9, through), spread: 0.8, bend: 0.4 },
         Limb { swing: mix(0.5, -0.7, through), spread: 0.6, bend: 0.5 },

@@ -10,7 +10,8 @@ use crate::stands::Stands;
 use crate::view::{Camera, CameraEye, CameraView, sound};
 use serde::{Deserialize, Serialize};
 
-/// Longest side of a picture, pixels. Two pictures of this size take half a gigabyte, more than any screen needs.
+/// Longest side of a picture, pixels. Two pictures of this size take half a gigabyte, more than any
+/// screen needs.
 pub const SIDE_MAX: usize = 8192;
 /// Least width of a picture whose grass has a grain.
 const GRAIN_FROM: usize = 320;
@@ -48,8 +49,9 @@ pub enum RenderError {
 
 /// Draws scenes at one size.
 ///
-/// It keeps scratch memory and the painted surroundings, so make one and use it again: after the first picture it
-/// allocates nothing, unless a scene has more players than any before. Pictures don't depend on those before them.
+/// It keeps scratch memory and the painted surroundings, so make one and use it again: after the
+/// first picture it allocates nothing, unless a scene has more players than any before. Pictures
+/// don't depend on those before them.
 #[derive(Debug)]
 pub struct Renderer {
     width: usize,
@@ -111,7 +113,12 @@ impl Renderer {
     ///
     /// # Errors
     /// [`RenderError::Buffer`] if `rgba` has another length.
-    pub fn render_after(&mut self, before: &[Scene], scene: &Scene, rgba: &mut [u8]) -> Result<(), RenderError> {
+    pub fn render_after(
+        &mut self,
+        before: &[Scene],
+        scene: &Scene,
+        rgba: &mut [u8],
+    ) -> Result<(), RenderError> {
         check(rgba.len(), self.width * self.height * 4)?;
         let (px, _) = rgba.as_chunks_mut::<4>();
         self.draw(before, scene, px);
@@ -158,7 +165,8 @@ impl Renderer {
 
     fn draw(&mut self, before: &[Scene], scene: &Scene, px: &mut [Px]) {
         let pitch = sound(&scene.pitch);
-        let view = CameraView::new(self.options.camera, &pitch, scene.ball.pos, self.width, self.height);
+        let view =
+            CameraView::new(self.options.camera, &pitch, scene.ball.pos, self.width, self.height);
         let mut canvas = Raster { px, width: self.width, height: self.height };
         if let (CameraEye::StandView(stand), Some(stands)) = (view.eye, &mut self.stands) {
             stands.paint(&mut canvas, &view, &stand, &pitch, &self.ground);
@@ -177,7 +185,8 @@ fn check(found: usize, expected: usize) -> Result<(), RenderError> {
     if found == expected { Ok(()) } else { Err(RenderError::Buffer { expected, found }) }
 }
 
-/// The brightness of a colour after Rec. 601, rounded, in whole numbers: 0.299 red, 0.587 green, 0.114 blue.
+/// The brightness of a colour after Rec. 601, rounded, in whole numbers: 0.299 red, 0.587 green,
+/// 0.114 blue.
 #[must_use]
 pub const fn gray(rgb: [u8; 3]) -> u8 {
     // Weights in 65,536ths, which is how Pillow's `convert("L")` computes it.

@@ -1,8 +1,10 @@
-//! What is drawn: one plain value per moment, which an episode, a replay and a snapshot can all give.
+//! What is drawn: one plain value per moment, which an episode, a replay and a snapshot can all
+//! give.
 //!
-//! World frame, as in the engine: the origin is the centre spot, +x points at the right team's goal, +y at the
-//! bottom of the picture (the touch line nearer to the camera), z up. Lengths are metres, times seconds, speeds m/s.
-//! Every number may have any value: what can't be shown is drawn at the nearest place that can.
+//! World frame, as in the engine: the origin is the centre spot, +x points at the right team's
+//! goal, +y at the bottom of the picture (the touch line nearer to the camera), z up. Lengths are
+//! metres, times seconds, speeds m/s. Every number may have any value: what can't be shown is drawn
+//! at the nearest place that can.
 
 use serde::{Deserialize, Serialize};
 
@@ -34,7 +36,8 @@ pub struct Scene {
     pub news: Vec<News>,
     /// The rewards of this step by term.
     pub rewards: Vec<Term>,
-    /// Ball and players were placed since the scene before: nothing connects the two, so no trail does.
+    /// Ball and players were placed since the scene before: nothing connects the two, so no trail
+    /// does.
     pub placed: bool,
 }
 
@@ -61,7 +64,9 @@ impl Default for Scene {
 impl Scene {
     /// The player who has the ball.
     pub fn owner(&self) -> Option<&ScenePlayer> {
-        self.ball.owner.and_then(|id| self.players.iter().find(|player| player.id == id && player.present))
+        self.ball
+            .owner
+            .and_then(|id| self.players.iter().find(|player| player.id == id && player.present))
     }
 }
 

@@ -87,14 +87,17 @@ impl Skeleton {
             Vec3::new(toe.x, toe.y, toe.z.max(0.05 - height))
         });
         let chest = pose.up * TRUNK_M;
-        let shoulder =
-            sides.map(|side| chest - pose.up * 0.04 + trunk.across * if side == 0 { SHOULDER_M } else { -SHOULDER_M });
+        let shoulder = sides.map(|side| {
+            chest - pose.up * 0.04 + trunk.across * if side == 0 { SHOULDER_M } else { -SHOULDER_M }
+        });
         let arms = sides.map(|side| trunk.limb(pose.arms[side], side, false));
         let elbow = sides.map(|side| shoulder[side] + arms[side].0 * UPPER_ARM_M);
         let hand = sides.map(|side| elbow[side] + arms[side].1 * FOREARM_M);
         // The head stays more upright than the trunk.
         let neck = chest + pose.up * 0.03;
-        let head = neck + unit_or(pose.up * 2.0 + Vec3::Z, pose.up) * (NECK_M + HEAD_M * 0.5) + trunk.front * 0.03;
+        let head = neck
+            + unit_or(pose.up * 2.0 + Vec3::Z, pose.up) * (NECK_M + HEAD_M * 0.5)
+            + trunk.front * 0.03;
         let above = |p: Vec3| {
             let p = (hips + p) * GROWN;
             Vec3::new(at.x + p.x, at.y + p.y, p.z.max(0.03))

@@ -14,7 +14,8 @@ use crate::view::{CameraEye, CameraView, StandView};
 /// Distance of the boards from the lines.
 const BOARDS_Y_M: f32 = 5.0;
 const BOARDS_X_M: f32 = 6.5;
-/// Where the stand begins behind the boards, how high, and how steep it is: metres up per metre back.
+/// Where the stand begins behind the boards, how high, and how steep it is: metres up per metre
+/// back.
 const STAND_BACK_M: f32 = 1.6;
 const STAND_LOW_M: f32 = 1.3;
 const STEEP: f32 = 0.62;
@@ -38,7 +39,8 @@ pub(crate) struct Stands {
 impl Stands {
     /// Paints crowd and boards for a picture of this size.
     pub(crate) fn new(width: usize, height: usize) -> Stands {
-        let view = CameraView::new(crate::Camera::Broadcast, &Pitch::default(), [0.0; 3], width, height);
+        let view =
+            CameraView::new(crate::Camera::Broadcast, &Pitch::default(), [0.0; 3], width, height);
         let per_m = match view.eye {
             CameraEye::StandView(stand) => within(stand.focal / AWAY_M, 0.5, 40.0),
             CameraEye::PlanView { .. } => 1.0,
@@ -84,7 +86,14 @@ impl Stands {
     }
 
     /// A row of the far boards and the stand above them; returns how far away it is.
-    fn behind(&mut self, view: &CameraView, stand: &StandView, y: usize, far: f32, px: &mut [Px]) -> f32 {
+    fn behind(
+        &mut self,
+        view: &CameraView,
+        stand: &StandView,
+        y: usize,
+        far: f32,
+        px: &mut [Px],
+    ) -> f32 {
         let (along, fall) = ray(stand, y);
         let back = stand.pos.y - far;
         let depth = back / along.max(1e-3);
@@ -110,13 +119,29 @@ impl Stands {
         }
         let row = view.along_x(stand, depth, 0.0, 1.0, 0.0);
         let (block, v) = self.seats(up);
-        self.crowd.lay(&mut self.line, &row, v, block * SHIFT_M, px, (seat_light(z) * 256.0) as u32);
+        self.crowd.lay(
+            &mut self.line,
+            &row,
+            v,
+            block * SHIFT_M,
+            px,
+            (seat_light(z) * 256.0) as u32,
+        );
         depth
     }
 
-    /// The stands behind the goals: pixels of a row, from the picture's edge inwards, that show one before `depth`.
+    /// The stands behind the goals: pixels of a row, from the picture's edge inwards, that show one
+    /// before `depth`.
     #[allow(clippy::too_many_arguments, reason = "a row, a plane, and where it is")]
-    fn beside(&self, stand: &StandView, y: usize, depth: f32, side: f32, pitch: &Pitch, px: &mut [Px]) {
+    fn beside(
+        &self,
+        stand: &StandView,
+        y: usize,
+        depth: f32,
+        side: f32,
+        pitch: &Pitch,
+        px: &mut [Px],
+    ) {
         let (along, fall) = ray(stand, y);
         let off = pitch.length_m * 0.5 + BOARDS_X_M + STAND_BACK_M - side * stand.pos.x;
         let above = stand.pos.z - STAND_LOW_M + STEEP * off;
@@ -184,7 +209,8 @@ impl Stands {
                     if world_y < far {
                         continue;
                     }
-                    let share = within(at + 0.5 - top, 0.0, 1.0) * within(bottom - at + 0.5, 0.0, 1.0);
+                    let share =
+                        within(at + 0.5 - top, 0.0, 1.0) * within(bottom - at + 0.5, 0.0, 1.0);
                     let [r, g, b, _] = self.boards.at(world_y * side, (at - top) * inverse, 205);
                     crate::canvas::blend(
                         &mut canvas.part(y, column, column + 1)[0],

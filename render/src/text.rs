@@ -54,7 +54,8 @@ impl Lettering {
             for stroke in glyph(letter).split(' ') {
                 let mut last = None;
                 for pair in stroke.as_bytes().chunks_exact(2) {
-                    let point = left + Vec2::new(f32::from(pair[0] - b'0'), f32::from(pair[1] - b'0')) * unit;
+                    let point = left
+                        + Vec2::new(f32::from(pair[0] - b'0'), f32::from(pair[1] - b'0')) * unit;
                     if let Some(from) = last {
                         canvas.stroke(from, point, half, self.color, 1.0);
                     }
@@ -102,13 +103,15 @@ fn advance(letter: char) -> f32 {
         // Digits are equally wide, so that a running clock doesn't tremble.
         '0'..='9' => 4.0,
         _ => {
-            let widest = glyph(letter).split(' ').flat_map(|stroke| stroke.bytes().step_by(2)).max();
+            let widest =
+                glyph(letter).split(' ').flat_map(|stroke| stroke.bytes().step_by(2)).max();
             f32::from(widest.unwrap_or(b'2') - b'0')
         }
     }
 }
 
-/// The strokes of a letter: pairs of digits, x from the left 0..4, y from the top 0..6; a space lifts the pen.
+/// The strokes of a letter: pairs of digits, x from the left 0..4, y from the top 0..6; a space
+/// lifts the pen.
 fn glyph(letter: char) -> &'static str {
     match letter.to_ascii_uppercase() {
         'A' => "060110304146 0444",

@@ -20,14 +20,23 @@ impl Tile {
     /// A tile for a box in metres, at about `per_m` pixels per metre.
     pub(crate) fn new(size_m: [f32; 2], per_m: f32, color: Rgb) -> Tile {
         // The power of two that is nearest, as a factor.
-        let width = ((size_m[0] * per_m * std::f32::consts::FRAC_1_SQRT_2) as usize).next_power_of_two();
+        let width =
+            ((size_m[0] * per_m * std::f32::consts::FRAC_1_SQRT_2) as usize).next_power_of_two();
         let height = ((size_m[1] * width as f32 / size_m[0] + 0.5) as usize).max(1);
         let (across, down) = (width as f32 / size_m[0], height as f32 / size_m[1]);
         Tile { px: vec![solid(color); width * height], width, height, across, down }
     }
 
     /// Lays one line of the tile, `v` pixels from its top, into a row of pixels; `light` is of 256.
-    pub(crate) fn lay(&self, line: &mut [Px], row: &Row, v: f32, shift_m: f32, px: &mut [Px], light: u32) {
+    pub(crate) fn lay(
+        &self,
+        line: &mut [Px],
+        row: &Row,
+        v: f32,
+        shift_m: f32,
+        px: &mut [Px],
+        light: u32,
+    ) {
         // First down, then along: two reads per pixel.
         let (top, part) = self.line(v);
         let upper = &self.px[top * self.width..][..self.width];
@@ -59,7 +68,8 @@ impl Tile {
         between([0, 0, 0, 255], between(top, bottom, down), light)
     }
 
-    /// A place along x in 4096ths of a pixel. It wraps with the tile, whose width is a power of two.
+    /// A place along x in 4096ths of a pixel. It wraps with the tile, whose width is a power of
+    /// two.
     fn column(&self, x_m: f32) -> u32 {
         (x_m * self.across * 4096.0) as i64 as u32
     }

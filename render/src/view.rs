@@ -1,7 +1,7 @@
 //! Where the camera stands, and where a place of the pitch is in the picture.
 //!
-//! Neither camera rolls or turns, so one row of the picture shows one line of the ground along x. Everything flat is
-//! drawn row by row with one step per pixel.
+//! Neither camera rolls or turns, so one row of the picture shows one line of the ground along x.
+//! Everything flat is drawn row by row with one step per pixel.
 
 use crate::math::{Vec2, Vec3, metres, within};
 use crate::scene::Pitch;
@@ -13,7 +13,8 @@ use serde::{Deserialize, Serialize};
 pub enum Camera {
     /// A plan, north up, so to say: +y is at the bottom.
     Above(PitchRegion),
-    /// From the stand behind the touch line at +y. It follows the ball, and depends on nothing else.
+    /// From the stand behind the touch line at +y. It follows the ball, and depends on nothing
+    /// else.
     #[default]
     Broadcast,
 }
@@ -117,10 +118,18 @@ const MARGIN_M: Vec2 = Vec2::new(4.5, 3.5);
 
 impl CameraView {
     /// Places the camera.
-    pub(crate) fn new(camera: Camera, pitch: &Pitch, ball: [f32; 3], width: usize, height: usize) -> CameraView {
+    pub(crate) fn new(
+        camera: Camera,
+        pitch: &Pitch,
+        ball: [f32; 3],
+        width: usize,
+        height: usize,
+    ) -> CameraView {
         let eye = match camera {
             Camera::Above(region) => plan(region, pitch, width as f32, height as f32),
-            Camera::Broadcast => CameraEye::StandView(stand(pitch, ball, width as f32, height as f32)),
+            Camera::Broadcast => {
+                CameraEye::StandView(stand(pitch, ball, width as f32, height as f32))
+            }
         };
         CameraView { width, height, eye }
     }
@@ -128,7 +137,9 @@ impl CameraView {
     /// Where a place is in the picture; `None` behind the camera.
     pub(crate) fn spot(&self, p: Vec3) -> Option<Spot> {
         match self.eye {
-            CameraEye::PlanView { corner, scale } => Some(Spot { at: (Vec2::new(p.x, p.y) - corner) * scale, scale }),
+            CameraEye::PlanView { corner, scale } => {
+                Some(Spot { at: (Vec2::new(p.x, p.y) - corner) * scale, scale })
+            }
             CameraEye::StandView(stand) => {
                 let (away, up) = (stand.pos.y - p.y, p.z - stand.pos.z);
                 let depth = away * stand.cos - up * stand.sin;
@@ -177,7 +188,14 @@ impl CameraView {
     }
 
     /// A row at a depth.
-    pub(crate) fn along_x(&self, stand: &StandView, depth: f32, y: f32, dy: f32, slant: f32) -> Row {
+    pub(crate) fn along_x(
+        &self,
+        stand: &StandView,
+        depth: f32,
+        y: f32,
+        dy: f32,
+        slant: f32,
+    ) -> Row {
         let dx = depth / stand.focal;
         let x0 = stand.pos.x + (0.5 - self.width as f32 * 0.5) * dx;
         Row { y, dy, x0, dx, per_m: stand.focal / depth, eye_x: stand.pos.x, slant }
@@ -204,9 +222,16 @@ fn stand(pitch: &Pitch, ball: [f32; 3], width: f32, height: f32) -> StandView {
     let y = y * (ACROSS + NEARER * y / half_y);
     let ahead = BACK_M + BEYOND_M;
     let ray = (HEIGHT_M * HEIGHT_M + ahead * ahead).sqrt();
-    // What a tall picture has more than a wide one, it has at the bottom: the stand fills no more of it.
+    // What a tall picture has more than a wide one, it has at the bottom: the stand fills no more
+    // of it.
     let centre = (height * 0.5).min(focal * UPWARD);
-    StandView { pos: Vec3::new(x, y + BACK_M, HEIGHT_M), cos: ahead / ray, sin: HEIGHT_M / ray, focal, centre }
+    StandView {
+        pos: Vec3::new(x, y + BACK_M, HEIGHT_M),
+        cos: ahead / ray,
+        sin: HEIGHT_M / ray,
+        focal,
+        centre,
+    }
 }
 
 fn plan(region: PitchRegion, pitch: &Pitch, width: f32, height: f32) -> CameraEye {
@@ -216,7 +241,10 @@ fn plan(region: PitchRegion, pitch: &Pitch, width: f32, height: f32) -> CameraEy
         PitchRegion::LeftHalf => (-half, Vec2::new(MARGIN_M.x, half.y)),
         PitchRegion::RightHalf => (Vec2::new(-MARGIN_M.x, -half.y), half),
         PitchRegion::Box { low, high } => {
-            let (a, b) = (Vec2::new(metres(low[0]), metres(low[1])), Vec2::new(metres(high[0]), metres(high[1])));
+            let (a, b) = (
+                Vec2::new(metres(low[0]), metres(low[1])),
+                Vec2::new(metres(high[0]), metres(high[1])),
+            );
             let middle = (a + b) * 0.5;
             let half = ((b - a).abs() * 0.5).max(Vec2::ONE);
             (middle - half, middle + half)
@@ -231,7 +259,8 @@ fn plan(region: PitchRegion, pitch: &Pitch, width: f32, height: f32) -> CameraEy
 /// The pitch's measures within what can be drawn; the usual ones where they are not numbers.
 pub(crate) fn sound(pitch: &Pitch) -> Pitch {
     let usual = Pitch::default();
-    let fit = |x: f32, usual: f32, lo: f32, hi: f32| if x.is_nan() { usual } else { x.clamp(lo, hi) };
+    let fit =
+        |x: f32, usual: f32, lo: f32, hi: f32| if x.is_nan() { usual } else { x.clamp(lo, hi) };
     let length_m = fit(pitch.length_m, usual.length_m, 10.0, 300.0);
     let width_m = fit(pitch.width_m, usual.width_m, 10.0, 300.0);
     let (half, across) = (length_m * 0.5, width_m);
@@ -254,12 +283,13 @@ pub(crate) fn sound(pitch: &Pitch) -> Pitch {
 mod tests {
     use super::*;
 
-    const SIZES: [(usize, usize); 6] = [(1280, 720), (96, 72), (72, 96), (84, 84), (16, 16), (480, 854)];
+    const SIZES: [(usize, usize); 6] =
+        [(1280, 720), (96, 72), (72, 96), (84, 84), (16, 16), (480, 854)];
 
     fn views(ball: [f32; 3]) -> impl Iterator<Item = CameraView> {
-        SIZES
-            .into_iter()
-            .map(move |(width, height)| CameraView::new(Camera::Broadcast, &Pitch::default(), ball, width, height))
+        SIZES.into_iter().map(move |(width, height)| {
+            CameraView::new(Camera::Broadcast, &Pitch::default(), ball, width, height)
+        })
     }
 
     #[test]
@@ -270,7 +300,10 @@ mod tests {
                 let column = view.width as f32 * 0.8;
                 let place = Vec3::new(row.x0 + (column - 0.5) * row.dx, row.y, 0.0);
                 let at = view.spot(place).unwrap().at;
-                assert!((at.y - index as f32 - 0.5).abs() < 0.05 && (at.x - column).abs() < 0.05, "{at} {index}");
+                assert!(
+                    (at.y - index as f32 - 0.5).abs() < 0.05 && (at.x - column).abs() < 0.05,
+                    "{at} {index}"
+                );
             }
         }
     }
@@ -282,7 +315,10 @@ mod tests {
                 let ball = [x as f32 * 5.0, y as f32 * 4.0, 0.11];
                 for view in views(ball) {
                     let at = view.spot(Vec3::from_array(ball)).unwrap().at;
-                    let inside = at.x > 0.0 && at.y > 0.0 && at.x < view.width as f32 && at.y < view.height as f32;
+                    let inside = at.x > 0.0
+                        && at.y > 0.0
+                        && at.x < view.width as f32
+                        && at.y < view.height as f32;
                     assert!(inside, "{ball:?} at {at} of {}x{}", view.width, view.height);
                 }
             }
@@ -292,8 +328,10 @@ mod tests {
     #[test]
     fn a_mirrored_ball_gives_a_mirrored_view() {
         for (left, right) in views([-31.0, 8.0, 0.11]).zip(views([31.0, 8.0, 0.11])) {
-            let (a, b) =
-                (left.spot(Vec3::new(-40.0, 3.0, 1.0)).unwrap(), right.spot(Vec3::new(40.0, 3.0, 1.0)).unwrap());
+            let (a, b) = (
+                left.spot(Vec3::new(-40.0, 3.0, 1.0)).unwrap(),
+                right.spot(Vec3::new(40.0, 3.0, 1.0)).unwrap(),
+            );
             assert_eq!(a.scale, b.scale);
             assert!((a.at.x + b.at.x - left.width as f32).abs() < 1e-2 && a.at.y == b.at.y);
         }
@@ -301,7 +339,15 @@ mod tests {
 
     #[test]
     fn the_camera_moves_no_faster_than_the_ball_by_much() {
-        let eye = |x: f32| match CameraView::new(Camera::Broadcast, &Pitch::default(), [x, 0.0, 0.11], 1280, 720).eye {
+        let eye = |x: f32| match CameraView::new(
+            Camera::Broadcast,
+            &Pitch::default(),
+            [x, 0.0, 0.11],
+            1280,
+            720,
+        )
+        .eye
+        {
             CameraEye::StandView(stand) => stand.pos.x,
             CameraEye::PlanView { .. } => f32::NAN,
         };

@@ -6,9 +6,12 @@
 mod scenes;
 
 use proptest::prelude::*;
-use setpiece_render::scene::{Id, Mode, News, NewsKind, Pitch, Posture, Role, ScenePlayer, Side, Term};
+use setpiece_render::scene::{
+    Id, Mode, News, NewsKind, Pitch, Posture, Role, ScenePlayer, Side, Term,
+};
 use setpiece_render::{
-    Camera, Options, Overlays, PitchRegion, PixelObserver, Pixels, RenderError, Renderer, SIDE_MAX, Scene, gray,
+    Camera, Options, Overlays, PitchRegion, PixelObserver, Pixels, RenderError, Renderer, SIDE_MAX,
+    Scene, gray,
 };
 
 const ABOVE: Camera = Camera::Above(PitchRegion::Whole);
@@ -22,7 +25,9 @@ fn picture(scene: &Scene, camera: Camera, width: usize, height: usize) -> Vec<u8
 
 /// FNV-1a, 64 bits.
 fn digest(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// Golden pictures: a digest changes only in a commit that says what looks different.
@@ -30,7 +35,9 @@ fn digest(bytes: &[u8]) -> u64 {
 fn the_sample_scenes_look_as_they_did() {
     let sizes = [(640, 360), (96, 72)];
     let mut found = String::new();
-    for (name, scene) in [("kick-off", scenes::kick_off()), ("goal", scenes::goal()), ("slide", scenes::slide())] {
+    for (name, scene) in
+        [("kick-off", scenes::kick_off()), ("goal", scenes::goal()), ("slide", scenes::slide())]
+    {
         for (camera, view) in [("broadcast", Camera::Broadcast), ("above", ABOVE)] {
             for (width, height) in sizes {
                 let digest = digest(&picture(&scene, view, width, height));
@@ -41,7 +48,11 @@ fn the_sample_scenes_look_as_they_did() {
     if std::env::var_os("SETPIECE_BLESS").is_some() {
         std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden.txt"), &found).unwrap();
     }
-    assert_eq!(found, include_str!("golden.txt"), "SETPIECE_BLESS=1 writes the digests of these pictures");
+    assert_eq!(
+        found,
+        include_str!("golden.txt"),
+        "SETPIECE_BLESS=1 writes the digests of these pictures"
+    );
 }
 
 #[test]
@@ -52,7 +63,8 @@ fn a_picture_depends_on_its_scene_alone() {
         let threads = std::thread::scope(|scope| {
             let draw = || {
                 // One renderer for all, backwards: nothing of one picture may reach the next.
-                let options = Options { camera, overlays: Overlays { terms: true, ..Overlays::default() } };
+                let options =
+                    Options { camera, overlays: Overlays { terms: true, ..Overlays::default() } };
                 let mut renderer = Renderer::new(320, 180, options).unwrap();
                 let mut pictures: Vec<_> = all
                     .iter()
@@ -91,7 +103,10 @@ fn a_player_who_moves_one_metre_changes_the_small_picture() {
                     let mut moved = scene.clone();
                     moved.players[index].pos[0] += x;
                     moved.players[index].pos[1] += y;
-                    assert!(picture(&moved, camera, 96, 72) != before, "{name}: player {index} by ({x}, {y})");
+                    assert!(
+                        picture(&moved, camera, 96, 72) != before,
+                        "{name}: player {index} by ({x}, {y})"
+                    );
                 }
             }
         }
@@ -126,7 +141,11 @@ fn the_ball_is_seen_wherever_it_is_on_the_pitch() {
                 let mut moved = scene.clone();
                 // Out of sight, but where the camera looks the same way.
                 moved.ball.pos[2] = 390.0;
-                assert!(picture(&scene, camera, 96, 72) != picture(&moved, camera, 96, 72), "{:?}", scene.ball.pos);
+                assert!(
+                    picture(&scene, camera, 96, 72) != picture(&moved, camera, 96, 72),
+                    "{:?}",
+                    scene.ball.pos
+                );
             }
         }
     }
@@ -159,8 +178,11 @@ fn a_plan_of_a_mirrored_ball_is_the_mirrored_plan() {
 #[test]
 fn a_renderer_allocates_nothing_once_it_is_warm() {
     let scene = scenes::goal();
-    for (camera, width, height) in [(Camera::Broadcast, 640, 360), (Camera::Broadcast, 96, 72), (ABOVE, 640, 400)] {
-        let mut renderer = Renderer::new(width, height, Options { camera, ..Options::default() }).unwrap();
+    for (camera, width, height) in
+        [(Camera::Broadcast, 640, 360), (Camera::Broadcast, 96, 72), (ABOVE, 640, 400)]
+    {
+        let mut renderer =
+            Renderer::new(width, height, Options { camera, ..Options::default() }).unwrap();
         let mut rgba = vec![0; width * height * 4];
         let mut rgb = vec![0; width * height * 3];
         let mut gray = vec![0; width * height];
@@ -178,16 +200,26 @@ fn a_renderer_allocates_nothing_once_it_is_warm() {
 fn rgb_and_gray_are_the_same_picture() {
     let scene = scenes::shot();
     let rgba = picture(&scene, Camera::Broadcast, 96, 72);
-    let (mut rgb, mut gray_bytes) = (vec![0; Pixels::SMALL.len()], vec![0; Pixels::SMALL_GRAY.len()]);
-    PixelObserver::new(Pixels::SMALL, Options::default()).unwrap().observe(&scene, &mut rgb).unwrap();
-    PixelObserver::new(Pixels::SMALL_GRAY, Options::default()).unwrap().observe(&scene, &mut gray_bytes).unwrap();
+    let (mut rgb, mut gray_bytes) =
+        (vec![0; Pixels::SMALL.len()], vec![0; Pixels::SMALL_GRAY.len()]);
+    PixelObserver::new(Pixels::SMALL, Options::default())
+        .unwrap()
+        .observe(&scene, &mut rgb)
+        .unwrap();
+    PixelObserver::new(Pixels::SMALL_GRAY, Options::default())
+        .unwrap()
+        .observe(&scene, &mut gray_bytes)
+        .unwrap();
     for (i, px) in rgba.chunks(4).enumerate() {
         assert_eq!(&rgb[i * 3..][..3], &px[..3]);
         assert_eq!(gray_bytes[i], gray([px[0], px[1], px[2]]));
         assert_eq!(px[3], 255);
     }
     // Rec. 601 in whole numbers, as Pillow rounds it.
-    assert_eq!([gray([255, 0, 0]), gray([0, 255, 0]), gray([0, 0, 255]), gray([255; 3])], [76, 150, 29, 255]);
+    assert_eq!(
+        [gray([255, 0, 0]), gray([0, 255, 0]), gray([0, 0, 255]), gray([255; 3])],
+        [76, 150, 29, 255]
+    );
 }
 
 #[test]
@@ -233,7 +265,8 @@ fn trails_go_back_to_the_last_scene_that_was_placed() {
 }
 
 /// Numbers that arithmetic stumbles over.
-const ODD: [f32; 8] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, 1e-40, -0.0, 0.0];
+const ODD: [f32; 8] =
+    [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, 1e-40, -0.0, 0.0];
 
 /// Any number, the odd ones often.
 fn number() -> impl Strategy<Value = f32> {
@@ -256,63 +289,87 @@ fn player() -> impl Strategy<Value = ScenePlayer> {
     ];
     let body = (prop::sample::select(postures), number(), number(), number());
     let places = ([number(), number()], [number(), number()], [number(), number()]);
-    let marks = (any::<bool>(), any::<u8>(), any::<u8>(), any::<bool>(), any::<bool>(), any::<bool>());
-    (places, body, marks).prop_map(|((pos, vel, facing), (posture, progress, height_m, tired), marks)| {
-        let (right, slot, number, keeper, agent, present) = marks;
-        ScenePlayer {
-            id: Id { team: if right { Side::Right } else { Side::Left }, slot },
-            number,
-            role: if keeper { Role::GK } else { Role::CF },
-            pos,
-            height_m,
-            vel,
-            facing,
-            posture,
-            progress,
-            tired,
-            yellow_cards: number,
-            present: present || keeper,
-            agent,
-        }
-    })
+    let marks =
+        (any::<bool>(), any::<u8>(), any::<u8>(), any::<bool>(), any::<bool>(), any::<bool>());
+    (places, body, marks).prop_map(
+        |((pos, vel, facing), (posture, progress, height_m, tired), marks)| {
+            let (right, slot, number, keeper, agent, present) = marks;
+            ScenePlayer {
+                id: Id { team: if right { Side::Right } else { Side::Left }, slot },
+                number,
+                role: if keeper { Role::GK } else { Role::CF },
+                pos,
+                height_m,
+                vel,
+                facing,
+                posture,
+                progress,
+                tired,
+                yellow_cards: number,
+                present: present || keeper,
+                agent,
+            }
+        },
+    )
 }
 
 fn scene() -> impl Strategy<Value = Scene> {
-    let ball = ([number(), number(), number()], [number(), number(), number()], [number(), number(), number()]);
+    let ball = (
+        [number(), number(), number()],
+        [number(), number(), number()],
+        [number(), number(), number()],
+    );
     let pitch = prop::collection::vec(prop_oneof![3 => Just(f32::NAN), 1 => number()], 11);
     let clock = (any::<u32>(), number(), number(), any::<[u16; 2]>(), ".{0,20}", any::<u32>());
-    (ball, prop::collection::vec(player(), 0..24), pitch, clock).prop_map(|(ball, players, pitch, clock)| {
-        let (step, between, clock_s, score, name, age_steps) = clock;
-        let mut scene = Scene { step, between, players, score, clock_s, mode: Mode::Penalty, ..Scene::default() };
-        (scene.ball.pos, scene.ball.vel, scene.ball.spin) = ball;
-        scene.ball.owner = scene.players.first().map(|player| player.id);
-        scene.names = [name.clone(), String::new()];
-        scene.rewards = vec![Term { name, value: between }];
-        scene.news = vec![
-            News { kind: NewsKind::RedCard, team: Side::Right, number: Some(255), age_steps: age_steps % 40 },
-            News { kind: NewsKind::Goal, team: Side::Left, number: None, age_steps },
-        ];
-        scene.pitch = Pitch {
-            length_m: pitch[0],
-            width_m: pitch[1],
-            goal_width_m: pitch[2],
-            goal_height_m: pitch[3],
-            goal_depth_m: pitch[4],
-            box_depth_m: pitch[5],
-            box_width_m: pitch[6],
-            six_yard_depth_m: pitch[7],
-            six_yard_width_m: pitch[8],
-            spot_m: pitch[9],
-            circle_m: pitch[10],
-        };
-        scene
-    })
+    (ball, prop::collection::vec(player(), 0..24), pitch, clock).prop_map(
+        |(ball, players, pitch, clock)| {
+            let (step, between, clock_s, score, name, age_steps) = clock;
+            let mut scene = Scene {
+                step,
+                between,
+                players,
+                score,
+                clock_s,
+                mode: Mode::Penalty,
+                ..Scene::default()
+            };
+            (scene.ball.pos, scene.ball.vel, scene.ball.spin) = ball;
+            scene.ball.owner = scene.players.first().map(|player| player.id);
+            scene.names = [name.clone(), String::new()];
+            scene.rewards = vec![Term { name, value: between }];
+            scene.news = vec![
+                News {
+                    kind: NewsKind::RedCard,
+                    team: Side::Right,
+                    number: Some(255),
+                    age_steps: age_steps % 40,
+                },
+                News { kind: NewsKind::Goal, team: Side::Left, number: None, age_steps },
+            ];
+            scene.pitch = Pitch {
+                length_m: pitch[0],
+                width_m: pitch[1],
+                goal_width_m: pitch[2],
+                goal_height_m: pitch[3],
+                goal_depth_m: pitch[4],
+                box_depth_m: pitch[5],
+                box_width_m: pitch[6],
+                six_yard_depth_m: pitch[7],
+                six_yard_width_m: pitch[8],
+                spot_m: pitch[9],
+                circle_m: pitch[10],
+            };
+            scene
+        },
+    )
 }
 
 fn size() -> impl Strategy<Value = (usize, usize)> {
     prop_oneof![
         3 => (1_usize..140, 1_usize..140),
-        1 => prop::sample::select(vec![(1, 1), (1, 90), (90, 1), (16, 16), (96, 72), (72, 96), (640, 360), (420, 300)]),
+        1 => prop::sample::select(vec![
+            (1, 1), (1, 90), (90, 1), (16, 16), (96, 72), (72, 96), (640, 360), (420, 300),
+        ]),
     ]
 }
 

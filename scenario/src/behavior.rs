@@ -198,14 +198,20 @@ impl Node {
             }
             Node::Let(pairs) | Node::Assign(pairs) => pairs.iter_mut().for_each(|(_, reg)| f(reg)),
             Node::Draw { from, .. } => match from {
-                Distribution::Uniform(a, b) | Distribution::Normal(a, b) | Distribution::Integer(a, b) => {
+                Distribution::Uniform(a, b)
+                | Distribution::Normal(a, b)
+                | Distribution::Integer(a, b) => {
                     [a, b].into_iter().for_each(f);
                 }
                 Distribution::TruncatedNormal(a, b, c, d) => [a, b, c, d].into_iter().for_each(f),
                 Distribution::Weighted(weights) => weights.iter_mut().for_each(f),
             },
             Node::Branch { when, .. } => f(when),
-            Node::Jump(_) | Node::Mark(_) | Node::Loop { .. } | Node::Return | Node::Finish { .. } => {}
+            Node::Jump(_)
+            | Node::Mark(_)
+            | Node::Loop { .. }
+            | Node::Return
+            | Node::Finish { .. } => {}
         }
     }
 }
@@ -213,8 +219,14 @@ impl Node {
 impl Act {
     fn regs_mut(&mut self, f: &mut dyn FnMut(&mut Reg)) {
         match self {
-            Act::MoveTo(x, y) | Act::DribbleTo(x, y) | Act::Shoot(Some((x, y))) => [x, y].into_iter().for_each(f),
-            Act::Run(reg) | Act::PassTo(reg) | Act::HighPassTo(reg) | Act::LongPassTo(reg) | Act::Mark(reg) => f(reg),
+            Act::MoveTo(x, y) | Act::DribbleTo(x, y) | Act::Shoot(Some((x, y))) => {
+                [x, y].into_iter().for_each(f)
+            }
+            Act::Run(reg)
+            | Act::PassTo(reg)
+            | Act::HighPassTo(reg)
+            | Act::LongPassTo(reg)
+            | Act::Mark(reg) => f(reg),
             Act::Script { args, .. } => args.iter_mut().flat_map(|arg| &mut arg.regs).for_each(f),
             Act::Shoot(None) | Act::Tackle | Act::Slide | Act::Press | Act::Hold | Act::Bot => {}
         }

@@ -86,7 +86,11 @@ pub fn check(scenario: &Scenario) -> Result<(), Excess> {
         ("rewards", scenario.rewards.len() + scenario.library.len(), PARTS_MAX),
         ("endings", scenario.endings.list.len(), PARTS_MAX),
         ("records", scenario.records.len(), PARTS_MAX),
-        ("numbers to observe", scenario.observation.as_ref().map_or(0, |it| it.values.len()), NUMBERS_MAX),
+        (
+            "numbers to observe",
+            scenario.observation.as_ref().map_or(0, |it| it.values.len()),
+            NUMBERS_MAX,
+        ),
         ("behaviours", scenario.behaviors.len(), PARTS_MAX),
         ("things to do in its behaviours", nodes, NODES_MAX),
     ];
@@ -94,7 +98,8 @@ pub fn check(scenario: &Scenario) -> Result<(), Excess> {
         Total::count(what, Part::Scenario, n as u64).within(most, "leave some of them out")?;
     }
     let bytes = scenario.scripts.iter().map(|script| script.source.len() as u64).sum();
-    Total::count("bytes of scripts", Part::Scenario, bytes).within(SCRIPTS_MAX_BYTES, "make the scripts shorter")?;
+    Total::count("bytes of scripts", Part::Scenario, bytes)
+        .within(SCRIPTS_MAX_BYTES, "make the scripts shorter")?;
 
     let (mut code, mut cells, mut terms) =
         (Total::new("instructions"), Total::new("memory cells"), Total::new("terms of rewards"));
@@ -117,8 +122,10 @@ pub fn check(scenario: &Scenario) -> Result<(), Excess> {
     terms.within(TERMS_MAX, "leave some of its `give`s out")?;
 
     let start = work(&scenario.start.program, &Counts::of(scenario));
-    Total::count("instructions at a start", Part::Start, start).within(START_WORK_MAX, "draw fewer values")?;
-    step_work(scenario).within(STEP_WORK_MAX, "nest fewer sums, and compute once with a `let` what is used often")
+    Total::count("instructions at a start", Part::Start, start)
+        .within(START_WORK_MAX, "draw fewer values")?;
+    step_work(scenario)
+        .within(STEP_WORK_MAX, "nest fewer sums, and compute once with a `let` what is used often")
 }
 
 /// The cost of an attempt at a start, in instructions; at least one.
@@ -138,18 +145,27 @@ fn step_work(scenario: &Scenario) -> Total {
     }
     total.add(Part::Endings, work(&scenario.endings.program, &counts));
     for (at, record) in scenario.records.iter().enumerate() {
-        total.add(Part::Record(at), times(&record.program, 1).saturating_mul(work(&record.program, &counts)));
+        total.add(
+            Part::Record(at),
+            times(&record.program, 1).saturating_mul(work(&record.program, &counts)),
+        );
     }
     if let Some(observation) = &scenario.observation {
-        total.add(Part::Observation, counts.all.saturating_mul(work(&observation.program, &counts)));
+        total
+            .add(Part::Observation, counts.all.saturating_mul(work(&observation.program, &counts)));
     }
     for (at, behavior) in scenario.behaviors.iter().enumerate() {
-        let played = scenario.players.iter().filter(|slot| slot.ai == Ai::Behavior(at as u32)).count() as u64;
+        let played =
+            scenario.players.iter().filter(|slot| slot.ai == Ai::Behavior(at as u32)).count()
+                as u64;
         // Each write to a cell computes everything again, and an interrupt may lead through it
         // twice.
         let writes = behavior.nodes.iter().filter(|node| writes(node)).count() as u64;
         let computed = work(&behavior.program, &counts).saturating_mul(1 + 2 * writes);
-        total.add(Part::Behavior(at), played.saturating_mul(computed.saturating_add(2 * behavior.nodes.len() as u64)));
+        total.add(
+            Part::Behavior(at),
+            played.saturating_mul(computed.saturating_add(2 * behavior.nodes.len() as u64)),
+        );
     }
     total
 }
@@ -160,10 +176,14 @@ fn writes(node: &Node) -> bool {
 
 /// A scenario's programs.
 fn programs(scenario: &Scenario) -> impl Iterator<Item = (Part, &Program)> {
-    let rewards = rewards(scenario).flat_map(|(part, reward)| [(part, &reward.body.init), (part, &reward.body.step)]);
-    let records = scenario.records.iter().enumerate().map(|(at, record)| (Part::Record(at), &record.program));
-    let behaviors = scenario.behaviors.iter().enumerate().map(|(at, one)| (Part::Behavior(at), &one.program));
-    let observation = scenario.observation.iter().map(|observation| (Part::Observation, &observation.program));
+    let rewards = rewards(scenario)
+        .flat_map(|(part, reward)| [(part, &reward.body.init), (part, &reward.body.step)]);
+    let records =
+        scenario.records.iter().enumerate().map(|(at, record)| (Part::Record(at), &record.program));
+    let behaviors =
+        scenario.behaviors.iter().enumerate().map(|(at, one)| (Part::Behavior(at), &one.program));
+    let observation =
+        scenario.observation.iter().map(|observation| (Part::Observation, &observation.program));
     [(Part::Start, &scenario.start.program), (Part::Endings, &scenario.endings.program)]
         .into_iter()
         .chain(rewards)
@@ -186,7 +206,8 @@ struct Counts {
 
 impl Counts {
     fn of(scenario: &Scenario) -> Counts {
-        let teams = [Team::Left, Team::Right].map(|team| scenario.team(team).count().min(PLAYERS_MAX) as u64);
+        let teams = [Team::Left, Team::Right]
+            .map(|team| scenario.team(team).count().min(PLAYERS_MAX) as u64);
         Counts { teams, all: teams.iter().sum() }
     }
 
@@ -262,7 +283,12 @@ impl Total {
         if self.sum <= most {
             return Ok(());
         }
-        let message = format!("{} {}, where a scenario may have {}", grouped(self.sum), self.what, grouped(most));
+        let message = format!(
+            "{} {}, where a scenario may have {}",
+            grouped(self.sum),
+            self.what,
+            grouped(most)
+        );
         Err(Excess { part: self.most.1, message, help })
     }
 }
@@ -287,13 +313,20 @@ mod tests {
 
     fn each(body: u32) -> Instr {
         let fold = Fold { kind: FoldKind::Count, value: None, guard: None };
-        Instr::Each(Box::new(Each { over: Over::Players { team: Reg(0), except: None }, body, fold }))
+        Instr::Each(Box::new(Each {
+            over: Over::Players { team: Reg(0), except: None },
+            body,
+            fold,
+        }))
     }
 
     #[test]
     fn loops_multiply_what_stands_in_them() {
         let counts = Counts { teams: [11, 11], all: 22 };
-        let mut program = Program { code: vec![Instr::Const(-1.0), each(2), each(1), Instr::Us, Instr::Us], cells: 0 };
+        let mut program = Program {
+            code: vec![Instr::Const(-1.0), each(2), each(1), Instr::Us, Instr::Us],
+            cells: 0,
+        };
         // The constant, the outer loop, 22 inner loops, 22 · 22 bodies, and what follows.
         assert_eq!(work(&program, &counts), 1 + 23 + 22 * 23 + 22 * 22 + 1);
         program.code[0] = Instr::Const(1.0);
@@ -306,6 +339,9 @@ mod tests {
         let program = Program { code: vec![Instr::Us, each(2), each(1), Instr::Us], cells: 0 };
         assert_eq!(work(&program, &counts), u64::MAX);
         assert_eq!(grouped(u64::MAX), "18,446,744,073,709,551,615");
-        assert_eq!((grouped(0), grouped(999), grouped(1000)), ("0".into(), "999".into(), "1,000".into()));
+        assert_eq!(
+            (grouped(0), grouped(999), grouped(1000)),
+            ("0".into(), "999".into(), "1,000".into())
+        );
     }
 }

@@ -1,6 +1,7 @@
 //! The head that every binary file of Setpiece begins with: mark, version, checksum, length.
 //!
-//! A compiled scenario, a snapshot and a replay are such files. What stands behind the head is their own.
+//! A compiled scenario, a snapshot and a replay are such files. What stands behind the head is
+//! their own.
 //!
 //! | bytes | content |
 //! |---|---|
@@ -84,7 +85,8 @@ impl Container {
     }
 }
 
-/// The checksum of files, CRC-32 (ISO-HDLC, as in zip and PNG): against accidents, not against malice.
+/// The checksum of files, CRC-32 (ISO-HDLC, as in zip and PNG): against accidents, not against
+/// malice.
 pub fn checksum(bytes: &[u8]) -> u32 {
     crc32fast::hash(bytes)
 }

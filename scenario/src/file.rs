@@ -56,9 +56,9 @@ impl std::error::Error for FormatError {}
 impl From<HeadError> for FormatError {
     fn from(error: HeadError) -> FormatError {
         match error {
-            HeadError::Mark => {
-                FormatError::NotAScenario("it doesn't begin as `setpiece build --format bin` writes".into())
-            }
+            HeadError::Mark => FormatError::NotAScenario(
+                "it doesn't begin as `setpiece build --format bin` writes".into(),
+            ),
             HeadError::Truncated => FormatError::Truncated,
             HeadError::Version(found) => FormatError::Version(found),
             HeadError::Checksum => FormatError::Checksum,
@@ -94,7 +94,8 @@ pub fn to_json(scenario: &Scenario) -> Result<String, FormatError> {
     let body = serde_json::to_string(scenario).map_err(write)?;
     let checksum = written_checksum(&body);
     let raw = RawValue::from_string(body).map_err(write)?;
-    let out = WrittenFile { format: FORMAT_NAME, version: FORMAT_VERSION, checksum, scenario: &raw };
+    let out =
+        WrittenFile { format: FORMAT_NAME, version: FORMAT_VERSION, checksum, scenario: &raw };
     let file = serde_json::to_string(&out).map_err(write)?;
     check_size(file.len(), FormatError::Write)?;
     Ok(file)
@@ -108,12 +109,14 @@ fn check_size(bytes: usize, fault: impl Fn(String) -> FormatError) -> Result<(),
     Err(fault(format!("it is larger than {} MiB", FILE_MAX_BYTES >> 20)))
 }
 
-/// A number that changes with anything in the scenario: snapshots name the scenario that they are of by it.
+/// A number that changes with anything in the scenario: snapshots name the scenario that they are
+/// of by it.
 ///
 /// # Errors
 /// [`FormatError::Write`] if a constant isn't finite.
 pub fn digest(scenario: &Scenario) -> Result<u64, FormatError> {
-    let body = serde_json::to_string(scenario).map_err(|error| FormatError::Write(error.to_string()))?;
+    let body =
+        serde_json::to_string(scenario).map_err(|error| FormatError::Write(error.to_string()))?;
     Ok(fnv1a(body.as_bytes()))
 }
 
@@ -131,13 +134,19 @@ pub fn from_json(text: &str) -> Result<Scenario, FormatError> {
             FormatError::Truncated
         } else {
             let (line, column) = (error.line(), error.column());
-            FormatError::NotAScenario(format!("line {line}, column {column} is not what `setpiece build` writes"))
+            FormatError::NotAScenario(format!(
+                "line {line}, column {column} is not what `setpiece build` writes"
+            ))
         }
     })?;
     if envelope.format.as_deref() != Some(FORMAT_NAME) {
-        return Err(FormatError::NotAScenario(format!("the field `format` is not \"{FORMAT_NAME}\"")));
+        return Err(FormatError::NotAScenario(format!(
+            "the field `format` is not \"{FORMAT_NAME}\""
+        )));
     }
-    let version = envelope.version.ok_or_else(|| FormatError::NotAScenario("it has no `version`".to_owned()))?;
+    let version = envelope
+        .version
+        .ok_or_else(|| FormatError::NotAScenario("it has no `version`".to_owned()))?;
     if version != FORMAT_VERSION {
         return Err(FormatError::Version(version));
     }
@@ -145,7 +154,8 @@ pub fn from_json(text: &str) -> Result<Scenario, FormatError> {
     if envelope.checksum.as_deref() != Some(written_checksum(body).as_str()) {
         return Err(FormatError::Checksum);
     }
-    let scenario: Scenario = serde_json::from_str(body).map_err(|error| FormatError::Corrupt(error.to_string()))?;
+    let scenario: Scenario =
+        serde_json::from_str(body).map_err(|error| FormatError::Corrupt(error.to_string()))?;
     verify(&scenario).map_err(FormatError::Corrupt)?;
     Ok(scenario)
 }
@@ -157,5 +167,7 @@ fn written_checksum(body: &str) -> String {
 
 /// FNV-1a, 64 bit: the hash of digests. Files have a [`checksum`] instead.
 pub fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
 }

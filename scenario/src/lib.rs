@@ -1,9 +1,11 @@
 //! The compiled scenario: the compiler writes it and the engine runs it.
 //!
-//! Plain data. A [`Scenario`] holds everything an episode needs: the roster, the start (a [`Program`] that is run at
-//! every reset), rewards and endings (programs run at every step), scripts, and the parameters, which stay symbolic
-//! until a match binds them. [`vocabulary`] is the one home of every list that the language, the engine, the docs and
-//! Python share. [`file`](mod@file) is the versioned `.pitchc` format, [`container`] the head of all binary files.
+//! Plain data. A [`Scenario`] holds everything an episode needs: the roster, the start (a
+//! [`Program`] that is run at every reset), rewards and endings (programs run at every step),
+//! scripts, and the parameters, which stay symbolic until a match binds them. [`vocabulary`] is the
+//! one home of every list that the language, the engine, the docs and Python share.
+//! [`file`](mod@file) is the versioned `.pitchc` format, [`container`] the head of all binary
+//! files.
 
 pub mod behavior;
 pub mod bounds;
@@ -23,13 +25,15 @@ pub use behavior::{Act, Behavior, Do, Node, ScriptArg, Then, Watch};
 pub use file::{FORMAT_VERSION, FormatError};
 pub use params::{Bindings, Param, ParamError};
 pub use program::{
-    BinaryOp, Distribution, Each, EventFilter, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp, When, Who,
+    BinaryOp, Distribution, Each, EventFilter, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp,
+    When, Who,
 };
 pub use scenario::{
-    Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, Observation, ObservedValue, Others, PlayerSlot,
-    PlayerStart, Record, Require, Reward, RewardBody, RewardHook, RuleSetting, Scenario, Script, SideAgents, Start,
-    Switching,
+    Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, Observation, ObservedValue,
+    Others, PlayerSlot, PlayerStart, Record, Require, Reward, RewardBody, RewardHook, RuleSetting,
+    Scenario, Script, SideAgents, Start, Switching,
 };
 pub use vocabulary::{
-    Action, EventField, EventKind, Field, GameMode, Qualifier, Role, Rule, StartKind, Stat, Team, Type, Verdict,
+    Action, EventField, EventKind, Field, GameMode, Qualifier, Role, Rule, StartKind, Stat, Team,
+    Type, Verdict,
 };

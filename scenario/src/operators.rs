@@ -47,7 +47,9 @@ impl UnaryOp {
             UnaryOp::Sin => libm::sin(a),
             UnaryOp::Cos => libm::cos(a),
             UnaryOp::Side => team_of_number(a).map_or(f64::NAN, Team::side),
-            UnaryOp::OtherTeam => team_of_number(a).map_or(-1.0, |team| team.other().index() as f64),
+            UnaryOp::OtherTeam => {
+                team_of_number(a).map_or(-1.0, |team| team.other().index() as f64)
+            }
             UnaryOp::TeamOf => player_index(a).map_or(-1.0, |index| (index / TEAM_MAX) as f64),
             UnaryOp::Exists => exists(a).into(),
             UnaryOp::Wrap => wrap(a),

@@ -118,9 +118,11 @@ impl Bindings {
 }
 
 fn find<'a>(params: &'a [Param], name: &str) -> Result<(usize, &'a Param), ParamError> {
-    params.iter().enumerate().find(|(_, param)| param.name == name).ok_or_else(|| ParamError::Unknown {
-        name: name.to_owned(),
-        known: params.iter().map(|param| param.name.clone()).collect(),
+    params.iter().enumerate().find(|(_, param)| param.name == name).ok_or_else(|| {
+        ParamError::Unknown {
+            name: name.to_owned(),
+            known: params.iter().map(|param| param.name.clone()).collect(),
+        }
     })
 }
 
@@ -132,7 +134,8 @@ impl Param {
     pub fn parse(&self, text: &str) -> Result<f64, ParamError> {
         use crate::vocabulary::Unit;
         let text = text.trim();
-        let wrong = || ParamError::Type { name: self.name.clone(), ty: self.ty, found: text.to_owned() };
+        let wrong =
+            || ParamError::Type { name: self.name.clone(), ty: self.ty, found: text.to_owned() };
         if let Some(index) = self.choices.iter().position(|choice| choice == text) {
             return Ok(index as f64);
         }
@@ -163,7 +166,8 @@ impl Param {
             .char_indices()
             .find(|&(at, c)| {
                 let exponent = (c == 'e' || c == 'E')
-                    && text[at + 1..].starts_with(|d: char| d.is_ascii_digit() || d == '-' || d == '+');
+                    && text[at + 1..]
+                        .starts_with(|d: char| d.is_ascii_digit() || d == '-' || d == '+');
                 !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+') || exponent)
             })
             .map_or(text.len(), |(at, _)| at);
@@ -172,10 +176,16 @@ impl Param {
         if unit.is_empty() {
             return Ok(number);
         }
-        let unit =
-            Unit::ALL.iter().find(|u| u.name() == unit || (unit == "step" && **u == Unit::Step)).ok_or_else(wrong)?;
+        let unit = Unit::ALL
+            .iter()
+            .find(|u| u.name() == unit || (unit == "step" && **u == Unit::Step))
+            .ok_or_else(wrong)?;
         let plain = matches!(self.ty, Type::Number | Type::Percent);
-        if unit.ty() == self.ty || (plain && *unit == Unit::Percent) { Ok(unit.si(number)) } else { Err(wrong()) }
+        if unit.ty() == self.ty || (plain && *unit == Unit::Percent) {
+            Ok(unit.si(number))
+        } else {
+            Err(wrong())
+        }
     }
 
     /// Checks a value against type, range and choices.
@@ -185,7 +195,11 @@ impl Param {
     pub fn admit(&self, value: f64) -> Result<f64, ParamError> {
         let whole = matches!(self.ty, Type::Int | Type::Bool | Type::Team | Type::String);
         if !value.is_finite() || (whole && value.fract() != 0.0) {
-            return Err(ParamError::Type { name: self.name.clone(), ty: self.ty, found: self.show(value) });
+            return Err(ParamError::Type {
+                name: self.name.clone(),
+                ty: self.ty,
+                found: self.show(value),
+            });
         }
         let inside = match self.ty {
             Type::Bool => value == 0.0 || value == 1.0,
@@ -197,7 +211,11 @@ impl Param {
         if inside {
             Ok(value)
         } else {
-            Err(ParamError::Range { name: self.name.clone(), found: self.show(value), allowed: self.allowed() })
+            Err(ParamError::Range {
+                name: self.name.clone(),
+                found: self.show(value),
+                allowed: self.allowed(),
+            })
         }
     }
 
@@ -213,7 +231,11 @@ impl Param {
             Type::Team if value == 0.0 => "left".to_owned(),
             Type::Team if value == 1.0 => "right".to_owned(),
             Type::Team => "none".to_owned(),
-            Type::String => self.choices.get(value as usize).cloned().unwrap_or_else(|| number(value).to_string()),
+            Type::String => self
+                .choices
+                .get(value as usize)
+                .cloned()
+                .unwrap_or_else(|| number(value).to_string()),
             Type::Percent => format!("{}%", number(value * 100.0)),
             Type::Length => format!("{}m", number(value)),
             Type::Speed => format!("{}m/s", number(value)),

@@ -474,11 +474,15 @@ impl Instr {
                 }
             }
             Instr::Random { from, .. } => match &**from {
-                Distribution::Uniform(a, b) | Distribution::Normal(a, b) | Distribution::Integer(a, b) => {
+                Distribution::Uniform(a, b)
+                | Distribution::Normal(a, b)
+                | Distribution::Integer(a, b) => {
                     f(*a);
                     f(*b);
                 }
-                Distribution::TruncatedNormal(a, b, c, d) => [a, b, c, d].into_iter().for_each(|&reg| f(reg)),
+                Distribution::TruncatedNormal(a, b, c, d) => {
+                    [a, b, c, d].into_iter().for_each(|&reg| f(reg))
+                }
                 Distribution::Weighted(weights) => weights.iter().for_each(|&reg| f(reg)),
             },
         }

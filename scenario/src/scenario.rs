@@ -57,7 +57,11 @@ impl Scenario {
     /// The players of a team with their ids (`team * 11 + index`), in source order.
     pub fn team(&self, team: Team) -> impl Iterator<Item = (usize, &PlayerSlot)> {
         let base = team.index() * crate::pitch::TEAM_MAX;
-        self.players.iter().filter(move |slot| slot.team == team).enumerate().map(move |(i, slot)| (base + i, slot))
+        self.players
+            .iter()
+            .filter(move |slot| slot.team == team)
+            .enumerate()
+            .map(move |(i, slot)| (base + i, slot))
     }
 
     /// A reward by its name, among those paid and those in scope.

@@ -32,7 +32,10 @@ pub fn schema() -> Value {
         ("checksum", json!({ "type": "string", "pattern": "^[0-9a-f]{8}$" })),
     ];
     for (name, rule) in fields {
-        let field = schema.pointer_mut("/properties").and_then(|all| all.get_mut(name)).and_then(Value::as_object_mut);
+        let field = schema
+            .pointer_mut("/properties")
+            .and_then(|all| all.get_mut(name))
+            .and_then(Value::as_object_mut);
         if let (Some(field), Value::Object(rule)) = (field, rule) {
             field.retain(|key, _| key == "description");
             field.extend(rule);

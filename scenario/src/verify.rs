@@ -59,7 +59,10 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
             for reg in hook.args.iter().flat_map(|arg| &arg.regs) {
                 visible(step, *reg)?;
                 if !fixed[reg.index()] {
-                    return Err(format!("{}: an argument of a script changes within an episode", reward.name));
+                    return Err(format!(
+                        "{}: an argument of a script changes within an episode",
+                        reward.name
+                    ));
                 }
             }
         }
@@ -73,14 +76,18 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
     }
     if let Some(observation) = &scenario.observation {
         check("the observation", &observation.program, ProgramPlace::Step { terms: 0 })?;
-        observation.values.iter().try_for_each(|value| visible(&observation.program, value.value))?;
+        observation
+            .values
+            .iter()
+            .try_for_each(|value| visible(&observation.program, value.value))?;
         if observation.program.cells > 0 {
             return Err("the observation remembers something".to_owned());
         }
     }
     for behavior in &scenario.behaviors {
         check(&behavior.name, &behavior.program, ProgramPlace::Step { terms: 0 })?;
-        behavior::verify_nodes(behavior, n_scripts).map_err(|fault| format!("{}: {fault}", behavior.name))?;
+        behavior::verify_nodes(behavior, n_scripts)
+            .map_err(|fault| format!("{}: {fault}", behavior.name))?;
     }
     verify_start(scenario)
 }
@@ -106,7 +113,11 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
     let mut regs: Vec<Reg> = start.lets.clone();
     regs.extend(start.difficulty);
     regs.extend([start.ball.x, start.ball.y]);
-    regs.extend([start.ball.height, start.ball.owner, start.taker, start.elapsed, start.limit].into_iter().flatten());
+    regs.extend(
+        [start.ball.height, start.ball.owner, start.taker, start.elapsed, start.limit]
+            .into_iter()
+            .flatten(),
+    );
     regs.extend(start.ball.velocity.iter().chain(&start.ball.spin).flat_map(|v| [v.0, v.1, v.2]));
     regs.extend(start.score.iter().flat_map(|s| [s.0, s.1]));
     regs.extend(start.rules.iter().map(|setting| setting.value));
@@ -126,7 +137,9 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
     for slot in &scenario.players {
         let s = &slot.start;
         regs.extend([s.x, s.y]);
-        regs.extend([s.heading, s.fatigue, s.yellow_cards, s.difficulty, s.present].into_iter().flatten());
+        regs.extend(
+            [s.heading, s.fatigue, s.yellow_cards, s.difficulty, s.present].into_iter().flatten(),
+        );
         regs.extend(s.velocity.iter().flat_map(|v| [v.0, v.1]));
         regs.extend(slot.stats.iter().map(|(_, reg)| *reg));
         if let Ai::Behavior(behavior) = slot.ai {
@@ -156,7 +169,12 @@ enum ProgramPlace {
     Step { terms: usize },
 }
 
-fn verify_program(program: &Program, place: ProgramPlace, n_params: usize, n_lets: usize) -> Result<(), String> {
+fn verify_program(
+    program: &Program,
+    place: ProgramPlace,
+    n_params: usize,
+    n_lets: usize,
+) -> Result<(), String> {
     if program.code.len() > CODE_MAX || program.cells as usize > CODE_MAX {
         return Err("too large".to_owned());
     }
@@ -169,7 +187,8 @@ fn verify_program(program: &Program, place: ProgramPlace, n_params: usize, n_let
         let mut fault = None;
         instr.operands(&mut |reg| {
             if reg.index() >= at {
-                fault = Some(format!("instruction {at} reads register {} before it is written", reg.0));
+                fault =
+                    Some(format!("instruction {at} reads register {} before it is written", reg.0));
             }
         });
         fault.map_or(Ok(()), Err)?;
@@ -177,9 +196,13 @@ fn verify_program(program: &Program, place: ProgramPlace, n_params: usize, n_let
             return Err(format!("instruction {at} uses a memory cell that is not there"));
         }
         match (instr, place) {
-            (Instr::Const(value), _) if !value.is_finite() => return Err(format!("constant {at} is not finite")),
+            (Instr::Const(value), _) if !value.is_finite() => {
+                return Err(format!("constant {at} is not finite"));
+            }
             (Instr::Param(param), _) => below("parameter", *param, n_params)?,
-            (Instr::Let(_), ProgramPlace::Start) => return Err("a `let` is read in the start itself".to_owned()),
+            (Instr::Let(_), ProgramPlace::Start) => {
+                return Err("a `let` is read in the start itself".to_owned());
+            }
             (Instr::Let(index), _) => below("let", *index, n_lets)?,
             (Instr::Load { field, of, .. }, _) => {
                 let wanted = matches!(field.subject(), Owner::Player | Owner::Team);
@@ -200,12 +223,22 @@ fn verify_program(program: &Program, place: ProgramPlace, n_params: usize, n_let
                 | Instr::Until { .. }
                 | Instr::Once { .. },
                 _,
-            ) if !open.is_empty() => return Err(format!("instruction {at} looks back inside a loop")),
-            (Instr::Give { term, .. }, ProgramPlace::Step { terms }) => below("term", *term, terms)?,
+            ) if !open.is_empty() => {
+                return Err(format!("instruction {at} looks back inside a loop"));
+            }
+            (Instr::Give { term, .. }, ProgramPlace::Step { terms }) => {
+                below("term", *term, terms)?
+            }
             (Instr::Random { .. }, ProgramPlace::Start)
             | (Instr::Assign { .. }, ProgramPlace::Init | ProgramPlace::Step { .. })
-            | (Instr::Held { .. } | Instr::Ever { .. } | Instr::Since { .. }, ProgramPlace::Step { .. })
-            | (Instr::Until { .. } | Instr::Once { .. } | Instr::Us | Instr::Me, ProgramPlace::Step { .. })
+            | (
+                Instr::Held { .. } | Instr::Ever { .. } | Instr::Since { .. },
+                ProgramPlace::Step { .. },
+            )
+            | (
+                Instr::Until { .. } | Instr::Once { .. } | Instr::Us | Instr::Me,
+                ProgramPlace::Step { .. },
+            )
             | (Instr::Us, ProgramPlace::Init) => {}
             (
                 Instr::Random { .. }

@@ -4,7 +4,11 @@
 //! A compilation reads everything that a file imports from disk, except the prelude, which is read
 //! once. Times are the thread's CPU time: the median of many compilations of a file, then the
 //! median and the worst of the files.
-#![allow(clippy::panic, clippy::print_stdout, reason = "a benchmark talks to its user, and fails by panicking")]
+#![allow(
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a benchmark talks to its user, and fails by panicking"
+)]
 
 use cpu_time::ThreadTime;
 use setpiece::dsl::problem::Code;
@@ -40,14 +44,16 @@ fn median(mut times: Vec<Duration>) -> Duration {
 fn main() {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     let mut all = Vec::new();
-    for path in ["stdlib-scenarios", "examples"].iter().flat_map(|folder| files(&root.join(folder))) {
+    for path in ["stdlib-scenarios", "examples"].iter().flat_map(|folder| files(&root.join(folder)))
+    {
         let name = path.to_string_lossy().into_owned();
         let time = || {
             let begin = ThreadTime::now();
             let loaded = setpiece::load(black_box(&name));
             let taken = begin.elapsed();
             // A file of rewards or formations is read to its end, and has nothing to run.
-            let only_parts = |failure: &Failure| failure.problems.iter().all(|it| it.code() == Code::NoScenario);
+            let only_parts =
+                |failure: &Failure| failure.problems.iter().all(|it| it.code() == Code::NoScenario);
             match loaded {
                 Ok(_) => {}
                 Err(setpiece::Error::Compile(failure)) if only_parts(&failure) => {}

@@ -47,10 +47,15 @@ fn steps(c: &mut Criterion<CpuTime>) {
                 for _ in 0..STEPS {
                     if !environment.is_running() {
                         seed += 1;
-                        environment.reset(Some(seed), None).unwrap_or_else(|error| panic!("{error}"));
+                        environment
+                            .reset(Some(seed), None)
+                            .unwrap_or_else(|error| panic!("{error}"));
                     }
-                    environment.step(&[Action::BuiltinAi], &mut scratch).unwrap_or_else(|error| panic!("{error}"));
-                    observe::simple115(environment.state(), 0, &mut floats).unwrap_or_else(|error| panic!("{error}"));
+                    environment
+                        .step(&[Action::BuiltinAi], &mut scratch)
+                        .unwrap_or_else(|error| panic!("{error}"));
+                    observe::simple115(environment.state(), 0, &mut floats)
+                        .unwrap_or_else(|error| panic!("{error}"));
                     black_box(&floats);
                 }
             });
@@ -67,7 +72,8 @@ fn resets(c: &mut Criterion<CpuTime>) {
         group.bench_function(name, |b| {
             b.iter(|| {
                 seed += 1;
-                black_box(environment.reset(Some(seed), None)).unwrap_or_else(|error| panic!("{error}"));
+                black_box(environment.reset(Some(seed), None))
+                    .unwrap_or_else(|error| panic!("{error}"));
             });
         });
     }

@@ -48,7 +48,8 @@ fn draws(c: &mut Criterion<CpuTime>) {
     c.bench_function("draw/23_entities_2_requires", |b| {
         b.iter(|| {
             index += 1;
-            black_box(drawer.draw(scenario, &bindings, &roster, 1, index)).unwrap_or_else(|error| panic!("{error}"))
+            black_box(drawer.draw(scenario, &bindings, &roster, 1, index))
+                .unwrap_or_else(|error| panic!("{error}"))
         });
     });
 }
@@ -90,8 +91,9 @@ const SCRIPT_WITH_GETTERS: &str = "reward script rhai \"\"\"
 
 /// A judge in the middle of a match, ready to judge one step repeatedly.
 fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) {
-    let text =
-        format!("scenario s extends 11_vs_11_stochastic {{ remove reward scoring  agents {{ {agents} }}  {rewards} }}");
+    let text = format!(
+        "scenario s extends 11_vs_11_stochastic {{ remove reward scoring  agents {{ {agents} }}  {rewards} }}"
+    );
     let scenario = compiled(&text).scenario;
     let mut environment = Environment::new(scenario.clone(), EnvironmentOptions::default())
         .unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -124,7 +126,8 @@ fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) 
             events.push(event(EventKind::Touch, None));
             events.push(event(EventKind::Pass, Some(Qualifier::Completed)));
             events.push(event(EventKind::Touch, None));
-            let outcome = judge.step(black_box(game), &mut events).unwrap_or_else(|error| panic!("{error}"));
+            let outcome =
+                judge.step(black_box(game), &mut events).unwrap_or_else(|error| panic!("{error}"));
             judge.settle(game);
             black_box(outcome)
         });

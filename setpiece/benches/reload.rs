@@ -4,7 +4,11 @@
 //! and to the end of the first episode with it. Then 1,000 saves of a good and a broken text in
 //! turn, each by renaming or in place. Every save must be noticed correctly, and neither memory nor
 //! open files may grow.
-#![allow(clippy::panic, clippy::print_stdout, reason = "a benchmark talks to its user, and fails by panicking")]
+#![allow(
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a benchmark talks to its user, and fails by panicking"
+)]
 
 use setpiece::Live;
 use setpiece::engine::control::agents::Agent;
@@ -61,8 +65,10 @@ fn latency(path: &Path, live: &mut Live) {
         assert_eq!(live.loaded().scenario.title(), index.to_string(), "another save was taken");
         ready.push(begin.elapsed());
         let environment = EnvironmentOptions::default();
-        let options = RunOptions { episodes: 0..1, seed: 0, agent: Agent::Idle, threads: 1, environment };
-        let summary = run(&live.loaded().scenario, &options, |_| {}).unwrap_or_else(|error| panic!("{error}"));
+        let options =
+            RunOptions { episodes: 0..1, seed: 0, agent: Agent::Idle, threads: 1, environment };
+        let summary = run(&live.loaded().scenario, &options, |_| {})
+            .unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(summary.episodes.len(), 1);
         played.push(begin.elapsed());
     }
@@ -87,7 +93,11 @@ fn alternating(path: &Path, live: &mut Live) {
         save(path, &text(SAVES + index, if good { "CM" } else { "CMM" }), index % 3 == 0);
         assert_eq!(wait(live), good, "save {index} was taken for another");
         let last_good = SAVES + index - usize::from(!good);
-        assert_eq!(live.loaded().scenario.title(), last_good.to_string(), "the last good scenario was lost");
+        assert_eq!(
+            live.loaded().scenario.title(),
+            last_good.to_string(),
+            "the last good scenario was lost"
+        );
         if index == ALTERNATING / 5 {
             before = held();
         }

@@ -103,7 +103,9 @@ pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measu
         let after = counted(&batch);
         match batch.lanes_mut().iter_mut().find_map(|lane| lane.failed.take()) {
             Some(error) => Err(Error::Episode(error)),
-            None => Ok(Measured { steps: after.0 - before.0, resets: after.1 - before.1, wall, cpu }),
+            None => {
+                Ok(Measured { steps: after.0 - before.0, resets: after.1 - before.1, wall, cpu })
+            }
         }
     };
     // Warm-up: everything has begun, every buffer has its size, every page is touched. Matches with
@@ -117,7 +119,10 @@ pub fn measure(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Measu
 ///
 /// # Errors
 /// Like [`measure`].
-pub fn phases(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<(Phase, f64)>, Error> {
+pub fn phases(
+    scenario: &Arc<Scenario>,
+    options: &BenchOptions,
+) -> Result<Vec<(Phase, f64)>, Error> {
     let mut lanes = lanes(scenario, options)?;
     let mut scratch = Scratch::default();
     let reading = reading_ns();
@@ -179,7 +184,8 @@ struct BenchLane {
 }
 
 fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<BenchLane>, Error> {
-    let prototype = Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
+    let prototype = Environment::new(scenario.clone(), options.environment.clone())
+        .map_err(Error::Environment)?;
     let (floats, map) = match options.observation {
         BenchObservation::None => (0, 0),
         BenchObservation::Simple115v2 => (prototype.layout(Floats::Simple115v2).len(), 0),
@@ -214,7 +220,8 @@ impl BenchLane {
     fn try_advance(&mut self, scratch: &mut Scratch) -> Result<(), EpisodeError> {
         if !self.environment.is_running() {
             scratch.laps().start();
-            let index = self.environment.has_begun().then(|| self.environment.index().wrapping_add(1));
+            let index =
+                self.environment.has_begun().then(|| self.environment.index().wrapping_add(1));
             self.environment.reset(Some(self.seed), Some(index.unwrap_or(0)))?;
             self.agent.begin(&self.environment);
             self.resets += 1;
@@ -229,8 +236,12 @@ impl BenchLane {
             // Buffers have the sizes of their observations.
             let _ = match self.observation {
                 BenchObservation::None => Ok(()),
-                BenchObservation::Simple115v2 => self.environment.observe(Floats::Simple115v2, agent, &mut self.floats),
-                BenchObservation::Smm => smm(self.environment.state(), agent, SMM_WIDTH, SMM_HEIGHT, &mut self.map),
+                BenchObservation::Simple115v2 => {
+                    self.environment.observe(Floats::Simple115v2, agent, &mut self.floats)
+                }
+                BenchObservation::Smm => {
+                    smm(self.environment.state(), agent, SMM_WIDTH, SMM_HEIGHT, &mut self.map)
+                }
             };
             black_box((&self.floats, &self.map));
         }

@@ -190,7 +190,9 @@ fn run(args: Args) -> u8 {
     let out = Out::new(args.color, args.allow_outside);
     let result = match args.command {
         Command::List => Ok(list(&out)),
-        Command::Check { files, message_format, watch: true } => check::watch(&files, message_format, &out),
+        Command::Check { files, message_format, watch: true } => {
+            check::watch(&files, message_format, &out)
+        }
         Command::Check { files, message_format, watch: false } => {
             Ok(check::check(&files, message_format, &out, &mut Vec::new()))
         }
@@ -203,8 +205,13 @@ fn run(args: Args) -> u8 {
         Command::Render(args) => render::render(&args, &out),
         #[cfg(not(feature = "render"))]
         Command::Render { .. } => {
-            let help = "the whole command has it: `cargo install --path setpiece` in Setpiece's sources";
-            out.fault(&Code::NoPicture.to_string(), "the Python package's `setpiece` draws no pictures", Some(help));
+            let help =
+                "the whole command has it: `cargo install --path setpiece` in Setpiece's sources";
+            out.fault(
+                &Code::NoPicture.to_string(),
+                "the Python package's `setpiece` draws no pictures",
+                Some(help),
+            );
             Ok(FAULT)
         }
         Command::Snapshot(args) => snapshot::snapshot(&args, &out),
@@ -235,12 +242,19 @@ fn list(out: &Out) -> u8 {
     FINE
 }
 
-fn build(source: &OsStr, output: &std::path::Path, format: BuildFormat, out: &Out) -> Result<u8, Error> {
+fn build(
+    source: &OsStr,
+    output: &std::path::Path,
+    format: BuildFormat,
+    out: &Out,
+) -> Result<u8, Error> {
     let loaded = crate::load_with(source, &out.loading())?;
     out.warnings(&loaded);
     crate::files::refuse_overwriting(output, &loaded.inputs)?;
     let written = match format {
-        BuildFormat::Json => crate::scenario::file::to_json(&loaded.scenario).map(String::into_bytes),
+        BuildFormat::Json => {
+            crate::scenario::file::to_json(&loaded.scenario).map(String::into_bytes)
+        }
         BuildFormat::Bin => crate::scenario::file::binary::to_bytes(&loaded.scenario),
     };
     let bytes = written.map_err(|why| Error::Format { path: output.to_owned(), why })?;

@@ -16,7 +16,8 @@ pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String
         let _ = writeln!(page, "{}\n", scenario.doc.trim());
     }
     if let Some(picture) = picture {
-        let _ = writeln!(page, "![A start of {}]({})\n", scenario.name, picture.replace(' ', "%20"));
+        let _ =
+            writeln!(page, "![A start of {}]({})\n", scenario.name, picture.replace(' ', "%20"));
     }
     parameters(&mut page, &scenario.params);
     players(&mut page, scenario, start);
@@ -79,7 +80,10 @@ fn players(page: &mut String, scenario: &Scenario, start: &Drawn) {
                 (Ai::Lazy, _) => "lazy",
                 _ => "scripted",
             };
-            row(page, &[team.name(), slot.name.as_deref().unwrap_or_default(), slot.role.name(), &at, ai]);
+            row(
+                page,
+                &[team.name(), slot.name.as_deref().unwrap_or_default(), slot.role.name(), &at, ai],
+            );
         }
     }
     let count = |team: Team| start.agents.iter().filter(|agent| agent.team == team).count();
@@ -116,7 +120,8 @@ fn describe(page: &mut String, reward: &Reward) {
     if !reward.doc.trim().is_empty() {
         let _ = writeln!(page, "{}\n", reward.doc.trim());
     }
-    let terms: Vec<String> = reward.body.terms.iter().map(|term| code(&format!("{}/{term}", reward.name))).collect();
+    let terms: Vec<String> =
+        reward.body.terms.iter().map(|term| code(&format!("{}/{term}", reward.name))).collect();
     let _ = writeln!(page, "Terms: {}\n", terms.join(", "));
 }
 
@@ -126,7 +131,8 @@ fn endings(page: &mut String, loaded: &Loaded, start: &Drawn) {
         let verdict = ending.verdict.map_or(String::new(), |verdict| format!(" ({verdict})"));
         // A compiled scenario doesn't contain the author's text.
         let words = loaded.origins.endings.get(index).map_or("", |span| loaded.sources.text(*span));
-        let words = if words.is_empty() { String::new() } else { format!(": `{}`", one_line(words)) };
+        let words =
+            if words.is_empty() { String::new() } else { format!(": `{}`", one_line(words)) };
         let _ = writeln!(page, "- **{}**{verdict}{words}", ending.label);
     }
     if let Some(steps) = start.limit_steps {
@@ -146,8 +152,10 @@ fn measured(page: &mut String, scenario: &Scenario) {
         page.push('\n');
     }
     if let Some(observation) = &scenario.observation {
-        let names: Vec<String> = observation.values.iter().map(|value| code(&one_line(&value.name))).collect();
-        let _ = writeln!(page, "## Observation\n\n{} numbers: {}.\n", names.len(), names.join(", "));
+        let names: Vec<String> =
+            observation.values.iter().map(|value| code(&one_line(&value.name))).collect();
+        let _ =
+            writeln!(page, "## Observation\n\n{} numbers: {}.\n", names.len(), names.join(", "));
     }
 }
 

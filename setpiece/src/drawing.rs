@@ -79,5 +79,8 @@ fn markings(cells: &mut [[(char, Paint); COLUMNS]; ROWS]) {
 fn cell(x_m: f32, y_m: f32) -> (usize, usize) {
     let column = f32::midpoint(x_m / HALF_LENGTH_M as f32, 1.0) * (COLUMNS - 1) as f32;
     let row = f32::midpoint(y_m / HALF_WIDTH_M as f32, 1.0) * (ROWS - 1) as f32;
-    ((row.round().max(0.0) as usize).min(ROWS - 1), (column.round().max(0.0) as usize).min(COLUMNS - 1))
+    (
+        (row.round().max(0.0) as usize).min(ROWS - 1),
+        (column.round().max(0.0) as usize).min(COLUMNS - 1),
+    )
 }

@@ -108,8 +108,10 @@ pub enum Packed {
 impl Packed {
     /// Recognises a file by its first bytes.
     pub fn of(bytes: &[u8]) -> Option<Packed> {
-        let kinds =
-            [(crate::replay::CONTAINER, Packed::Replay), (setpiece_engine::snapshot::CONTAINER, Packed::Snapshot)];
+        let kinds = [
+            (crate::replay::CONTAINER, Packed::Replay),
+            (setpiece_engine::snapshot::CONTAINER, Packed::Snapshot),
+        ];
         kinds.into_iter().find(|(container, _)| container.marks(bytes)).map(|(_, kind)| kind)
     }
 }
@@ -130,22 +132,29 @@ impl Error {
     pub fn code(&self) -> Code {
         match self {
             Error::Unknown { .. } => Code::UnknownScenario,
-            Error::File { why: FileFault::Missing { .. } | FileFault::Io(_) | FileFault::Write(_), .. } => {
-                Code::FileMissing
-            }
+            Error::File {
+                why: FileFault::Missing { .. } | FileFault::Io(_) | FileFault::Write(_),
+                ..
+            } => Code::FileMissing,
             Error::File { why: FileFault::Directory, .. } => Code::FileIsDirectory,
             Error::File { why: FileFault::NotRegular, .. } => Code::FileNotRegular,
             Error::File { why: FileFault::NotUtf8 { .. }, .. } => Code::NotUtf8,
             Error::File { why: FileFault::TooLarge { .. }, .. } => Code::FileTooLarge,
-            Error::Compile(failure) => failure.problems.first().map_or(Code::NoScenario, Problem::code),
-            Error::Format { .. } | Error::File { why: FileFault::Packed(_), .. } => Code::BadCompiled,
+            Error::Compile(failure) => {
+                failure.problems.first().map_or(Code::NoScenario, Problem::code)
+            }
+            Error::Format { .. } | Error::File { why: FileFault::Packed(_), .. } => {
+                Code::BadCompiled
+            }
             Error::Cast { .. } => Code::CompiledCast,
             Error::Param { .. } => Code::BadParameter,
             Error::Environment(why) => match why {
-                EnvironmentError::Reward { .. } | EnvironmentError::RewardTwice(_) => Code::UnknownReward,
-                EnvironmentError::Param(_) | EnvironmentError::Bindings { .. } | EnvironmentError::Roster => {
-                    Code::BadParameter
+                EnvironmentError::Reward { .. } | EnvironmentError::RewardTwice(_) => {
+                    Code::UnknownReward
                 }
+                EnvironmentError::Param(_)
+                | EnvironmentError::Bindings { .. }
+                | EnvironmentError::Roster => Code::BadParameter,
                 EnvironmentError::Agents(_) => Code::BadAgents,
                 EnvironmentError::Script(_) => Code::ScriptSyntax,
                 EnvironmentError::Snapshot(_) => Code::BadSnapshot,
@@ -170,7 +179,8 @@ impl Error {
             Error::Unknown { .. } => {
                 Some("`setpiece list` shows the scenarios; a file's path ends in .pitch".to_owned())
             }
-            Error::File { why: FileFault::Missing { similar }, .. } | Error::Param { similar, .. } => {
+            Error::File { why: FileFault::Missing { similar }, .. }
+            | Error::Param { similar, .. } => {
                 similar.as_ref().map(meant)
             }
             Error::File { why: FileFault::Directory, .. } => Some("name a file in it".to_owned()),
@@ -194,7 +204,8 @@ impl Error {
                 "give the scenario's name or the path of its `.pitch` file, or write `ai: …` in the text".to_owned(),
             ),
             Error::NoStep { length, .. } => Some(format!("its last moment is `--step {length}`")),
-            Error::Snapshot(why) | Error::Environment(EnvironmentError::Snapshot(why)) => snapshot_help(why),
+            Error::Snapshot(why)
+            | Error::Environment(EnvironmentError::Snapshot(why)) => snapshot_help(why),
             Error::Replay(ReplayError::NotAReplay) => {
                 Some("`setpiece.make(…, record=\"runs\")` writes them, and `env.unwrapped.save_replay`".to_owned())
             }
@@ -208,8 +219,12 @@ impl Error {
 
 fn snapshot_help(why: &SnapshotError) -> Option<String> {
     let help = match why {
-        SnapshotError::NotASnapshot => "`setpiece snapshot` and `env.unwrapped.snapshot()` take one",
-        SnapshotError::Scenario { .. } => "a new episode may begin in its state: `reset(options={\"snapshot\": …})`",
+        SnapshotError::NotASnapshot => {
+            "`setpiece snapshot` and `env.unwrapped.snapshot()` take one"
+        }
+        SnapshotError::Scenario { .. } => {
+            "a new episode may begin in its state: `reset(options={\"snapshot\": …})`"
+        }
         SnapshotError::Roster { .. } => {
             "an episode begins from a snapshot of as many players and agents, in the same places"
         }
@@ -229,9 +244,15 @@ impl std::fmt::Display for Error {
                     FileFault::Missing { .. } => write!(f, "no file `{path}`"),
                     FileFault::Directory => write!(f, "`{path}` is a directory"),
                     FileFault::NotRegular => write!(f, "`{path}` is not a regular file"),
-                    FileFault::NotUtf8 { line } => write!(f, "`{path}` is not UTF-8 text: line {line} has other bytes"),
-                    FileFault::Packed(Packed::Replay) => write!(f, "`{path}` is a replay, not a scenario"),
-                    FileFault::Packed(Packed::Snapshot) => write!(f, "`{path}` is a snapshot, not a scenario"),
+                    FileFault::NotUtf8 { line } => {
+                        write!(f, "`{path}` is not UTF-8 text: line {line} has other bytes")
+                    }
+                    FileFault::Packed(Packed::Replay) => {
+                        write!(f, "`{path}` is a replay, not a scenario")
+                    }
+                    FileFault::Packed(Packed::Snapshot) => {
+                        write!(f, "`{path}` is a snapshot, not a scenario")
+                    }
                     FileFault::TooLarge { max } => {
                         write!(f, "`{path}` is larger than {} MiB", max / (1 << 20))
                     }
@@ -240,8 +261,10 @@ impl std::fmt::Display for Error {
                 }
             }
             Error::Compile(failure) => {
-                let first =
-                    failure.problems.first().map_or("no scenario".to_owned(), |problem| problem.words().message);
+                let first = failure
+                    .problems
+                    .first()
+                    .map_or("no scenario".to_owned(), |problem| problem.words().message);
                 match failure.problems.len() {
                     0 | 1 => f.write_str(&first),
                     n => write!(f, "{first} (and {} more)", n - 1),
@@ -249,15 +272,22 @@ impl std::fmt::Display for Error {
             }
             Error::Format { path, why } => write!(f, "`{}`: {why}", path.display()),
             Error::Cast { ai } => {
-                write!(f, "a compiled scenario keeps who plays its players: `{ai}` can't change them")
+                write!(
+                    f,
+                    "a compiled scenario keeps who plays its players: `{ai}` can't change them"
+                )
             }
             Error::Param { why, .. } => why.fmt(f),
             Error::Snapshot(why) => why.fmt(f),
             Error::Replay(why) => why.fmt(f),
             Error::Environment(why) => why.fmt(f),
             Error::Episode(why) => why.fmt(f),
-            Error::NoStep { step, length: 1 } => write!(f, "there is no step {step}: the episode has 1 step"),
-            Error::NoStep { step, length } => write!(f, "there is no step {step}: the episode has {length} steps"),
+            Error::NoStep { step, length: 1 } => {
+                write!(f, "there is no step {step}: the episode has 1 step")
+            }
+            Error::NoStep { step, length } => {
+                write!(f, "there is no step {step}: the episode has {length} steps")
+            }
             Error::Threads(why) => f.write_str(why),
         }
     }

@@ -82,7 +82,9 @@ fn read_bytes(from: impl Read, path: &Path, max: u64) -> Result<Vec<u8>, Error> 
     let fault = |why| Error::File { path: path.to_owned(), why };
     let mut bytes = Vec::new();
     // One byte more than allowed, because a pipe has no length.
-    from.take(max + 1).read_to_end(&mut bytes).map_err(|why| fault(FileFault::Io(why.to_string())))?;
+    from.take(max + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|why| fault(FileFault::Io(why.to_string())))?;
     if bytes.len() as u64 > max {
         return Err(fault(FileFault::TooLarge { max }));
     }
@@ -104,7 +106,8 @@ pub fn into_text(bytes: Vec<u8>, path: &Path) -> Result<String, Error> {
 
 /// A neighbour with a name similar to the missing one.
 fn similar_file(path: &Path) -> Option<String> {
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder =
+        path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut names: Vec<String> = std::fs::read_dir(folder)
         .ok()?
         .flatten()
@@ -132,7 +135,9 @@ pub fn name_of(path: &Path) -> String {
             for letter in chunk.valid().chars() {
                 match u32::from(letter).checked_sub(FOREIGN) {
                     // Otherwise it would be decoded as a byte.
-                    Some(0x80..=0xFF) => name.extend(letter.to_string().as_bytes().iter().filter_map(foreign)),
+                    Some(0x80..=0xFF) => {
+                        name.extend(letter.to_string().as_bytes().iter().filter_map(foreign))
+                    }
                     _ => name.push(letter),
                 }
             }
@@ -194,7 +199,8 @@ impl FileLoader {
         };
         let folder = if within.as_os_str().is_empty() { Path::new(".") } else { within };
         // A missing file has no links to follow.
-        let linked = |full: PathBuf| folder.canonicalize().is_ok_and(|within| full.starts_with(within));
+        let linked =
+            |full: PathBuf| folder.canonicalize().is_ok_and(|within| full.starts_with(within));
         written && full.canonicalize().map_or(true, linked)
     }
 }
@@ -211,8 +217,10 @@ impl SourceLoader for FileLoader {
         // A file of the library also names its neighbours by `std/…`.
         if let Some(inner) = path.strip_prefix("std/") {
             return stdlib::file(inner).ok_or_else(|| {
-                let known: Vec<String> = stdlib::paths().map(|name| format!("std/{name}")).collect();
-                let near = setpiece_dsl::problem::nearest(path, known.iter().map(String::as_str)).map(str::to_owned);
+                let known: Vec<String> =
+                    stdlib::paths().map(|name| format!("std/{name}")).collect();
+                let near = setpiece_dsl::problem::nearest(path, known.iter().map(String::as_str))
+                    .map(str::to_owned);
                 let message = format!("the standard library has no `{inner}`");
                 LoadError { message, similar: near.into_iter().collect(), awaited: None }
             });
@@ -220,7 +228,9 @@ impl SourceLoader for FileLoader {
         let full = beside(&path_of(from), &path_of(path));
         // A cast's own files may be anywhere.
         if from != CAST_NAME && !self.may_read(&full) {
-            let message = format!("`{path}` lies outside of the scenario's folder, and `--allow-outside` isn't given");
+            let message = format!(
+                "`{path}` lies outside of the scenario's folder, and `--allow-outside` isn't given"
+            );
             return Err(LoadError { message, similar: Vec::new(), awaited: None });
         }
         match read_text(&full, SOURCE_MAX_BYTES) {
@@ -228,7 +238,9 @@ impl SourceLoader for FileLoader {
             Err(error) => {
                 // For an existing file there is no better suggestion.
                 let similar = match &error {
-                    Error::File { why: FileFault::Missing { similar }, .. } => similar.iter().cloned().collect(),
+                    Error::File { why: FileFault::Missing { similar }, .. } => {
+                        similar.iter().cloned().collect()
+                    }
                     _ => Vec::new(),
                 };
                 let awaited = Some(name_of(&full));
@@ -265,11 +277,15 @@ fn beside(from: &Path, path: &Path) -> PathBuf {
 pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error> {
     if output.extension().is_some_and(|ending| ending == "pitch" || ending == "rhai") {
         let why = FileFault::Write(
-            "that is how a source ends; a compiled scenario ends in .pitchc, a snapshot in .pitchs".to_owned(),
+            "that is how a source ends; a compiled scenario ends in .pitchc, a snapshot in .pitchs"
+                .to_owned(),
         );
         return Err(Error::File { path: output.to_owned(), why });
     }
-    let same = |input: &PathBuf| matches!((input.canonicalize(), output.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    let same = |input: &PathBuf| match (input.canonicalize(), output.canonicalize()) {
+        (Ok(input), Ok(output)) => input == output,
+        _ => false,
+    };
     if inputs.iter().any(same) {
         let why = FileFault::Write("it is what the scenario is made of".to_owned());
         return Err(Error::File { path: output.to_owned(), why });
@@ -376,8 +392,8 @@ impl Temporary {
     }
 }
 
-/// Removes what killed processes have left in a folder; once per process and folder, since a folder of recorded
-/// episodes may be long.
+/// Removes what killed processes have left in a folder; once per process and folder, since a folder
+/// of recorded episodes may be long.
 fn remove_stale(folder: &Path) {
     static SEEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -388,8 +404,12 @@ fn remove_stale(folder: &Path) {
     }
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
-        let between = name.to_str().and_then(|name| name.strip_prefix(TEMPORARY.0)?.strip_suffix(TEMPORARY.1));
-        let ours = between.is_some_and(|between| between.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'));
+        let between = name
+            .to_str()
+            .and_then(|name| name.strip_prefix(TEMPORARY.0)?.strip_suffix(TEMPORARY.1));
+        let ours = between.is_some_and(|between| {
+            between.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.')
+        });
         let age = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
         if ours && age().is_some_and(|age| age > STALE) {
             let _ = std::fs::remove_file(entry.path());
@@ -421,8 +441,10 @@ mod tests {
         left(".setpiece.18.0.tmp", STALE / 2);
         left(".setpiece.notes.tmp", 2 * STALE);
         write(&folder.path().join("a.pitchc"), "a").unwrap();
-        let mut names: Vec<_> =
-            std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        let mut names: Vec<_> = std::fs::read_dir(folder.path())
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name())
+            .collect();
         names.sort();
         assert_eq!(names, [".setpiece.18.0.tmp", ".setpiece.notes.tmp", "a.pitchc"]);
     }

@@ -28,8 +28,8 @@ pub mod watch;
 pub use error::Error;
 pub use live::Live;
 pub use load::{
-    Cast, CastTarget, Checked, Entry, LoadOptions, Loaded, bind, check, check_with, compile_text, compile_text_cast,
-    compile_text_with, list, load, load_cast, load_file, load_with,
+    Cast, CastTarget, Checked, Entry, LoadOptions, Loaded, bind, check, check_with, compile_text,
+    compile_text_cast, compile_text_with, list, load, load_cast, load_file, load_with,
 };
 pub use setpiece_dsl as dsl;
 pub use setpiece_engine as engine;

@@ -60,7 +60,13 @@ impl Live {
             Err(error) => {
                 let mut files: Vec<PathBuf> = self.loaded.inputs.clone();
                 if let Error::Compile(failure) = &error {
-                    files.extend(failure.inputs.iter().filter(|file| !self.loaded.inputs.contains(file)).cloned());
+                    files.extend(
+                        failure
+                            .inputs
+                            .iter()
+                            .filter(|file| !self.loaded.inputs.contains(file))
+                            .cloned(),
+                    );
                 }
                 self.watcher.watch(&files);
                 Err(error)

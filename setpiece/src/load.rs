@@ -1,7 +1,9 @@
 //! Loads a scenario from a name, a path, a text or a compiled file.
 
 use crate::error::{Error, Failure, FileFault, Packed};
-use crate::files::{FileLoader, SOURCE_MAX_BYTES, into_text, is_compiled, most_bytes, name_of, path_of, read_file};
+use crate::files::{
+    FileLoader, SOURCE_MAX_BYTES, into_text, is_compiled, most_bytes, name_of, path_of, read_file,
+};
 use crate::script_api::EngineScripts;
 use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
@@ -92,7 +94,10 @@ pub fn load_cast(name_or_path: impl AsRef<OsStr>, cast: &[Cast]) -> Result<Loade
 /// # Errors
 /// Like [`load`], and [`Error::Cast`] for a compiled file with a cast, because such a file can't be
 /// changed.
-pub fn load_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
+pub fn load_with(
+    name_or_path: impl AsRef<OsStr>,
+    options: &LoadOptions<'_>,
+) -> Result<Loaded, Error> {
     let path = Path::new(name_or_path.as_ref());
     // A path that isn't Unicode must be a file: all names are Unicode.
     let Some(name_or_path) = path.to_str() else { return load_file_with(path, options) };
@@ -178,9 +183,16 @@ pub fn compile_text_cast(text: &str, name: &str, cast: &[Cast]) -> Result<Loaded
 ///
 /// # Errors
 /// Like [`compile_text`].
-pub fn compile_text_with(text: &str, name: &str, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
+pub fn compile_text_with(
+    text: &str,
+    name: &str,
+    options: &LoadOptions<'_>,
+) -> Result<Loaded, Error> {
     if text.len() as u64 > SOURCE_MAX_BYTES {
-        return Err(Error::File { path: name.into(), why: FileFault::TooLarge { max: SOURCE_MAX_BYTES } });
+        return Err(Error::File {
+            path: name.into(),
+            why: FileFault::TooLarge { max: SOURCE_MAX_BYTES },
+        });
     }
     compile_source(Source { name: name.to_owned(), text: text.into() }, options)
 }
@@ -209,7 +221,10 @@ pub fn check(name_or_path: impl AsRef<OsStr>) -> Result<Checked, Error> {
 ///
 /// # Errors
 /// Like [`check`].
-pub fn check_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) -> Result<Checked, Error> {
+pub fn check_with(
+    name_or_path: impl AsRef<OsStr>,
+    options: &LoadOptions<'_>,
+) -> Result<Checked, Error> {
     let failure = match load_with(name_or_path, options) {
         Ok(loaded) => {
             let problems = crate::probe::probe(&loaded, None);
@@ -224,12 +239,18 @@ pub fn check_with(name_or_path: impl AsRef<OsStr>, options: &LoadOptions<'_>) ->
         && !root.as_ref().is_some_and(|root| root.name.contains('"'));
     let parts = root.as_ref().and_then(|root| setpiece_dsl::parts(&root.text));
     let (Some(root), Some(formations), true) = (root, parts, only_parts) else {
-        return Ok(Checked { problems: failure.problems, sources: failure.sources, inputs: failure.inputs });
+        return Ok(Checked {
+            problems: failure.problems,
+            sources: failure.sources,
+            inputs: failure.inputs,
+        });
     };
     let mut user = format!("import \"{}\"\n", root.name);
     let teams = formations.iter().map(|name| format!("team left {{ formation: {name} }}"));
     for (index, team) in teams.chain(["team left { CM at (-0.1, 0) }".to_owned()]).enumerate() {
-        user.push_str(&format!("scenario part_{index} {{ ball at centre  {team}  end limit 1 step }}\n"));
+        user.push_str(&format!(
+            "scenario part_{index} {{ ball at centre  {team}  end limit 1 step }}\n"
+        ));
     }
     let loader = loader(&root.name, options);
     let source = Source { name: "<check>".to_owned(), text: user.into() };
@@ -244,13 +265,18 @@ fn loader(root: &str, options: &LoadOptions<'_>) -> FileLoader {
 
 fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
     let loader = loader(&source.name, options);
-    let outcome = compile(source, &loader, &CompileOptions { cast: options.cast, ..compile_options() });
+    let outcome =
+        compile(source, &loader, &CompileOptions { cast: options.cast, ..compile_options() });
     let (problems, sources) = (outcome.problems, outcome.sources);
-    let inputs = outcome.inputs.iter().filter(|name| is_on_disk(name)).map(|name| path_of(name)).collect();
+    let inputs =
+        outcome.inputs.iter().filter(|name| is_on_disk(name)).map(|name| path_of(name)).collect();
     match outcome.scenario {
         Some(scenario) => Ok(Loaded {
             scenario: Arc::new(scenario),
-            warnings: problems.into_iter().filter(|problem| problem.severity() == Severity::Warning).collect(),
+            warnings: problems
+                .into_iter()
+                .filter(|problem| problem.severity() == Severity::Warning)
+                .collect(),
             sources,
             origin: outcome.origins.scenario,
             origins: outcome.origins,
@@ -264,7 +290,12 @@ fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, E
 fn compile_options() -> CompileOptions<'static> {
     static PRELUDE: OnceLock<Prelude> = OnceLock::new();
     let prelude = PRELUDE.get_or_init(|| Prelude::load(&FileLoader::anywhere()));
-    CompileOptions { scenario: None, prelude: Some(prelude), scripts: Some(&EngineScripts), cast: &[] }
+    CompileOptions {
+        scenario: None,
+        prelude: Some(prelude),
+        scripts: Some(&EngineScripts),
+        cast: &[],
+    }
 }
 
 /// Whether a source's name is a path, not in the library and not a text from memory.
@@ -276,7 +307,10 @@ fn is_on_disk(name: &str) -> bool {
 ///
 /// # Errors
 /// [`Error::Param`] for the first pair that can't be bound.
-pub fn bind<'a>(scenario: &Scenario, pairs: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Bindings, Error> {
+pub fn bind<'a>(
+    scenario: &Scenario,
+    pairs: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Result<Bindings, Error> {
     let mut bindings = Bindings::defaults(&scenario.params);
     for (name, value) in pairs {
         bindings.set_text(&scenario.params, name, value).map_err(|why| Error::Param {

@@ -2,8 +2,8 @@
 
 use setpiece_engine::start::Drawn;
 use setpiece_scenario::pitch::{
-    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M,
-    PENALTY_SPOT_M, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
+    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M,
+    HALF_WIDTH_M, PENALTY_SPOT_M, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
 };
 use setpiece_scenario::{Scenario, Team};
 use std::fmt::Write as _;
@@ -16,7 +16,8 @@ const STRIPES: u32 = 10;
 const PLAYER_M: f64 = 1.5;
 /// Fill, ring and text of the left and the right team: distinguishable with every kind of colour
 /// vision.
-const COLOURS: [[&str; 3]; 2] = [["#ffb000", "#7a4f00", "#2b1b00"], ["#2f6df6", "#0b2a77", "#ffffff"]];
+const COLOURS: [[&str; 3]; 2] =
+    [["#ffb000", "#7a4f00", "#2b1b00"], ["#2f6df6", "#0b2a77", "#ffffff"]];
 
 /// Draws a start from above in metres, with the left team attacking to the right. Players are discs
 /// in their team's colour with role, heading and name.
@@ -36,7 +37,13 @@ pub fn svg(scenario: &Scenario, start: &Drawn) -> String {
     lines(&mut text);
     for team in Team::ALL {
         for (id, slot) in scenario.team(*team) {
-            player(&mut text, start, id, slot.role.name(), slot.name.as_deref().unwrap_or_default());
+            player(
+                &mut text,
+                start,
+                id,
+                slot.role.name(),
+                slot.name.as_deref().unwrap_or_default(),
+            );
         }
     }
     let _ = write!(
@@ -115,8 +122,12 @@ fn player(text: &mut String, start: &Drawn, id: usize, role: &str, name: &str) {
         PLAYER_M + 0.9
     );
     if !name.is_empty() {
-        let _ =
-            writeln!(text, "<text y=\"{}\" font-size=\"1.5\" fill=\"#fff\">{}</text>", PLAYER_M + 1.8, escaped(name));
+        let _ = writeln!(
+            text,
+            "<text y=\"{}\" font-size=\"1.5\" fill=\"#fff\">{}</text>",
+            PLAYER_M + 1.8,
+            escaped(name)
+        );
     }
     text.push_str("</g>\n");
 }

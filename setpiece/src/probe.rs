@@ -41,7 +41,8 @@ pub fn probe(loaded: &Loaded, budget: Option<Duration>) -> Vec<Problem> {
             return problems;
         }
     }
-    let Ok(mut environment) = Environment::new(scenario.clone(), EnvironmentOptions::default()) else {
+    let Ok(mut environment) = Environment::new(scenario.clone(), EnvironmentOptions::default())
+    else {
         return problems;
     };
     let draws = if varies(loaded) { DRAWS } else { 1 };
@@ -59,7 +60,8 @@ pub fn probe(loaded: &Loaded, budget: Option<Duration>) -> Vec<Problem> {
     problems
 }
 
-/// Where a problem is, and the part at fault if it stands in another file than the scenario, whose name is `declared`.
+/// Where a problem is, and the part at fault if it stands in another file than the scenario, whose
+/// name is `declared`.
 fn place(declared: Span, at: Option<Span>) -> (Span, Option<Span>) {
     match at {
         Some(at) if at.file == declared.file => (at, None),

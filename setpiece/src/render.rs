@@ -1,7 +1,7 @@
 //! Pictures of a match, seen from above: one moment large, or an episode as a sheet of frames.
 //!
-//! [`mod@film`] plays an episode and keeps a [`SheetScene`] of every step. [`moments`] chooses those
-//! worth a frame. [`stage`] draws a scene into a buffer of pixels; [`pitch`], [`people`] and
+//! [`mod@film`] plays an episode and keeps a [`SheetScene`] of every step. [`moments`] chooses
+//! those worth a frame. [`stage`] draws a scene into a buffer of pixels; [`pitch`], [`people`] and
 //! [`ball`] draw their part of it. [`caption`] writes what happened, and [`mod@sheet`] arranges
 //! frames and captions. No clock or chance is involved: the same film gives the same pixels.
 

@@ -1,7 +1,8 @@
 //! Replays: an episode as a file that can be played again, bit for bit.
 //!
-//! A replay holds the scenario, who played, the key of the draw and what every agent did; everything else follows. It
-//! begins with a [head](setpiece_scenario::container); what follows is CBOR, deflated.
+//! A replay holds the scenario, who played, the key of the draw and what every agent did;
+//! everything else follows. It begins with a [head](setpiece_scenario::container); what follows is
+//! CBOR, deflated.
 
 use crate::error::Error;
 use flate2::Compression;
@@ -11,7 +12,9 @@ use glam::Vec2;
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use setpiece_engine::batch::{EpisodeError, STEPS_MAX};
-use setpiece_engine::environment::{AgentsChoice, Environment, EnvironmentOptions, Physics, ResetError, Scratch};
+use setpiece_engine::environment::{
+    AgentsChoice, Environment, EnvironmentOptions, Physics, ResetError, Scratch,
+};
 use setpiece_engine::judge::Outcome;
 use setpiece_engine::state::Steer;
 use setpiece_scenario::container::{Container, HeadError};
@@ -30,7 +33,8 @@ const BODY_MAX_BYTES: u64 = 64 << 20;
 /// The most actions, over all agents and steps: three whole matches of 22 agents.
 const ACTS_MAX: usize = 4_000_000;
 /// Replays as files.
-pub(crate) const CONTAINER: Container = Container { mark: b"\x8bpitchr\n", version: REPLAY_VERSION };
+pub(crate) const CONTAINER: Container =
+    Container { mark: b"\x8bpitchr\n", version: REPLAY_VERSION };
 
 /// Why a replay can't be read or played.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -54,13 +58,17 @@ pub enum ReplayError {
     #[error("no episode has begun: there is nothing to replay")]
     NotBegun,
     /// Its episode is longer than a replay may be.
-    #[error("the episode is too long: a replay has {STEPS_MAX} steps and {ACTS_MAX} actions at most")]
+    #[error(
+        "the episode is too long: a replay has {STEPS_MAX} steps and {ACTS_MAX} actions at most"
+    )]
     TooLong,
     /// It is larger than a replay may be.
     #[error("the replay is larger than {} MiB", BODY_MAX_BYTES >> 20)]
     TooLarge,
     /// How its episode began is unknown.
-    #[error("the episode continues from a restored snapshot or with changed scripts: its beginning is unknown")]
+    #[error(
+        "the episode continues from a restored snapshot or with changed scripts: its beginning is unknown"
+    )]
     Beginning,
     /// This build plays it differently.
     #[error("step {step}: this build diverges from the recording")]
@@ -173,7 +181,8 @@ impl Replay {
             .map_err(|why| Error::Replay(ReplayError::Corrupt(why.to_string())))?;
         let options = environment.options();
         let steered = recorder.steers.iter().any(Option::is_some);
-        let numbers = |steer: &Option<Steer>| steer.map(|steer| [steer.way.x, steer.way.y, steer.power]);
+        let numbers =
+            |steer: &Option<Steer>| steer.map(|steer| [steer.way.x, steer.way.y, steer.power]);
         Ok(Replay {
             scenario,
             rewards: options.rewards.clone(),
@@ -186,8 +195,14 @@ impl Replay {
             length: environment.steps(),
             digest: environment.digest(),
             acts: recorder.acts.clone(),
-            steers: if steered { recorder.steers.iter().map(numbers).collect() } else { Vec::new() },
-            outcome: environment.outcome().map(|it| (it.label.to_string(), it.verdict, it.truncated)),
+            steers: if steered {
+                recorder.steers.iter().map(numbers).collect()
+            } else {
+                Vec::new()
+            },
+            outcome: environment
+                .outcome()
+                .map(|it| (it.label.to_string(), it.verdict, it.truncated)),
         })
     }
 
@@ -244,12 +259,15 @@ impl Replay {
             agents: self.agents.clone(),
             from: None,
         };
-        let environment = Environment::new(Arc::new(self.scenario()?), options).map_err(Error::Environment)?;
+        let environment =
+            Environment::new(Arc::new(self.scenario()?), options).map_err(Error::Environment)?;
         let noted = self.length as usize * environment.n_agents();
         if self.acts.len() != noted || !(self.steers.is_empty() || self.steers.len() == noted) {
             return Err(corrupt(&"it has not one action for each agent and step"));
         }
-        if let Some(number) = self.acts.iter().find(|&&number| Action::from_index(number.into()).is_none()) {
+        if let Some(number) =
+            self.acts.iter().find(|&&number| Action::from_index(number.into()).is_none())
+        {
             return Err(corrupt(&format!("no action has the number {number}")));
         }
         Ok(environment)
@@ -275,7 +293,11 @@ impl Replay {
         if let Some((label, verdict, truncated)) = &self.outcome
             && environment.steps() == self.length
         {
-            environment.end(Outcome { label: label.as_str().into(), verdict: *verdict, truncated: *truncated });
+            environment.end(Outcome {
+                label: label.as_str().into(),
+                verdict: *verdict,
+                truncated: *truncated,
+            });
         }
     }
 
@@ -283,15 +305,24 @@ impl Replay {
     ///
     /// # Errors
     /// [`Error::Replay`] if it can't be played here, or diverges from the recording.
-    pub fn play(&self, mut each: impl FnMut(&Environment, &[Action])) -> Result<Environment, Error> {
+    pub fn play(
+        &self,
+        mut each: impl FnMut(&Environment, &[Action]),
+    ) -> Result<Environment, Error> {
         let mut environment = self.environment()?;
         let broken = |why: EpisodeError| Error::Episode(Box::new(why));
         match &self.from {
-            Some(from) => environment.reset_from(from, Some(self.seed), Some(self.index)).map_err(|why| match why {
-                ResetError::Draw(why) => broken(why.into()),
-                ResetError::Snapshot(why) => Error::Snapshot(why),
-            })?,
-            None => environment.reset(Some(self.seed), Some(self.index)).map_err(|why| broken(why.into()))?,
+            Some(from) => {
+                environment.reset_from(from, Some(self.seed), Some(self.index)).map_err(|why| {
+                    match why {
+                        ResetError::Draw(why) => broken(why.into()),
+                        ResetError::Snapshot(why) => Error::Snapshot(why),
+                    }
+                })?
+            }
+            None => environment
+                .reset(Some(self.seed), Some(self.index))
+                .map_err(|why| broken(why.into()))?,
         }
         each(&environment, &[]);
         let mut scratch = Scratch::default();
@@ -337,7 +368,9 @@ fn acts<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T
             let mut acts = Vec::new();
             while let Some(act) = list.next_element()? {
                 if acts.len() >= ACTS_MAX {
-                    return Err(A::Error::custom(format_args!("it has more than {ACTS_MAX} actions")));
+                    return Err(A::Error::custom(format_args!(
+                        "it has more than {ACTS_MAX} actions"
+                    )));
                 }
                 acts.push(act);
             }
@@ -355,11 +388,16 @@ fn read(file: &[u8]) -> Result<Replay, ReplayError> {
     if inflated.len() as u64 > BODY_MAX_BYTES {
         return Err(ReplayError::TooLarge);
     }
-    let replay: Replay =
-        ciborium::from_reader(inflated.as_slice()).map_err(|why| ReplayError::Corrupt(why.to_string()))?;
+    let replay: Replay = ciborium::from_reader(inflated.as_slice())
+        .map_err(|why| ReplayError::Corrupt(why.to_string()))?;
     if replay.length > STEPS_MAX {
         return Err(ReplayError::TooLong);
     }
-    let sound = replay.steers.iter().flatten().flatten().all(|number| (-1.0..=1.0).contains(number));
-    if sound { Ok(replay) } else { Err(ReplayError::Corrupt("a way or power is beyond its bounds".to_owned())) }
+    let sound =
+        replay.steers.iter().flatten().flatten().all(|number| (-1.0..=1.0).contains(number));
+    if sound {
+        Ok(replay)
+    } else {
+        Err(ReplayError::Corrupt("a way or power is beyond its bounds".to_owned()))
+    }
 }

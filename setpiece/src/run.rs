@@ -66,11 +66,16 @@ pub struct Summary {
 /// # Errors
 /// [`Error::Environment`] if the options don't fit the scenario, [`Error::Threads`] if threads
 /// can't be started.
-pub fn run(scenario: &Arc<Scenario>, options: &RunOptions, progress: impl Fn(u32) + Sync) -> Result<Summary, Error> {
+pub fn run(
+    scenario: &Arc<Scenario>,
+    options: &RunOptions,
+    progress: impl Fn(u32) + Sync,
+) -> Result<Summary, Error> {
     if scenario.endings.list.is_empty() && scenario.start.limit.is_none() {
         return Err(Error::Episode(Box::new(EpisodeError::Endless(0))));
     }
-    let environment = Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
+    let environment = Environment::new(scenario.clone(), options.environment.clone())
+        .map_err(Error::Environment)?;
     let begin = Instant::now();
     let players = || ReadyMade::new(options.agent);
     let episodes = run_episodes(
@@ -79,16 +84,23 @@ pub fn run(scenario: &Arc<Scenario>, options: &RunOptions, progress: impl Fn(u32
         options.episodes.clone(),
         options.threads.min(options.episodes.clone().count().max(1)),
         players,
-        |episode: &Result<EpisodeSummary, EpisodeError>| progress(episode.as_ref().map_or(0, |episode| episode.length)),
+        |episode: &Result<EpisodeSummary, EpisodeError>| {
+            progress(episode.as_ref().map_or(0, |episode| episode.length))
+        },
     )
     .map_err(|why| Error::Threads(why.to_string()))?;
     Ok(summarise(episodes, environment.term_names(), begin.elapsed().as_secs_f64()))
 }
 
-fn summarise(episodes: Vec<Result<EpisodeSummary, EpisodeError>>, names: &[String], seconds: f64) -> Summary {
+fn summarise(
+    episodes: Vec<Result<EpisodeSummary, EpisodeError>>,
+    names: &[String],
+    seconds: f64,
+) -> Summary {
     let mut outcomes: Vec<(String, Option<Verdict>, u32)> = Vec::new();
     for episode in &episodes {
-        let (label, verdict) = episode.as_ref().map_or((BROKEN, None), |episode| (&episode.outcome, episode.verdict));
+        let (label, verdict) =
+            episode.as_ref().map_or((BROKEN, None), |episode| (&episode.outcome, episode.verdict));
         match outcomes.iter_mut().find(|(known, of, _)| known == label && *of == verdict) {
             Some((_, _, count)) => *count += 1,
             None => outcomes.push((label.to_owned(), verdict, 1)),
@@ -98,22 +110,29 @@ fn summarise(episodes: Vec<Result<EpisodeSummary, EpisodeError>>, names: &[Strin
     let played: Vec<&EpisodeSummary> = episodes.iter().flatten().collect();
     let n = played.len().max(1) as f64;
     // An empty sum of floats is -0.
-    let mean = |of: &dyn Fn(&EpisodeSummary) -> f64| played.iter().map(|episode| of(episode)).sum::<f64>() / n + 0.0;
+    let mean = |of: &dyn Fn(&EpisodeSummary) -> f64| {
+        played.iter().map(|episode| of(episode)).sum::<f64>() / n + 0.0
+    };
     let by_agent = |episode: &EpisodeSummary, of: &dyn Fn(usize) -> f64| {
         let agents = episode.returns.len();
         (0..agents).map(of).sum::<f64>() / agents.max(1) as f64
     };
     let steps: u64 = played.iter().map(|episode| u64::from(episode.length)).sum();
-    let statistics: Vec<MatchStatistics> = played.iter().map(|episode| episode.statistics.clone()).collect();
+    let statistics: Vec<MatchStatistics> =
+        played.iter().map(|episode| episode.statistics.clone()).collect();
     let term = |index: usize| {
-        mean(&|episode| by_agent(episode, &|agent| episode.terms[agent].get(index).copied().unwrap_or_default()))
+        mean(&|episode| {
+            by_agent(episode, &|agent| episode.terms[agent].get(index).copied().unwrap_or_default())
+        })
     };
     Summary {
         outcomes,
         score: [0, 1].map(|side| mean(&|episode| f64::from(episode.score[side]))),
         mean_return: mean(&|episode| by_agent(episode, &|agent| episode.returns[agent])),
         mean_length: mean(&|episode| f64::from(episode.length)),
-        success_rate: mean(&|episode| f64::from(u8::from(episode.verdict == Some(Verdict::Success)))),
+        success_rate: mean(&|episode| {
+            f64::from(u8::from(episode.verdict == Some(Verdict::Success)))
+        }),
         terms: names.iter().enumerate().map(|(index, name)| (name.clone(), term(index))).collect(),
         steps_per_second: if seconds > 0.0 { steps as f64 / seconds } else { 0.0 },
         records: record_means(&played),
@@ -128,7 +147,8 @@ fn record_means(played: &[&EpisodeSummary]) -> Vec<(String, f64)> {
     let Some(first) = played.first() else { return Vec::new() };
     let mut means = Vec::new();
     for (which, (name, _)) in first.records.iter().enumerate() {
-        let numbers: Vec<f64> = played.iter().filter_map(|episode| episode.records.get(which)?.1.number()).collect();
+        let numbers: Vec<f64> =
+            played.iter().filter_map(|episode| episode.records.get(which)?.1.number()).collect();
         if !numbers.is_empty() {
             means.push((name.clone(), numbers.iter().sum::<f64>() / numbers.len() as f64));
         }
@@ -138,5 +158,9 @@ fn record_means(played: &[&EpisodeSummary]) -> Vec<(String, f64)> {
 
 /// The error of the first failed episode, if any.
 pub fn first_error(summary: &Summary) -> Option<Error> {
-    summary.episodes.iter().find_map(|episode| episode.as_ref().err()).map(|why| Error::Episode(Box::new(why.clone())))
+    summary
+        .episodes
+        .iter()
+        .find_map(|episode| episode.as_ref().err())
+        .map(|why| Error::Episode(Box::new(why.clone())))
 }

@@ -91,7 +91,8 @@ impl Watcher {
     pub fn changed(&mut self, timeout: Duration) -> bool {
         let begun = Instant::now();
         // Environments ask in every step, without waiting.
-        let mut due = !timeout.is_zero() || self.looked.is_none_or(|looked| looked.elapsed() >= LOOK_EVERY);
+        let mut due =
+            !timeout.is_zero() || self.looked.is_none_or(|looked| looked.elapsed() >= LOOK_EVERY);
         loop {
             let left = timeout.saturating_sub(begun.elapsed());
             // Before the check, so that changes in between cause an event.

@@ -1,5 +1,10 @@
 //! The real binary, end to end: its output, its exit codes, and that no input makes it panic.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -51,7 +56,13 @@ const CLOSE: &str = "scenario close extends academy {
 fn lists_every_scenario_with_its_sides() {
     let output = text(&setpiece(&["list"]).stdout);
     assert_eq!(output.lines().count(), 35, "{output}");
-    for line in ["academy_3_vs_1_with_keeper", "11_vs_11_stochastic", "5_vs_5", "1_vs_1_easy", "11_vs_11_kaggle"] {
+    for line in [
+        "academy_3_vs_1_with_keeper",
+        "11_vs_11_stochastic",
+        "5_vs_5",
+        "1_vs_1_easy",
+        "11_vs_11_kaggle",
+    ] {
         assert!(output.contains(line), "{output}");
     }
     assert!(!output.contains("full_match"), "abstract scenarios can't be run: {output}");
@@ -91,7 +102,12 @@ fn runs_a_scenario_of_the_library() {
     }
     assert_eq!(result["episodes"], 20);
     assert!(result["success_rate"].as_f64().unwrap() >= 0.9, "{result}");
-    assert!((result["mean_return"].as_f64().unwrap() - result["terms"]["scoring/goal"].as_f64().unwrap()).abs() < 1e-9);
+    assert!(
+        (result["mean_return"].as_f64().unwrap()
+            - result["terms"]["scoring/goal"].as_f64().unwrap())
+        .abs()
+            < 1e-9
+    );
 }
 
 #[test]
@@ -183,7 +199,11 @@ fn the_compact_form_is_the_same_scenario_and_its_problems_are_reported() {
     assert!(setpiece(&["build", &source, "-o", &compact, "--format", "bin"]).status.success());
     let again = at("again.pitchc");
     assert!(setpiece(&["build", &compact, "-o", &again]).status.success());
-    assert_eq!(std::fs::read(&text).unwrap(), std::fs::read(&again).unwrap(), "one form holds what the other does");
+    assert_eq!(
+        std::fs::read(&text).unwrap(),
+        std::fs::read(&again).unwrap(),
+        "one form holds what the other does"
+    );
     let whole = std::fs::read(&compact).unwrap();
     assert!(whole.len() < std::fs::read(&text).unwrap().len() * 3 / 4, "{} bytes", whole.len());
     let broken = |name: &str, change: Change<'_>| {
@@ -208,7 +228,11 @@ fn the_compact_form_is_the_same_scenario_and_its_problems_are_reported() {
 #[test]
 fn a_name_or_file_that_is_not_there_is_one_clear_error() {
     fails(&["run", "academy_3_vs_1"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
-    fails(&["run", "academy_3_vs_1_with_keper"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
+    fails(
+        &["run", "academy_3_vs_1_with_keper"],
+        1,
+        &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"],
+    );
     fails(&["run", "academy_3_vs1"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
     let stderr = fails(&["run", "academ"], 1, &["SP0005"]);
     assert!(!stderr.contains("`academy`"), "a base that nobody plays: {stderr}");
@@ -236,7 +260,8 @@ fn a_file_that_is_no_text_is_one_clear_error() {
     check("large.pitch", &vec![b'/'; 10 << 20], &["SP0002", "larger than"]);
     check(
         "deep.pitch",
-        format!("scenario x {{ let y = {}1{} }}", "(".repeat(10_000), ")".repeat(10_000)).as_bytes(),
+        format!("scenario x {{ let y = {}1{} }}", "(".repeat(10_000), ")".repeat(10_000))
+            .as_bytes(),
         &["SP0102"],
     );
     check("braces.pitch", "{".repeat(10_000).as_bytes(), &["SP0102"]);
@@ -248,42 +273,75 @@ fn wrong_options_are_one_clear_error() {
     fails(&["run", "academy_empty_goal", "--threads", "0"], 2, &["--threads"]);
     fails(&["run", "academy_empty_goal", "--agent", "genius"], 2, &["--agent"]);
     fails(&["run", "academy_empty_goal", "--set", "difficulty"], 2, &["name=value"]);
-    fails(&["run", "academy_empty_goal", "--set", "dificulty=0.9"], 1, &["SP0008", "did you mean `difficulty`?"]);
+    fails(
+        &["run", "academy_empty_goal", "--set", "dificulty=0.9"],
+        1,
+        &["SP0008", "did you mean `difficulty`?"],
+    );
     fails(&["run", "academy_empty_goal", "--set", "difficulty=2"], 1, &["SP0008", "0..1"]);
     fails(&["run", "academy_empty_goal", "--set", "difficulty=much"], 1, &["SP0008", "much"]);
-    fails(&["run", "academy_empty_goal", "--reward", "scorin"], 1, &["SP0009", "did you mean `scoring`?"]);
+    fails(
+        &["run", "academy_empty_goal", "--reward", "scorin"],
+        1,
+        &["SP0009", "did you mean `scoring`?"],
+    );
     fails(&["run", "academy_empty_goal", "--seed", "-1"], 2, &["--seed"]);
 }
 
 #[test]
 fn a_parameter_that_makes_no_start_is_one_clear_error() {
     let folder = folder();
-    let source = CLOSE
-        .replace("ball at (0.77, 0)", "param x = 0.77\n    param n = 5\n    ball at (x, 0)\n    end limit n * 1 step");
+    let source = CLOSE.replace(
+        "ball at (0.77, 0)",
+        "param x = 0.77\n    param n = 5\n    ball at (x, 0)\n    end limit n * 1 step",
+    );
     let path = write(folder.path(), "free.pitch", source);
     assert!(setpiece(&["run", &path, "--episodes", "1"]).status.success());
-    let off = fails(&["run", &path, "--set", "x=3"], 1, &["SP0701", "`the ball lies on the pitch` does not hold"]);
+    let off = fails(
+        &["run", &path, "--set", "x=3"],
+        1,
+        &["SP0701", "`the ball lies on the pitch` does not hold"],
+    );
     assert!(!off.contains("attempts"), "nothing is drawn: {off}");
     fails(&["run", &path, "--set", "n=0"], 1, &["SP0701", "the limit is 1 step"]);
-    fails(&["run", &path, "--set", "n=2.5"], 1, &["SP0008", "expected a whole number, found `2.5`"]);
-    fails(&["run", "academy_corner", "--set", "difficulty=2"], 1, &["SP0008", "is 2, outside 0..1"]);
-    fails(&["run", "academy_corner", "--reward", "scoring", "--reward", "scoring"], 1, &["SP0009", "requested twice"]);
+    fails(
+        &["run", &path, "--set", "n=2.5"],
+        1,
+        &["SP0008", "expected a whole number, found `2.5`"],
+    );
+    fails(
+        &["run", "academy_corner", "--set", "difficulty=2"],
+        1,
+        &["SP0008", "is 2, outside 0..1"],
+    );
+    fails(
+        &["run", "academy_corner", "--reward", "scoring", "--reward", "scoring"],
+        1,
+        &["SP0009", "requested twice"],
+    );
 }
 
 #[test]
 fn values_that_are_not_finite_are_reported() {
     let folder = folder();
-    let source = CLOSE.replace("ball at", "reward x { state n = 0  give 1 / n as \"broken\" }\n    ball at");
+    let source =
+        CLOSE.replace("ball at", "reward x { state n = 0  give 1 / n as \"broken\" }\n    ball at");
     let path = write(folder.path(), "faulty.pitch", source);
     let output = text(&setpiece(&["run", &path, "--episodes", "2"]).stdout);
     assert!(output.contains("values were not finite"), "{output}");
-    assert!(json(&["run", &path, "--episodes", "2", "--format", "json"])["faults"].as_u64().unwrap() > 0);
+    assert!(
+        json(&["run", &path, "--episodes", "2", "--format", "json"])["faults"].as_u64().unwrap()
+            > 0
+    );
 }
 
 #[test]
 fn a_value_that_grows_beyond_numbers_is_not_paid() {
     let folder = folder();
-    let source = CLOSE.replace("ball at", "reward x { state n = 1  n = n * 1e10  give n as \"grows\" }\n    ball at");
+    let source = CLOSE.replace(
+        "ball at",
+        "reward x { state n = 1  n = n * 1e10  give n as \"grows\" }\n    ball at",
+    );
     let path = write(folder.path(), "grows.pitch", source);
     let result = json(&["run", &path, "--episodes", "1", "--format", "json"]);
     assert!(result["faults"].as_u64().unwrap() > 0);
@@ -293,17 +351,23 @@ fn a_value_that_grows_beyond_numbers_is_not_paid() {
 #[test]
 fn an_imported_copy_of_a_reward_takes_the_librarys_place() {
     let folder = folder();
-    let copy = include_str!("../../stdlib-scenarios/rewards.pitch").replace("give +1 on goal", "give +3 on goal");
+    let copy = include_str!("../../stdlib-scenarios/rewards.pitch")
+        .replace("give +1 on goal", "give +3 on goal");
     write(folder.path(), "mine.pitch", copy);
     let path = write(folder.path(), "close.pitch", format!("import \"mine.pitch\"\n{CLOSE}"));
-    let result = json(&["run", &path, "--agent", "run_and_shoot", "--episodes", "10", "--format", "json"]);
+    let result =
+        json(&["run", &path, "--agent", "run_and_shoot", "--episodes", "10", "--format", "json"]);
     assert_eq!(result["terms"]["scoring/goal"], 3.0 * result["success_rate"].as_f64().unwrap());
 }
 
 #[test]
 fn an_episode_without_an_end_is_refused_at_once() {
     let folder = folder();
-    let path = write(folder.path(), "endless.pitch", "scenario s { ball at centre  team left { CM at (-0.1, 0) } }");
+    let path = write(
+        folder.path(),
+        "endless.pitch",
+        "scenario s { ball at centre  team left { CM at (-0.1, 0) } }",
+    );
     fails(&["run", &path], 1, &["SP0703", "has no end"]);
 }
 
@@ -326,7 +390,11 @@ fn checks_names_and_files_that_have_nothing_to_run() {
     let path = write(folder.path(), "parts.pitch", parts);
     let output = setpiece(&["check", &path]);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    let wrong = write(folder.path(), "wrong.pitch", parts.replace("-0.5", "fot").replace("give 1", "give 1m"));
+    let wrong = write(
+        folder.path(),
+        "wrong.pitch",
+        parts.replace("-0.5", "fot").replace("give 1", "give 1m"),
+    );
     fails(&["check", &wrong], 1, &["`fot`", "SP0302", "wrong.pitch:2", "wrong.pitch:3"]);
     let nothing = write(folder.path(), "nothing.pitch", "// only a comment\n");
     fails(&["check", &nothing], 1, &["SP0214"]);
@@ -356,7 +424,11 @@ fn three_mistakes_get_three_located_reports() {
 }
 ",
     );
-    let stderr = fails(&["check", &path], 1, &["unknown role `CBB`", "did you mean `CB`?", "did you mean `scoring`?"]);
+    let stderr = fails(
+        &["check", &path],
+        1,
+        &["unknown role `CBB`", "did you mean `CB`?", "did you mean `scoring`?"],
+    );
     for place in [":3:", ":4:", ":5:"] {
         assert!(stderr.contains(place), "no report at line {place}: {stderr}");
     }
@@ -364,31 +436,42 @@ fn three_mistakes_get_three_located_reports() {
     assert_eq!(output.status.code(), Some(1));
     let reports: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(reports.as_array().unwrap().len(), 3, "{reports}");
-    assert!(reports.as_array().unwrap().iter().all(|report| report["labels"][0]["line"].is_number()));
+    assert!(
+        reports.as_array().unwrap().iter().all(|report| report["labels"][0]["line"].is_number())
+    );
 }
 
 #[test]
 fn a_bad_script_is_an_error_and_never_a_hang() {
     let folder = folder();
-    let scenario = |script: &str| CLOSE.replace("ball at", &format!("reward script \"{script}\"\n    ball at"));
+    let scenario = |script: &str| {
+        CLOSE.replace("ball at", &format!("reward script \"{script}\"\n    ball at"))
+    };
     write(folder.path(), "loop.rhai", "fn reward(ctx, now, prev, events) { loop { } }");
     let path = write(folder.path(), "loop.pitch", scenario("loop.rhai"));
     fails(&["run", &path, "--episodes", "1"], 1, &["loop.rhai", "reward", "operations"]);
 
-    let large =
-        "fn reward(ctx, now, prev, events) {\n    let s = \"\"; s.pad(4000, \"a\");\n    loop { s.split(\"a\"); }\n}";
+    let large = "fn reward(ctx, now, prev, events) {\n    let s = \"\"; s.pad(4000, \"a\");\n    loop { s.split(\"a\"); }\n}";
     write(folder.path(), "large.rhai", large);
     let path = write(folder.path(), "large.pitch", scenario("large.rhai"));
     fails(&["run", &path, "--episodes", "1"], 1, &["large.rhai:3:14", "reward", "by their size"]);
 
-    write(folder.path(), "name.rhai", "fn reward(ctx, now, prev, events) {\n    now.ball.colour\n}");
+    write(
+        folder.path(),
+        "name.rhai",
+        "fn reward(ctx, now, prev, events) {\n    now.ball.colour\n}",
+    );
     let path = write(folder.path(), "name.pitch", scenario("name.rhai"));
     fails(&["check", &path], 1, &["SP0503", "colour", "name.rhai:2"]);
 
     write(folder.path(), "hook.rhai", "fn rewards(ctx, now, prev, events) { 0.0 }");
     let path = write(folder.path(), "hook.pitch", scenario("hook.rhai"));
     fails(&["check", &path], 1, &["SP0502", "reward"]);
-    fails(&["check", &write(folder.path(), "gone.pitch", scenario("gone.rhai"))], 1, &["gone.rhai"]);
+    fails(
+        &["check", &write(folder.path(), "gone.pitch", scenario("gone.rhai"))],
+        1,
+        &["gone.rhai"],
+    );
 }
 
 #[test]
@@ -403,11 +486,23 @@ fn rewards_come_from_the_files() {
                 CLOSE.replace("ball at", "remove reward scoring\n    reward mine\n    ball at")
             ),
         );
-        json(&["run", &path, "--agent", "run_and_shoot", "--episodes", "10", "--seed", "1", "--format", "json"])
+        json(&[
+            "run",
+            &path,
+            "--agent",
+            "run_and_shoot",
+            "--episodes",
+            "10",
+            "--seed",
+            "1",
+            "--format",
+            "json",
+        ])
     };
     let (one, five) = (run("1"), run("5"));
     assert!(one["terms"]["mine/goal"].as_f64().unwrap() > 0.5, "{one}");
-    let ratio = five["terms"]["mine/goal"].as_f64().unwrap() / one["terms"]["mine/goal"].as_f64().unwrap();
+    let ratio =
+        five["terms"]["mine/goal"].as_f64().unwrap() / one["terms"]["mine/goal"].as_f64().unwrap();
     assert!((ratio - 5.0).abs() < 1e-9);
 }
 
@@ -416,8 +511,18 @@ fn a_reward_of_the_files_own_takes_the_place_of_the_librarys() {
     let folder = folder();
     let own = format!("reward scoring {{ give 5 on goal by us as \"goal\" }}\n{CLOSE}");
     let path = write(folder.path(), "own.pitch", own);
-    let result =
-        json(&["run", &path, "--agent", "run_and_shoot", "--episodes", "5", "--seed", "1", "--format", "json"]);
+    let result = json(&[
+        "run",
+        &path,
+        "--agent",
+        "run_and_shoot",
+        "--episodes",
+        "5",
+        "--seed",
+        "1",
+        "--format",
+        "json",
+    ]);
     assert_eq!(result["terms"]["scoring/goal"], 5.0, "{result}");
     assert!(result["terms"]["scoring/conceded"].is_null(), "{result}");
 }
@@ -478,22 +583,32 @@ fn a_script_finds_the_parameters_by_their_names() {
     let folder = folder();
     let scenario = |name: &str| {
         let script = format!("fn reward(ctx, now, prev, events) {{ ctx.params.{name} * 1.0 }}");
-        let reward = format!("param pace = 3\n    reward script rhai \"\"\"{script}\"\"\"\n    ball at");
+        let reward =
+            format!("param pace = 3\n    reward script rhai \"\"\"{script}\"\"\"\n    ball at");
         CLOSE.replace("ball at", &reward)
     };
     let output = setpiece(&["check", &write(folder.path(), "right.pitch", scenario("pace"))]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(!text(&output.stderr).contains("SP0213"), "{}", text(&output.stderr));
     let wrong = write(folder.path(), "wrong.pitch", scenario("paze"));
-    fails(&["check", &wrong], 1, &["SP0503", "no parameter is called `paze`", "did you mean `pace`?"]);
+    fails(
+        &["check", &wrong],
+        1,
+        &["SP0503", "no parameter is called `paze`", "did you mean `pace`?"],
+    );
     // A behaviour's parameters are available together with the scenario's.
     let script = "fn act(ctx, me, now) { if ctx.params.quick { \"sprint\" } else { \"idle\" } }";
-    let behavior = format!("behavior runs(quick: bool = on) script rhai \"\"\"{script}\"\"\"\n{CLOSE}");
+    let behavior =
+        format!("behavior runs(quick: bool = on) script rhai \"\"\"{script}\"\"\"\n{CLOSE}");
     let own = behavior.replace("CB at (-0.9, 0.3)", "CB at (-0.9, 0.3) { ai: runs }");
     let output = setpiece(&["check", &write(folder.path(), "own.pitch", own.as_str())]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let wrong = write(folder.path(), "own_wrong.pitch", own.replace("params.quick", "params.quik"));
-    fails(&["check", &wrong], 1, &["SP0503", "no parameter is called `quik`", "did you mean `quick`?"]);
+    fails(
+        &["check", &wrong],
+        1,
+        &["SP0503", "no parameter is called `quik`", "did you mean `quick`?"],
+    );
 }
 
 #[test]
@@ -502,9 +617,26 @@ fn a_snapshot_is_taken_and_begun_from() {
     let path = folder.path().join("early.pitchs").to_string_lossy().into_owned();
     let taken = setpiece(&["snapshot", "5_vs_5", "--step", "100", "--seed", "3", "-o", &path]);
     let said = text(&taken.stdout);
-    assert!(taken.status.success() && said.contains("5_vs_5 at step 100") && said.contains("bytes"), "{said}");
-    let run = |threads| json(&["run", "5_vs_5", "-n", "4", "--from", &path, "--threads", threads, "--format", "json"]);
-    let (one, two, start) = (run("1"), run("2"), json(&["run", "5_vs_5", "-n", "4", "--format", "json"]));
+    assert!(
+        taken.status.success() && said.contains("5_vs_5 at step 100") && said.contains("bytes"),
+        "{said}"
+    );
+    let run = |threads| {
+        json(&[
+            "run",
+            "5_vs_5",
+            "-n",
+            "4",
+            "--from",
+            &path,
+            "--threads",
+            threads,
+            "--format",
+            "json",
+        ])
+    };
+    let (one, two, start) =
+        (run("1"), run("2"), json(&["run", "5_vs_5", "-n", "4", "--format", "json"]));
     assert_eq!(one["digest"], two["digest"]);
     assert_ne!(one["digest"], start["digest"]);
     let broken = write(folder.path(), "broken.pitchs", &std::fs::read(&path).unwrap()[..200]);
@@ -516,14 +648,19 @@ fn a_snapshot_is_taken_and_begun_from() {
         1,
         &["SP0012", "there is no step 9999"],
     );
-    fails(&["snapshot", "5_vs_5", "-o", "over.pitch"], 1, &["ends in .pitchc, a snapshot in .pitchs"]);
+    fails(
+        &["snapshot", "5_vs_5", "-o", "over.pitch"],
+        1,
+        &["ends in .pitchc, a snapshot in .pitchs"],
+    );
 }
 
 #[test]
 fn a_bench_tells_its_figures_and_compares_them() {
     let folder = folder();
     let quick = ["academy_empty_goal_close", "--seconds", "0.05", "--matches", "4"];
-    let output = setpiece(&[&["bench"][..], &quick, &["--threads", "1,2", "--format", "jsonl"]].concat());
+    let output =
+        setpiece(&[&["bench"][..], &quick, &["--threads", "1,2", "--format", "jsonl"]].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
     let lines: Vec<serde_json::Value> =
         text(&output.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
@@ -539,18 +676,29 @@ fn a_bench_tells_its_figures_and_compares_them() {
     assert!(once.len() == 7 && once.values().all(|took| took.as_f64().unwrap() > 0.0), "{once:?}");
     assert!(lines[1]["scaling"].as_f64().unwrap() > 0.0, "{}", lines[1]);
     let before = write(folder.path(), "before.jsonl", output.stdout.as_slice());
-    let table = setpiece(&[&["bench"][..], &quick, &["--threads", "1", "--against", &before]].concat());
+    let table =
+        setpiece(&[&["bench"][..], &quick, &["--threads", "1", "--against", &before]].concat());
     let table = text(&table.stdout);
     assert!(table.contains("ratio") && table.contains("µs a step"), "{table}");
-    let lines =
-        setpiece(&[&["bench"][..], &quick, &["--threads", "1", "--format", "jsonl", "--against", &before]].concat());
+    let lines = setpiece(
+        &[&["bench"][..], &quick, &["--threads", "1", "--format", "jsonl", "--against", &before]]
+            .concat(),
+    );
     let line: serde_json::Value = serde_json::from_str(&text(&lines.stdout)).unwrap();
     assert!(line["ratio"].as_f64().unwrap() > 0.0, "{line}");
-    let other = ["bench", "academy_corner", "--seconds", "0.05", "--threads", "1", "--against", &before];
+    let other =
+        ["bench", "academy_corner", "--seconds", "0.05", "--threads", "1", "--against", &before];
     let alone = setpiece(&other);
-    assert!(text(&alone.stdout).contains("–") && text(&alone.stderr).contains("no row of"), "{alone:?}");
+    assert!(
+        text(&alone.stdout).contains("–") && text(&alone.stderr).contains("no row of"),
+        "{alone:?}"
+    );
     let wrong = write(folder.path(), "wrong.jsonl", "{}");
-    fails(&["bench", "--against", &wrong], 1, &["SP0001", "no table of `setpiece bench --format jsonl`"]);
+    fails(
+        &["bench", "--against", &wrong],
+        1,
+        &["SP0001", "no table of `setpiece bench --format jsonl`"],
+    );
     fails(&["bench", "nowhere"], 1, &["SP0005", "nowhere"]);
     fails(&["bench", "--seconds", "never"], 2, &["0.01 to 3600"]);
 }
@@ -564,15 +712,22 @@ fn imports_and_scripts_stay_below_the_root() {
     write(&inner, "parts/shared.pitch", "import \"../also.pitch\"\nconst width = 0.1\n");
     write(&inner, "also.pitch", "const also = 0.2\n");
     let scenario = |head: &str, body: &str| {
-        format!("{head}\nscenario s extends academy {{ ball at (0, 0) team left {{ CM at (0.1, 0) }} {body} }}\n")
+        format!(
+            "{head}\nscenario s extends academy {{ ball at (0, 0) team left {{ CM at (0.1, 0) }} {body} }}\n"
+        )
     };
-    let below = write(&inner, "below.pitch", scenario("import \"parts/shared.pitch\"", "require also > width"));
+    let below = write(
+        &inner,
+        "below.pitch",
+        scenario("import \"parts/shared.pitch\"", "require also > width"),
+    );
     assert!(setpiece(&["check", &below]).status.success());
     let paths = ["../secret.pitch", "parts/../../secret.pitch", &secret, "/etc/passwd"];
     for path in paths {
-        for text in
-            [scenario(&format!("import \"{path}\""), ""), scenario("", &format!("reward script \"{path}\" as \"r\""))]
-        {
+        for text in [
+            scenario(&format!("import \"{path}\""), ""),
+            scenario("", &format!("reward script \"{path}\" as \"r\"")),
+        ] {
             let root = write(&inner, "root.pitch", text);
             let said = fails(&["check", &root], 1, &[]) + text_of(&["check", &root]).as_str();
             assert!(said.contains("lies outside of the scenario's folder"), "{path}: {said}");
@@ -590,7 +745,8 @@ fn imports_and_scripts_stay_below_the_root() {
         fails(&["check", &root], 1, &["lies outside of the scenario's folder"]);
     }
     write(outer.path(), "fine.pitch", "const fine = 0.1\n");
-    let root = write(&inner, "root.pitch", scenario("import \"../fine.pitch\"", "require fine < 1"));
+    let root =
+        write(&inner, "root.pitch", scenario("import \"../fine.pitch\"", "require fine < 1"));
     fails(&["run", &root], 1, &["`--allow-outside` isn't given"]);
     assert!(setpiece(&["check", "--allow-outside", &root]).status.success());
     assert!(setpiece(&["run", &root, "--allow-outside", "--episodes", "1"]).status.success());
@@ -604,8 +760,14 @@ fn text_of(args: &[&str]) -> String {
 fn what_an_author_writes_does_not_steer_the_terminal() {
     let folder = folder();
     let clear = "\u{1B}[2J\u{1B}]0;title\u{7}\u{9B}31m\u{202E}";
-    let body = format!("scenario s extends academy {{ ball at (0, 0) {clear} foo\n let a = \"{clear}\" + 1 }}\n");
-    let sources = [body, format!("import \"{clear}.pitch\"\n"), format!("scenario s {{ reward script \"{clear}\" }}")];
+    let body = format!(
+        "scenario s extends academy {{ ball at (0, 0) {clear} foo\n let a = \"{clear}\" + 1 }}\n"
+    );
+    let sources = [
+        body,
+        format!("import \"{clear}.pitch\"\n"),
+        format!("scenario s {{ reward script \"{clear}\" }}"),
+    ];
     for source in sources {
         let path = write(folder.path(), "steers.pitch", source);
         for colour in ["never", "always"] {
@@ -623,14 +785,17 @@ fn what_an_author_writes_does_not_steer_the_terminal() {
 fn names_and_words_of_a_scenario_set_no_colours() {
     let folder = folder();
     let text = CLOSE.replace("ball at", "reward r\n    ball at");
-    let text =
-        format!("/// A \u{1b}[7mtitle\u{1b}[0m\n{text}\nreward r {{ give 0.1 as \"\u{1b}[31mred\u{1b}]0;x\u{7}\" }}\n");
+    let text = format!(
+        "/// A \u{1b}[7mtitle\u{1b}[0m\n{text}\nreward r {{ give 0.1 as \"\u{1b}[31mred\u{1b}]0;x\u{7}\" }}\n"
+    );
     let file = write(folder.path(), "loud.pitch", text);
     let output = text_of(&["run", &file, "--color", "always", "--episodes", "2"]);
     assert!(output.contains("␛[31mred") && output.contains("A ␛[7mtitle"), "{output}");
     assert!(output.contains("\u{1b}[1mclose"), "the command's own styles are kept: {output}");
     assert!(
-        !output.contains("\u{1b}[31mred") && !output.contains("\u{1b}[7m") && !output.contains('\u{7}'),
+        !output.contains("\u{1b}[31mred")
+            && !output.contains("\u{1b}[7m")
+            && !output.contains('\u{7}'),
         "{output}"
     );
 }

@@ -1,7 +1,12 @@
 //! Files that users may pass: irregular files are rejected at once, watched files are never lost,
 //! and files are written completely.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::error::FileFault;
 use setpiece::files::{read_file, write, write_new};
@@ -18,7 +23,8 @@ const AT_ONCE: Duration = Duration::from_secs(20);
 /// Longest wait for a change to be noticed.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-const CLOSE: &str = "scenario close extends academy { ball at (0.77, 0) team left { CB at (0.75, 0) } }\n";
+const CLOSE: &str =
+    "scenario close extends academy { ball at (0.77, 0) team left { CB at (0.75, 0) } }\n";
 
 fn folder() -> tempfile::TempDir {
     tempfile::tempdir().unwrap()
@@ -57,7 +63,8 @@ fn pipes_and_devices_are_refused_wherever_a_file_is_read() {
     let dir = folder();
     pipe(&dir.path().join("pipe.pitch"));
     symlink("/dev/zero", dir.path().join("endless.pitch")).unwrap();
-    std::fs::write(dir.path().join("import.pitch"), format!("import \"pipe.pitch\"\n{CLOSE}")).unwrap();
+    std::fs::write(dir.path().join("import.pitch"), format!("import \"pipe.pitch\"\n{CLOSE}"))
+        .unwrap();
     let scripted = CLOSE.replace("} }", "} reward script \"pipe.pitch\" }");
     std::fs::write(dir.path().join("script.pitch"), scripted).unwrap();
     for args in [
@@ -83,7 +90,10 @@ fn a_file_is_read_up_to_its_bound() {
     let path = dir.path().join("large");
     std::fs::write(&path, vec![b'x'; 100]).unwrap();
     assert_eq!(read_file(&path, 100).unwrap().len(), 100);
-    assert!(matches!(read_file(&path, 99), Err(Error::File { why: FileFault::TooLarge { max: 99 }, .. })));
+    assert!(matches!(
+        read_file(&path, 99),
+        Err(Error::File { why: FileFault::TooLarge { max: 99 }, .. })
+    ));
 }
 
 /// Waits until a change is noticed.
@@ -147,7 +157,10 @@ fn a_watched_file_that_becomes_a_pipe_is_reported_and_the_watch_goes_on() {
     assert!(live.poll(Duration::from_millis(300)).is_none_or(|polled| polled.is_err()));
     std::fs::remove_file(&path).unwrap();
     std::fs::write(&path, CLOSE.replace("scenario close", "scenario closer")).unwrap();
-    assert_eq!(live.poll(PATIENCE).expect("no change was noticed").unwrap().scenario.name, "closer");
+    assert_eq!(
+        live.poll(PATIENCE).expect("no change was noticed").unwrap().scenario.name,
+        "closer"
+    );
 }
 
 #[test]
@@ -172,7 +185,8 @@ fn one_of_many_writers_gets_a_new_name() {
     let path = dir.path().join("a.pitchr");
     let path = &path;
     let got: usize = std::thread::scope(|scope| {
-        let writer = |n: u32| scope.spawn(move || usize::from(write_new(path, n.to_string()).unwrap()));
+        let writer =
+            |n: u32| scope.spawn(move || usize::from(write_new(path, n.to_string()).unwrap()));
         let writers: Vec<_> = (0..8).map(writer).collect();
         writers.into_iter().map(|writer| writer.join().unwrap()).sum()
     });

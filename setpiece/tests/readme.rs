@@ -1,5 +1,10 @@
 //! README shows the command's output. `SETPIECE_BLESS=1` updates its consoles.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,14 +24,24 @@ fn readme() -> PathBuf {
 
 /// A command's output in a folder: its results and its reports.
 fn printed(args: &[&str], folder: &Path) -> [String; 2] {
-    let output = Command::new(env!("CARGO_BIN_EXE_setpiece")).args(args).current_dir(folder).output().unwrap();
-    [output.stdout, output.stderr]
-        .map(|text| String::from_utf8(text).unwrap().lines().map(|line| format!("{}\n", line.trim_end())).collect())
+    let output = Command::new(env!("CARGO_BIN_EXE_setpiece"))
+        .args(args)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    [output.stdout, output.stderr].map(|text| {
+        String::from_utf8(text)
+            .unwrap()
+            .lines()
+            .map(|line| format!("{}\n", line.trim_end()))
+            .collect()
+    })
 }
 
 /// The range of the first console after some words of README.
 fn console(text: &str, words: &str) -> std::ops::Range<usize> {
-    let behind = text.find(words).unwrap_or_else(|| panic!("README doesn't say `{words}`")) + words.len();
+    let behind =
+        text.find(words).unwrap_or_else(|| panic!("README doesn't say `{words}`")) + words.len();
     let begin = behind + text[behind..].find("\n```\n").unwrap() + "\n```\n".len();
     begin..begin + text[begin..].find("```\n").unwrap()
 }
@@ -46,7 +61,11 @@ fn hold(words: &str, printed: &str) {
         return;
     }
     if std::env::var_os("SETPIECE_BLESS").is_some() {
-        std::fs::write(readme(), format!("{}{printed}{}", &text[..place.start], &text[place.end..])).unwrap();
+        std::fs::write(
+            readme(),
+            format!("{}{printed}{}", &text[..place.start], &text[place.end..]),
+        )
+        .unwrap();
     } else {
         panic!("README differs from the output (SETPIECE_BLESS=1 updates it):\n{printed}");
     }

@@ -1,5 +1,10 @@
 //! `setpiece render`, through the real binary and the library: what the pictures show.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -44,8 +49,13 @@ fn fails(args: &[&str], code: i32, words: &[&str]) {
 }
 
 fn played(name: &str, agent: Agent) -> Film {
-    let options =
-        FilmOptions { seed: 0, episode: 0, agent, environment: EnvironmentOptions::default(), until_step: None };
+    let options = FilmOptions {
+        seed: 0,
+        episode: 0,
+        agent,
+        environment: EnvironmentOptions::default(),
+        until_step: None,
+    };
     film(&setpiece::load(name).unwrap().scenario, &options).unwrap()
 }
 
@@ -95,9 +105,11 @@ fn a_step_is_one_large_frame() {
 
 #[test]
 fn a_recorded_episode_is_drawn_as_it_was_played() {
-    let mut environment =
-        Environment::new(setpiece::load("11_vs_11_stochastic").unwrap().scenario, EnvironmentOptions::default())
-            .unwrap();
+    let mut environment = Environment::new(
+        setpiece::load("11_vs_11_stochastic").unwrap().scenario,
+        EnvironmentOptions::default(),
+    )
+    .unwrap();
     let (mut recorder, mut scratch) = (Recorder::default(), Scratch::default());
     environment.reset(Some(7), Some(0)).unwrap();
     recorder.begin(None);
@@ -119,7 +131,11 @@ fn a_recorded_episode_is_drawn_as_it_was_played() {
     let output = setpiece(folder.path(), &["render", "a.pitchr", "--step", "13", "-o", "a.png"]);
     assert!(text(&output.stderr).contains("there is no step 13"), "{}", text(&output.stderr));
     let output = setpiece(folder.path(), &["run", "a.pitchr"]);
-    assert!(text(&output.stderr).contains("`a.pitchr` is a replay, not a scenario"), "{}", text(&output.stderr));
+    assert!(
+        text(&output.stderr).contains("`a.pitchr` is a replay, not a scenario"),
+        "{}",
+        text(&output.stderr)
+    );
 }
 
 #[test]
@@ -132,7 +148,9 @@ fn the_same_command_draws_the_same_bytes() {
     };
     let first = draw("a.png", &[]);
     assert_eq!(first, draw("b.png", &["--seed", "0", "--agent", "bot"]));
-    for other in [["--seed", "1"], ["--episode", "1"], ["--agent", "idle"], ["--set", "difficulty=0"]] {
+    for other in
+        [["--seed", "1"], ["--episode", "1"], ["--agent", "idle"], ["--set", "difficulty=0"]]
+    {
         assert_ne!(first, draw("c.png", &other), "{other:?}");
     }
 }
@@ -181,7 +199,9 @@ fn poses_cards_and_the_way_a_player_faces_are_seen() {
 fn the_height_of_the_ball_is_seen() {
     let mut scene = played("academy_3_vs_1_with_keeper", Agent::Idle).scenes[0].clone();
     scene.ball = [0.0, 20.0, 0.11];
-    let white = |scene: &SheetScene, y_m: f32| count(&drawn(std::slice::from_ref(scene)), spot(0.0, y_m), 4.0, AGENT);
+    let white = |scene: &SheetScene, y_m: f32| {
+        count(&drawn(std::slice::from_ref(scene)), spot(0.0, y_m), 4.0, AGENT)
+    };
     assert!(white(&scene, 20.0) > 10);
     scene.ball[2] = 5.0;
     assert_eq!(white(&scene, 20.0), 0, "its shadow lies there");
@@ -223,10 +243,18 @@ fn a_picture_that_cannot_be_made_is_one_clear_error() {
     }
     fails(&["academy_corner", "-o", "no/such/folder/a.png"], 1, &["SP0001", "can't be written"]);
     fails(&["academy_cornr", "-o", "a.png"], 1, &["SP0005", "did you mean `academy_corner`?"]);
-    fails(&["academy_corner", "-o", "a.png", "--set", "dificulty=1"], 1, &["SP0008", "did you mean `difficulty`?"]);
+    fails(
+        &["academy_corner", "-o", "a.png", "--set", "dificulty=1"],
+        1,
+        &["SP0008", "did you mean `difficulty`?"],
+    );
     fails(&["academy_corner", "-o", "a.png", "--agent", "genius"], 2, &["--agent"]);
     fails(&["academy_corner", "-o", "a.png", "--step", "-1"], 2, &["--step"]);
-    fails(&["academy_corner", "-o", "a.png", "--step", "9999"], 1, &["SP0012", "the episode has", "help: "]);
+    fails(
+        &["academy_corner", "-o", "a.png", "--step", "9999"],
+        1,
+        &["SP0012", "the episode has", "help: "],
+    );
 }
 
 #[test]
@@ -236,7 +264,11 @@ fn an_episode_without_an_end_is_drawn_up_to_a_step() {
     std::fs::write(folder.path().join("endless.pitch"), endless).unwrap();
     let output = setpiece(folder.path(), &["render", "endless.pitch", "-o", "a.png"]);
     assert!(text(&output.stderr).contains("SP0703"), "{}", text(&output.stderr));
-    assert!(setpiece(folder.path(), &["render", "endless.pitch", "-o", "a.png", "--step", "30"]).status.success());
+    assert!(
+        setpiece(folder.path(), &["render", "endless.pitch", "-o", "a.png", "--step", "30"])
+            .status
+            .success()
+    );
     let output = setpiece(folder.path(), &["render", "endless.pitch", "-o", "endless.pitch"]);
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(std::fs::read_to_string(folder.path().join("endless.pitch")).unwrap(), endless);

@@ -1,6 +1,11 @@
 //! The tools of the language, by the real binary: `explain`, `fmt`, and the consoles of the error
 //! pages.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use std::io::Write;
 use std::path::Path;
@@ -59,7 +64,8 @@ fn every_console_of_the_error_pages_shows_what_happens() {
     let mut seen = 0;
     for code in setpiece::dsl::problem::Code::ALL {
         let dir = folder();
-        std::fs::write(dir.path().join("truncated.pitchc"), "{\"format\": \"setpiece scenario\"").unwrap();
+        std::fs::write(dir.path().join("truncated.pitchc"), "{\"format\": \"setpiece scenario\"")
+            .unwrap();
         let page = setpiece::explain::page(*code).unwrap();
         for block in page.split("```").skip(1).step_by(2) {
             let (info, text) = block.split_once('\n').unwrap();
@@ -108,9 +114,15 @@ fn fmt_writes_files_and_folders_and_says_which() {
 
     let (code, out, err) = run(dir.path(), &["fmt"], "");
     assert_eq!(code, Some(0));
-    assert!(out.contains("a.pitch") && out.contains("b.pitch") && !out.contains("tidy.pitch"), "{out}");
+    assert!(
+        out.contains("a.pitch") && out.contains("b.pitch") && !out.contains("tidy.pitch"),
+        "{out}"
+    );
     assert!(err.contains("2 files formatted, 1 unchanged"), "{err}");
-    assert_eq!((read("a.pitch").as_str(), read("drills/set pieces/b.pitch").as_str()), (TIDY, TIDY));
+    assert_eq!(
+        (read("a.pitch").as_str(), read("drills/set pieces/b.pitch").as_str()),
+        (TIDY, TIDY)
+    );
     assert_eq!((read(".hidden/c.pitch").as_str(), read("notes.txt").as_str()), (UNTIDY, UNTIDY));
     let left = std::fs::read_dir(dir.path()).unwrap().count();
     assert_eq!(left, 5, "no temporary file stays");
@@ -124,7 +136,10 @@ fn fmt_reads_standard_input() {
     let dir = folder();
     assert_eq!(run(dir.path(), &["fmt", "-"], UNTIDY), (Some(0), TIDY.to_owned(), String::new()));
     assert_eq!(run(dir.path(), &["fmt", "-", "--check"], UNTIDY).0, Some(1));
-    assert_eq!(run(dir.path(), &["fmt", "--check", "-"], TIDY), (Some(0), String::new(), String::new()));
+    assert_eq!(
+        run(dir.path(), &["fmt", "--check", "-"], TIDY),
+        (Some(0), String::new(), String::new())
+    );
 }
 
 #[test]
@@ -133,10 +148,16 @@ fn fmt_leaves_what_it_cannot_read_alone_and_goes_on() {
     let broken = "scenario s{ ball at (0.6, 0 }";
     std::fs::write(dir.path().join("broken.pitch"), broken).unwrap();
     std::fs::write(dir.path().join("whole.pitch"), UNTIDY).unwrap();
-    let (code, out, err) = run(dir.path(), &["fmt", "broken.pitch", "absent.pitch", "whole.pitch"], "");
+    let (code, out, err) =
+        run(dir.path(), &["fmt", "broken.pitch", "absent.pitch", "whole.pitch"], "");
     assert_eq!(code, Some(1));
-    for word in ["SP0104", "broken.pitch:1:", "SP0001", "`absent.pitch`", "1 file formatted, 0 unchanged, 2 left alone"]
-    {
+    for word in [
+        "SP0104",
+        "broken.pitch:1:",
+        "SP0001",
+        "`absent.pitch`",
+        "1 file formatted, 0 unchanged, 2 left alone",
+    ] {
         assert!(err.contains(word), "no `{word}` in {err}");
     }
     assert!(out.contains("whole.pitch"), "{out}");
@@ -168,13 +189,21 @@ fn doc_describes_every_scenario_of_the_library() {
         let (code, page, err) = run(dir.path(), &["doc", &entry.name], "");
         assert_eq!(code, Some(0), "{err}");
         assert!(page.starts_with(&format!("# {}\n\n{}", entry.name, entry.title)), "{page}");
-        for part in
-            ["## Parameters", "| `difficulty` | `number` |", "## Players", "### scoring", "`scoring/goal`", "## Rules"]
-        {
+        for part in [
+            "## Parameters",
+            "| `difficulty` | `number` |",
+            "## Players",
+            "### scoring",
+            "`scoring/goal`",
+            "## Rules",
+        ] {
             assert!(page.contains(part), "{}: no `{part}` in {page}", entry.name);
         }
         assert!(page.ends_with("|\n") && !page.contains("\n\n\n"), "{page}");
-        let rows = page.lines().filter(|line| line.starts_with("| left |") || line.starts_with("| right |")).count();
+        let rows = page
+            .lines()
+            .filter(|line| line.starts_with("| left |") || line.starts_with("| right |"))
+            .count();
         assert_eq!(rows, entry.players[0] + entry.players[1], "{page}");
     }
 }
@@ -222,8 +251,11 @@ scenario duel extends academy {
 #[test]
 fn doc_writes_the_page_and_the_picture_beside_it() {
     let dir = folder();
-    let (code, out, err) =
-        run(dir.path(), &["doc", "academy_corner", "-o", "corner.md", "--picture", "corner.svg", "--seed", "3"], "");
+    let (code, out, err) = run(
+        dir.path(),
+        &["doc", "academy_corner", "-o", "corner.md", "--picture", "corner.svg", "--seed", "3"],
+        "",
+    );
     assert_eq!((code, out.as_str()), (Some(0), ""), "{err}");
     let page = std::fs::read_to_string(dir.path().join("corner.md")).unwrap();
     assert!(page.contains("![A start of academy_corner](corner.svg)"), "{page}");

@@ -1,7 +1,12 @@
 //! The resources that a watcher holds while it is waited for, and afterwards. This is a separate
 //! process, because it counts all threads and descriptors of the process.
 #![cfg(target_os = "linux")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::watch::Watcher;
 use std::path::PathBuf;

@@ -3,7 +3,12 @@
 //!
 //! The exception is rapier itself, which allocates when it runs: if a free ball meets something
 //! hard, or comes close to it. In a match of eleven a side that is less than one step in fifty.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::observe;
@@ -42,7 +47,14 @@ fn steps_of(scenario: Arc<Scenario>, episodes: u64) -> Steps {
                 environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
                 observe::simple115(environment.state(), 0, &mut floats).unwrap();
                 environment.observe(SCALED, 0, &mut scaled).unwrap();
-                observe::smm(environment.state(), 0, observe::SMM_WIDTH, observe::SMM_HEIGHT, &mut map).unwrap();
+                observe::smm(
+                    environment.state(),
+                    0,
+                    observe::SMM_WIDTH,
+                    observe::SMM_HEIGHT,
+                    &mut map,
+                )
+                .unwrap();
             });
             // The first episode warms up. An ending may create the label of its outcome.
             if index > 0 && environment.is_running() {
@@ -59,7 +71,10 @@ fn steps_of(scenario: Arc<Scenario>, episodes: u64) -> Steps {
 #[test]
 fn a_step_allocates_nothing_but_what_rapier_does() {
     let match_of_eleven = steps("11_vs_11_stochastic", 2);
-    assert!(match_of_eleven.played == 2 * 2999 && match_of_eleven.allocated == 0, "{match_of_eleven:?}");
+    assert!(
+        match_of_eleven.played == 2 * 2999 && match_of_eleven.allocated == 0,
+        "{match_of_eleven:?}"
+    );
     assert!(match_of_eleven.rigid * 50 < match_of_eleven.played, "{match_of_eleven:?}");
     for name in ["academy_empty_goal", "academy_3_vs_1_with_keeper", "academy_corner"] {
         let steps = steps(name, 20);

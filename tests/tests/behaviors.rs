@@ -1,5 +1,10 @@
 //! Behaviours end to end: from `.pitch` to the actions of scripted players.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::batch::{ReadyMade, run_episodes};
 use setpiece::engine::control::agents::Agent;
@@ -21,7 +26,9 @@ impl SourceLoader for Library {
         let full = Path::new(env!("CARGO_MANIFEST_DIR")).join("../stdlib-scenarios").join(inner);
         match std::fs::read_to_string(full) {
             Ok(text) => Ok(Source { name: path.to_owned(), text: text.into() }),
-            Err(error) => Err(LoadError { message: error.to_string(), similar: Vec::new(), awaited: None }),
+            Err(error) => {
+                Err(LoadError { message: error.to_string(), similar: Vec::new(), awaited: None })
+            }
         }
     }
 }
@@ -56,7 +63,12 @@ const FIRST: PlayerId = PlayerId(0);
 const RIGHT_FIRST: PlayerId = PlayerId(11);
 
 /// Plays this many steps of an episode, or to its end, and calls `look` after each.
-fn play(environment: &mut Environment, seed: u64, steps: u32, mut look: impl FnMut(u32, &Environment)) {
+fn play(
+    environment: &mut Environment,
+    seed: u64,
+    steps: u32,
+    mut look: impl FnMut(u32, &Environment),
+) {
     let mut scratch = Scratch::default();
     environment.reset(Some(seed), None).unwrap();
     for step in 1..=steps {
@@ -71,7 +83,9 @@ fn play(environment: &mut Environment, seed: u64, steps: u32, mut look: impl FnM
 /// The presses of the first left player in this many steps.
 fn presses(environment: &mut Environment, steps: u32) -> Vec<Action> {
     let mut pressed = Vec::new();
-    play(environment, 1, steps, |_, environment| pressed.push(environment.action_of(FIRST).unwrap()));
+    play(environment, 1, steps, |_, environment| {
+        pressed.push(environment.action_of(FIRST).unwrap())
+    });
     pressed
 }
 
@@ -152,7 +166,10 @@ fn a_dribbler_zigzags_through_the_way_points() {
         {
             reached += 1;
             let ball = game.ball.pos;
-            assert!(apart_m(ball.x, ball.y, pos.x, pos.y) < 3.0, "the ball stays with the dribbler to {x}");
+            assert!(
+                apart_m(ball.x, ball.y, pos.x, pos.y) < 3.0,
+                "the ball stays with the dribbler to {x}"
+            );
         }
     });
     assert_eq!(reached, points.len());
@@ -183,7 +200,8 @@ fn arrive_and_shoot_scores_into_an_empty_goal() {
     let mut scored = 0;
     for seed in 0..20 {
         play(&mut environment, seed, 200, |_, _| ());
-        scored += u32::from(environment.outcome().is_some_and(|outcome| &*outcome.label == "scored"));
+        scored +=
+            u32::from(environment.outcome().is_some_and(|outcome| &*outcome.label == "scored"));
     }
     assert!(scored >= 14, "{scored} of 20");
 }
@@ -244,7 +262,11 @@ fn an_outer_interrupt_beats_an_inner_one_and_a_call_is_left_as_a_whole() {
     let pressed = presses(&mut environment, 50);
     assert_eq!(first(&pressed, Action::Right), Some(11), "the outer first: {pressed:?}");
     assert_eq!(first(&pressed, Action::Left), Some(14), "{pressed:?}");
-    assert_eq!(first(&pressed, Action::Top), Some(31), "left at 2 s, then 1 s more of it: {pressed:?}");
+    assert_eq!(
+        first(&pressed, Action::Top),
+        Some(31),
+        "left at 2 s, then 1 s more of it: {pressed:?}"
+    );
     assert_eq!(pressed.last(), Some(&Action::BuiltinAi), "behind the last statement the bot plays");
 }
 
@@ -273,7 +295,8 @@ fn loops_count_wait_and_finish() {
     let pressed = presses(&mut environment, 30);
     // Iterations without a step wait one each: `inner` checks ten times, the last loop adds twice.
     let mut expected = vec![Idle; 10];
-    expected.extend([Right, Idle, Bottom, Right, Idle, Bottom, Right, Idle, Bottom, Idle, Idle, Left]);
+    expected
+        .extend([Right, Idle, Bottom, Right, Idle, Bottom, Right, Idle, Bottom, Idle, Idle, Left]);
     expected.resize(30, BuiltinAi);
     assert_eq!(pressed, expected);
 }
@@ -308,12 +331,17 @@ fn what_over_time_was_counts_once_a_step() {
         }",
     );
     let pressed = presses(&mut environment, 40);
-    assert_eq!(first(&pressed, Action::Right), Some(21), "fourteen holds, six passes that wait: {pressed:?}");
+    assert_eq!(
+        first(&pressed, Action::Right),
+        Some(21),
+        "fourteen holds, six passes that wait: {pressed:?}"
+    );
 }
 
 #[test]
 fn a_choice_follows_its_weights() {
-    let mut environment = alone("behavior b() { choose { 3: do run(0deg) 1: { do run(180deg) } } }");
+    let mut environment =
+        alone("behavior b() { choose { 3: do run(0deg) 1: { do run(180deg) } } }");
     let mut scratch = Scratch::default();
     let (mut right, n) = (0, 1000);
     environment.reset(Some(5), None).unwrap();
@@ -345,7 +373,10 @@ fn random_arguments_are_drawn_per_player_and_episode() {
     for seed in 0..40 {
         let mut changes = 0;
         play(&mut environment, seed, 20, |step, environment| {
-            let (one, other) = (environment.action_of(FIRST).unwrap(), environment.action_of(PlayerId(1)).unwrap());
+            let (one, other) = (
+                environment.action_of(FIRST).unwrap(),
+                environment.action_of(PlayerId(1)).unwrap(),
+            );
             if step == 1 {
                 headings.insert(one.index());
                 apart += u32::from(one != other);
@@ -376,7 +407,9 @@ fn literals_are_read_in_the_own_frame_and_arguments_where_they_stand() {
         }",
     );
     let mut pressed = Vec::new();
-    play(&mut environment, 1, 4, |_, environment| pressed.push(environment.action_of(RIGHT_FIRST).unwrap()));
+    play(&mut environment, 1, 4, |_, environment| {
+        pressed.push(environment.action_of(RIGHT_FIRST).unwrap())
+    });
     // Presses are in the own frame too: world +x is back for the right team.
     assert_eq!(pressed, [Action::Left, Action::Right, Action::Left, Action::Right]);
 }
@@ -423,7 +456,8 @@ fn a_pass_is_struck_to_the_mate_meant() {
     let (mut kicks, mut receiver) = (0, None);
     play(&mut environment, 1, 60, |_, environment| {
         kicks += u32::from(environment.action_of(FIRST) == Some(Action::ShortPass));
-        receiver = environment.events().iter().filter_map(|event| event.to).next_back().or(receiver);
+        receiver =
+            environment.events().iter().filter_map(|event| event.to).next_back().or(receiver);
     });
     assert_eq!((kicks, receiver), (1, Some(PlayerId(1))));
     assert_eq!(environment.outcome().map(|outcome| &*outcome.label), Some("arrived"));
@@ -443,7 +477,8 @@ fn an_agent_wins_over_a_behavior() {
     let mut scratch = Scratch::default();
     environment.reset(Some(1), None).unwrap();
     let mut pressed = Vec::new();
-    for action in [Action::Right, Action::Idle, Action::BuiltinAi, Action::BuiltinAi, Action::Left] {
+    for action in [Action::Right, Action::Idle, Action::BuiltinAi, Action::BuiltinAi, Action::Left]
+    {
         environment.step(&[action], &mut scratch).unwrap();
         pressed.push(environment.action_of(FIRST));
     }
@@ -459,7 +494,9 @@ fn the_presses_of_a_behavior_replayed_by_an_agent_give_the_same_match() {
         .replace("CF at (0.3, 0) {", "anna: CF at (0.3, 0) {");
     let mut scripted = environment(&text);
     let mut pressed = Vec::new();
-    play(&mut scripted, 4, 200, |_, environment| pressed.push(environment.action_of(FIRST).unwrap()));
+    play(&mut scripted, 4, 200, |_, environment| {
+        pressed.push(environment.action_of(FIRST).unwrap())
+    });
     let mut agent = environment(&text.replace("left: 0", "left: [anna]"));
     let mut scratch = Scratch::default();
     agent.reset(Some(4), None).unwrap();
@@ -469,7 +506,10 @@ fn the_presses_of_a_behavior_replayed_by_an_agent_give_the_same_match() {
         ball.push(agent.state().ball.pos);
         step += 1;
     }
-    assert_eq!(agent.outcome().map(|outcome| &*outcome.label), scripted.outcome().map(|outcome| &*outcome.label));
+    assert_eq!(
+        agent.outcome().map(|outcome| &*outcome.label),
+        scripted.outcome().map(|outcome| &*outcome.label)
+    );
     assert_eq!((step, agent.state().ball.pos), (pressed.len(), scripted.state().ball.pos));
 }
 
@@ -501,7 +541,8 @@ fn crowd() -> Arc<Scenario> {
 fn a_crowd_of_behaviors_repeats_itself_on_any_number_of_threads_and_through_a_file() {
     let scenario = crowd();
     let run = |scenario: &Arc<Scenario>, threads| {
-        let environment = Environment::new(scenario.clone(), EnvironmentOptions::default()).unwrap();
+        let environment =
+            Environment::new(scenario.clone(), EnvironmentOptions::default()).unwrap();
         let policy = || ReadyMade::new(Agent::Idle);
         let episodes = run_episodes(&environment, 9, 0..4, threads, policy, |_| ()).unwrap();
         episodes.into_iter().map(|episode| episode.unwrap().digest).collect::<Vec<u64>>()
@@ -543,7 +584,9 @@ fn a_damaged_behavior_is_refused() {
     assert!(refused(&|scenario| scenario.players[1].ai = Ai::Behavior(99)));
     assert!(refused(&|scenario| scenario.behaviors[0].nodes.push(Node::Jump(0))));
     assert!(refused(&|scenario| scenario.behaviors[0].nodes.push(Node::Mark(u32::MAX))));
-    assert!(refused(&|scenario| scenario.behaviors[0].nodes.push(Node::Loop { to: 9999, mark: 0 })));
+    assert!(refused(&|scenario| scenario.behaviors[0]
+        .nodes
+        .push(Node::Loop { to: 9999, mark: 0 })));
     assert!(refused(&|scenario| scenario.behaviors[0].watches[0].when = Reg(u32::MAX)));
     assert!(refused(&|scenario| scenario.behaviors[0].watches[0].to = u32::MAX));
 }
@@ -616,8 +659,10 @@ fn a_scripted_player_is_not_drawn_to_the_ball_unless_an_agent_drives_them() {
                 end limit 60 steps
             }}"
         );
-        let loaded = setpiece::compile_text(&text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-        let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+        let loaded =
+            setpiece::compile_text(&text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+        let mut environment =
+            Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
         environment.reset(Some(1), None).unwrap();
         let mut scratch = Scratch::default();
         while environment.is_running() {

@@ -1,5 +1,10 @@
 //! The bot's play is expressed as actions, and pressing them plays about as well as the bot.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::control::sticky;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -46,7 +51,9 @@ fn success(name: &str, mut act: impl FnMut(u64, &Environment) -> Vec<Action>) ->
             let actions = act(index, &environment);
             environment.step(&actions, &mut scratch).unwrap();
         }
-        won += u32::from(environment.outcome().and_then(|outcome| outcome.verdict) == Some(Verdict::Success));
+        won += u32::from(
+            environment.outcome().and_then(|outcome| outcome.verdict) == Some(Verdict::Success),
+        );
     }
     f64::from(won) / EPISODES as f64
 }
@@ -74,7 +81,12 @@ fn what_is_recorded_of_a_bot_scores_as_it_does() {
         let streams = streams(name);
         let bot = success(name, |_, environment| all(environment, Action::BuiltinAi));
         let replayed = success(name, |index, environment| {
-            vec![streams[index as usize].get(environment.steps() as usize).copied().unwrap_or(Action::Idle)]
+            vec![
+                streams[index as usize]
+                    .get(environment.steps() as usize)
+                    .copied()
+                    .unwrap_or(Action::Idle),
+            ]
         });
         assert!(replayed > bot - 0.15, "{name}: {replayed}, the bot {bot}");
     }
@@ -112,7 +124,12 @@ fn what_the_bot_would_press_is_what_is_recorded_when_it_plays() {
             let mut handed = environment.clone();
             handed.step(&all(&environment, Action::BuiltinAi), &mut scratch).unwrap();
             for (slot, action) in handed.agents().iter().zip(&actions) {
-                assert_eq!(handed.action_of(slot.player.unwrap()), Some(*action), "step {}", environment.steps());
+                assert_eq!(
+                    handed.action_of(slot.player.unwrap()),
+                    Some(*action),
+                    "step {}",
+                    environment.steps()
+                );
                 assert_eq!(slot.sticky, 0, "handing over releases what is held");
                 kicks += u32::from(KICKS.contains(action));
                 compared += 1;
@@ -169,7 +186,9 @@ fn a_bots_presses_are_a_stream() {
     // A key is pressed again at once only if its player has lost the ball and won it back.
     assert!(again * 20 < kicks, "a kick is reported once: {again} of {kicks} again");
     assert!(
-        kicks > 20 && actions[Action::Sprint.index()] > 50 && actions[Action::BuiltinAi.index()] == 0,
+        kicks > 20
+            && actions[Action::Sprint.index()] > 50
+            && actions[Action::BuiltinAi.index()] == 0,
         "{actions:?}"
     );
     assert_eq!(
@@ -181,10 +200,14 @@ fn a_bots_presses_are_a_stream() {
 
 #[test]
 fn nobody_tells_of_the_lazy() {
-    let mut environment = written(&THREE.replace("CB at (0.75, 0)", "CB at (0.75, 0) { ai: lazy }"));
+    let mut environment =
+        written(&THREE.replace("CB at (0.75, 0)", "CB at (0.75, 0) { ai: lazy }"));
     environment.reset(Some(1), None).unwrap();
     assert_eq!(environment.action_of(PlayerId(0)), None, "nothing has been played");
     environment.step(&all(&environment, Action::BuiltinAi), &mut Scratch::default()).unwrap();
-    assert!(environment.action_of(PlayerId(0)).is_some() && environment.action_of(PlayerId(11)).is_some());
+    assert!(
+        environment.action_of(PlayerId(0)).is_some()
+            && environment.action_of(PlayerId(11)).is_some()
+    );
     assert_eq!(environment.action_of(PlayerId(12)), None);
 }

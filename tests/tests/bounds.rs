@@ -1,13 +1,19 @@
 //! Files that are safe to load: anything that would take all memory, or minutes per step, is
 //! rejected before anything is built from it.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions};
 use setpiece::replay::{Recorder, Replay};
 use setpiece::scenario::bounds::{CELLS_MAX, CODE_MAX, PARTS_MAX, SCRIPTS_MAX_BYTES, TERMS_MAX};
 use setpiece::scenario::file::{binary, from_json, to_json};
 use setpiece::scenario::{
-    Action, Each, Fold, FoldKind, Instr, Over, Program, Record, Reg, Reward, RewardBody, Scenario, Script,
+    Action, Each, Fold, FoldKind, Instr, Over, Program, Record, Reg, Reward, RewardBody, Scenario,
+    Script,
 };
 
 fn corner() -> Scenario {
@@ -19,7 +25,10 @@ fn refused(change: impl Fn(&mut Scenario)) -> String {
     let mut scenario = corner();
     change(&mut scenario);
     let report = from_json(&to_json(&scenario).unwrap()).unwrap_err().to_string();
-    assert_eq!(binary::from_bytes(&binary::to_bytes(&scenario).unwrap()).unwrap_err().to_string(), report);
+    assert_eq!(
+        binary::from_bytes(&binary::to_bytes(&scenario).unwrap()).unwrap_err().to_string(),
+        report
+    );
     report
 }
 
@@ -51,8 +60,12 @@ fn memory_is_bounded_over_all_parts() {
     assert!(report.contains("memory cells"), "{report}");
     let long = Program { code: vec![Instr::Us; 90_000], cells: 0 };
     let report = refused(|scenario| scenario.records = vec![record(long.clone()); 3]);
-    assert!(report.contains(&format!("instructions, where a scenario may have {}", "200,000")), "{report}");
-    let report = refused(|scenario| scenario.records = vec![record(cells(0)); PARTS_MAX as usize + 1]);
+    assert!(
+        report.contains(&format!("instructions, where a scenario may have {}", "200,000")),
+        "{report}"
+    );
+    let report =
+        refused(|scenario| scenario.records = vec![record(cells(0)); PARTS_MAX as usize + 1]);
     assert!(report.contains("2,001 records"), "{report}");
     let report = refused(|scenario| {
         scenario.rewards[0].body.terms = vec!["t".to_owned(); TERMS_MAX as usize + 1];
@@ -73,7 +86,10 @@ fn memory_is_bounded_over_all_parts() {
 #[test]
 fn the_work_of_a_step_is_bounded() {
     let report = refused(|scenario| scenario.records = vec![record(nested(90_000))]);
-    assert!(report.contains("instructions in a step, where a scenario may have 33,554,432"), "{report}");
+    assert!(
+        report.contains("instructions in a step, where a scenario may have 33,554,432"),
+        "{report}"
+    );
     let report = refused(|scenario| scenario.records = vec![record(nested(5)); 1_000]);
     assert!(report.contains("instructions in a step"), "{report}");
     let mut scenario = corner();
@@ -86,7 +102,9 @@ fn a_text_is_held_to_the_same_bounds_where_it_stands() {
     let records: String = (0..1_000)
         .map(|n| {
             let outer = ["r", "q", "p"].map(|name| format!(" for {name} in players)")).concat();
-            format!("    record r{n} = sum(sum(sum(sum(p.x * q.y + r.x * s.y for s in players){outer}\n")
+            format!(
+                "    record r{n} = sum(sum(sum(sum(p.x * q.y + r.x * s.y for s in players){outer}\n"
+            )
         })
         .collect();
     let text = format!("scenario s extends 11_vs_11_stochastic {{\n{records}}}\n");

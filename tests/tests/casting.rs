@@ -19,7 +19,8 @@ scenario second extends first { mirror: ends }
 ";
 
 fn cast(casts: &[(CastTarget, &str)]) -> Result<Scenario, Error> {
-    let casts: Vec<Cast> = casts.iter().map(|(target, ai)| Cast { target: *target, ai: (*ai).to_owned() }).collect();
+    let casts: Vec<Cast> =
+        casts.iter().map(|(target, ai)| Cast { target: *target, ai: (*ai).to_owned() }).collect();
     compile_text_cast(TEXT, "<text>", &casts).map(|loaded| Scenario::clone(&loaded.scenario))
 }
 
@@ -37,16 +38,22 @@ fn a_cast_gives_a_team_and_single_players_their_ai() {
     assert_eq!(ais(&plain), [(Left, Bot), (Left, Hold), (Left, Bot), (Right, Bot), (Right, Bot)]);
     let side = cast(&[(CastTarget::Team(Left), "lazy")]).unwrap();
     assert_eq!(teams(&side), [Lazy, Hold, Lazy, Bot, Bot], "a player keeps their own `ai`");
-    let single = cast(&[(CastTarget::Player(Left, 1), "chaser(2m)"), (CastTarget::Player(Right, 0), "lazy")]).unwrap();
+    let single = cast(&[
+        (CastTarget::Player(Left, 1), "chaser(2m)"),
+        (CastTarget::Player(Right, 0), "lazy"),
+    ])
+    .unwrap();
     assert_eq!(teams(&single), [Bot, Behavior(0), Bot, Lazy, Bot]);
     assert_eq!(single.behaviors.len(), 1);
-    let both = cast(&[(CastTarget::Team(Left), "chaser"), (CastTarget::Player(Left, 0), "bot")]).unwrap();
+    let both =
+        cast(&[(CastTarget::Team(Left), "chaser"), (CastTarget::Player(Left, 0), "bot")]).unwrap();
     assert_eq!(teams(&both), [Bot, Hold, Behavior(0), Bot, Bot]);
 }
 
 #[test]
 fn a_cast_changes_nothing_else() {
-    let (plain, mut cast) = (cast(&[]).unwrap(), cast(&[(CastTarget::Player(Team::Right, 1), "lazy")]).unwrap());
+    let (plain, mut cast) =
+        (cast(&[]).unwrap(), cast(&[(CastTarget::Player(Team::Right, 1), "lazy")]).unwrap());
     let changed = cast.players.iter_mut().find(|player| player.ai == Ai::Lazy).unwrap();
     changed.ai = Ai::Bot;
     assert_eq!(cast, plain);
@@ -56,7 +63,10 @@ fn a_cast_changes_nothing_else() {
 fn an_unknown_cast_is_reported() {
     for (ai, message) in [
         ("chase", "no player's `ai` is called `chase`"),
-        ("lazy } } } scenario x { ball at centre team left { each all { ai: lazy", "is not who plays a player"),
+        (
+            "lazy } } } scenario x { ball at centre team left { each all { ai: lazy",
+            "is not who plays a player",
+        ),
         ("lazy, difficulty: 1", "is not who plays a player"),
         ("lazy } } } //", "is not who plays a player"),
         ("3", "expected who plays the player"),
@@ -67,7 +77,8 @@ fn an_unknown_cast_is_reported() {
         let Err(Error::Compile(failure)) = cast(&[(CastTarget::Team(Team::Left), ai)]) else {
             panic!("{ai} was taken")
         };
-        let expected = failure.problems.iter().any(|problem| problem.words().message.contains(message));
+        let expected =
+            failure.problems.iter().any(|problem| problem.words().message.contains(message));
         assert!(expected, "{ai}: {:?}", failure.problems);
     }
     let Err(Error::Compile(_)) = cast(&[(CastTarget::Player(Team::Left, 7), "lazy")]) else {

@@ -1,5 +1,10 @@
 //! Draws in regions are uniform by area, for every shape.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions};
 
@@ -7,8 +12,11 @@ const DRAWS: u64 = 6000;
 
 /// Ball places, metres, of many starts of a scenario whose ball lies in `region`.
 fn balls(region: &str) -> Vec<(f64, f64)> {
-    let text = format!("scenario s {{ ball in {region}  team left {{ CM at (-50m, -30m) }}  end limit 1 step }}");
-    let loaded = setpiece::compile_text(&text, "<test>").unwrap_or_else(|error| panic!("{region}: {error}"));
+    let text = format!(
+        "scenario s {{ ball in {region}  team left {{ CM at (-50m, -30m) }}  end limit 1 step }}"
+    );
+    let loaded =
+        setpiece::compile_text(&text, "<test>").unwrap_or_else(|error| panic!("{region}: {error}"));
     let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
     let place = |index| {
         environment.reset(Some(7), Some(index)).unwrap();
@@ -24,14 +32,19 @@ fn share(region: &str, expected: f64, meets: impl Fn(f64, f64) -> bool) {
     let found = places.iter().filter(|(x, y)| meets(*x, *y)).count() as f64 / DRAWS as f64;
     // Four standard deviations.
     let margin = 4.0 * (expected * (1.0 - expected) / DRAWS as f64).sqrt() + 1e-9;
-    assert!((found - expected).abs() <= margin, "{region}: {found} instead of {expected} ± {margin}");
+    assert!(
+        (found - expected).abs() <= margin,
+        "{region}: {found} instead of {expected} ± {margin}"
+    );
 }
 
 #[test]
 fn an_l_shaped_polygon_is_filled_evenly() {
     // A square of 20 m without its upper right quarter.
     let l = "polygon((0m, 0m), (20m, 0m), (20m, 10m), (10m, 10m), (10m, 20m), (0m, 20m))";
-    share(l, 1.0, |x, y| (0.0..=20.0).contains(&x) && (0.0..=20.0).contains(&y) && (x <= 10.0 || y <= 10.0));
+    share(l, 1.0, |x, y| {
+        (0.0..=20.0).contains(&x) && (0.0..=20.0).contains(&y) && (x <= 10.0 || y <= 10.0)
+    });
     share(l, 1.0 / 3.0, |x, _| x > 10.0);
     share(l, 1.0 / 3.0, |x, y| x < 10.0 && y < 10.0);
 }
@@ -80,7 +93,10 @@ fn a_polygon_whose_corners_are_drawn_is_filled_all_the_same() {
     for index in 0..DRAWS {
         environment.reset(Some(3), Some(index)).unwrap();
         let at = environment.state().ball.pos;
-        assert!((0.0..=20.0).contains(&at.x) && at.y.abs() <= 15.0 * (1.0 - at.x / 20.0) + 1e-3, "{at}");
+        assert!(
+            (0.0..=20.0).contains(&at.x) && at.y.abs() <= 15.0 * (1.0 - at.x / 20.0) + 1e-3,
+            "{at}"
+        );
         near += u32::from(at.x < 10.0);
     }
     // Three quarters of a triangle's area are in the half next to its base, however wide it is.

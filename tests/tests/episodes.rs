@@ -1,5 +1,10 @@
 //! What the library's scenarios must show when played.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::{EnvironmentOptions, Physics};
@@ -25,7 +30,12 @@ fn whoever_runs_and_shoots_scores_into_an_empty_goal() {
         ("academy_run_to_score", 0.7, 120.0),
     ] {
         let summary = play(name, Agent::RunAndShoot, 100);
-        assert!(summary.success_rate >= success, "{name}: {} {:?}", summary.success_rate, summary.outcomes);
+        assert!(
+            summary.success_rate >= success,
+            "{name}: {} {:?}",
+            summary.success_rate,
+            summary.outcomes
+        );
         assert!(summary.mean_length <= length, "{name}: {}", summary.mean_length);
     }
 }
@@ -41,8 +51,9 @@ fn whoever_does_nothing_never_scores() {
 #[test]
 fn who_stands_on_the_ball_is_left_alone() {
     for base in ["11_vs_11_stochastic", "5_vs_5"] {
-        let text =
-            format!("scenario s extends {base} {{ end failure still when held(ball.speed < 0.1m/s, for: 30s) }}");
+        let text = format!(
+            "scenario s extends {base} {{ end failure still when held(ball.speed < 0.1m/s, for: 30s) }}"
+        );
         let loaded = setpiece::compile_text(&text, "<test>").unwrap();
         let options = RunOptions {
             episodes: 0..40,
@@ -52,7 +63,8 @@ fn who_stands_on_the_ball_is_left_alone() {
             environment: EnvironmentOptions::default(),
         };
         let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
-        let still = summary.episodes.iter().flatten().filter(|episode| episode.outcome == "still").count();
+        let still =
+            summary.episodes.iter().flatten().filter(|episode| episode.outcome == "still").count();
         // As in GRF, where nobody attacks an idle player on the ball.
         assert!(still >= 20, "{base}: {still} of 40 stood still for 30 s");
     }
@@ -92,7 +104,11 @@ fn every_scenario_plays_to_its_end() {
         for agent in [Agent::Random, Agent::Bot] {
             let summary = play(&entry.name, agent, 2);
             for episode in summary.episodes.iter().flatten() {
-                assert!(episode.returns.iter().all(|paid| paid.is_finite()) && episode.length > 0, "{}", entry.name);
+                assert!(
+                    episode.returns.iter().all(|paid| paid.is_finite()) && episode.length > 0,
+                    "{}",
+                    entry.name
+                );
             }
         }
     }
@@ -107,7 +123,8 @@ fn who_lost_the_ball_is_known() {
     }";
     let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
     let environment = EnvironmentOptions::default();
-    let options = RunOptions { episodes: 0..2, seed: 1, agent: Agent::Bot, threads: 2, environment };
+    let options =
+        RunOptions { episodes: 0..2, seed: 1, agent: Agent::Bot, threads: 2, environment };
     let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
     let term = |name: &str| summary.terms.iter().position(|(term, _)| term == name).unwrap();
     for episode in summary.episodes.iter().flatten() {
@@ -127,8 +144,14 @@ fn checkpoints_pay_at_most_one_and_the_rest_with_the_first_goal() {
     };
     let summary = play_with("academy_empty_goal", Agent::RunAndShoot, 40, options.clone());
     for episode in summary.episodes.iter().flatten() {
-        let term =
-            |name: &str| summary.terms.iter().position(|(term, _)| term == name).map(|i| episode.terms[0][i]).unwrap();
+        let term = |name: &str| {
+            summary
+                .terms
+                .iter()
+                .position(|(term, _)| term == name)
+                .map(|i| episode.terms[0][i])
+                .unwrap()
+        };
         let checkpoints = term("checkpoints/carried") + term("checkpoints/goal");
         // Tenths, except for the rounding of sums.
         assert!((checkpoints * 10.0 - (checkpoints * 10.0).round()).abs() < 1e-9, "{checkpoints}");
@@ -139,8 +162,12 @@ fn checkpoints_pay_at_most_one_and_the_rest_with_the_first_goal() {
         }
     }
     let random = play_with("11_vs_11_easy_stochastic", Agent::Bot, 1, options);
-    let carried: f64 =
-        random.terms.iter().filter(|(name, _)| name.starts_with("checkpoints")).map(|(_, mean)| mean).sum();
+    let carried: f64 = random
+        .terms
+        .iter()
+        .filter(|(name, _)| name.starts_with("checkpoints"))
+        .map(|(_, mean)| mean)
+        .sum();
     assert!((0.0..=1.0 + 1e-9).contains(&carried), "{carried}");
 }
 
@@ -148,8 +175,11 @@ fn checkpoints_pay_at_most_one_and_the_rest_with_the_first_goal() {
 fn the_difficulty_is_felt() {
     let goals = |difficulty: f64| {
         let loaded = setpiece::load("11_vs_11_stochastic").unwrap();
-        let bindings = setpiece::bind(&loaded.scenario, [("difficulty", difficulty.to_string().as_str())]).unwrap();
-        let options = EnvironmentOptions { bindings: Some(bindings), ..EnvironmentOptions::default() };
+        let bindings =
+            setpiece::bind(&loaded.scenario, [("difficulty", difficulty.to_string().as_str())])
+                .unwrap();
+        let options =
+            EnvironmentOptions { bindings: Some(bindings), ..EnvironmentOptions::default() };
         let [left, right] = play_with("11_vs_11_stochastic", Agent::Bot, 10, options).score;
         left - right
     };
@@ -158,7 +188,8 @@ fn the_difficulty_is_felt() {
 
 #[test]
 fn full_physics_plays_the_same_kind_of_match() {
-    let options = EnvironmentOptions { physics: Some(Physics::Full), ..EnvironmentOptions::default() };
+    let options =
+        EnvironmentOptions { physics: Some(Physics::Full), ..EnvironmentOptions::default() };
     let summary = play_with("academy_empty_goal_close", Agent::RunAndShoot, 40, options);
     assert!(summary.success_rate >= 0.95, "{:?}", summary.outcomes);
 }

@@ -1,6 +1,11 @@
 //! The game under an agent's control: how kicks, touches and duels come out if a key is pressed in
 //! every step.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use glam::Vec2;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -17,17 +22,27 @@ fn library(name: &str) -> Environment {
 
 fn written(body: &str) -> Environment {
     let text = format!("scenario hands {{ rules {{ offside: off }} {body} end limit 60 steps }}");
-    let scenario = setpiece::compile_text(&text, "<hands>").unwrap_or_else(|error| panic!("{error}")).scenario;
+    let scenario =
+        setpiece::compile_text(&text, "<hands>").unwrap_or_else(|error| panic!("{error}")).scenario;
     Environment::new(scenario, EnvironmentOptions::default()).unwrap()
 }
 
 /// The matches after each of an episode's first 40 steps; `key` is the action of a step.
-fn played(environment: &mut Environment, episode: u64, key: impl Fn(usize) -> Action) -> Vec<Match> {
+fn played(
+    environment: &mut Environment,
+    episode: u64,
+    key: impl Fn(usize) -> Action,
+) -> Vec<Match> {
     played_for(40, environment, episode, key)
 }
 
 /// The same for this many steps.
-fn played_for(steps: usize, environment: &mut Environment, episode: u64, key: impl Fn(usize) -> Action) -> Vec<Match> {
+fn played_for(
+    steps: usize,
+    environment: &mut Environment,
+    episode: u64,
+    key: impl Fn(usize) -> Action,
+) -> Vec<Match> {
     let mut scratch = Scratch::default();
     environment.reset(Some(1), Some(episode)).unwrap();
     let mut matches = Vec::new();
@@ -44,7 +59,7 @@ fn kicked_at(matches: &[Match], from: usize) -> Option<usize> {
 }
 
 #[test]
-fn the_ball_of_a_start_is_pushed_off_at_once_from_close_by_and_else_touched_when_chance_will_have_it() {
+fn the_ball_of_a_start_is_pushed_off_at_once_from_close_by_and_else_at_a_moment_of_chance() {
     let first_touch = |scenario: &str, key: Action| -> Vec<usize> {
         let mut environment = library(scenario);
         let step = |episode| {
@@ -62,11 +77,29 @@ fn the_ball_of_a_start_is_pushed_off_at_once_from_close_by_and_else_touched_when
 }
 
 #[test]
+fn whoever_presses_a_shot_in_every_step_shoots_from_where_the_ball_lies() {
+    let mut environment = library("academy_empty_goal_close");
+    for episode in 0..20 {
+        let matches = played(&mut environment, episode, |_| Action::Shot);
+        let struck =
+            kicked_at(&matches, 0).unwrap_or_else(|| panic!("no shot in episode {episode}"));
+        assert!((7..=10).contains(&struck), "struck in step {struck}");
+        assert!(
+            matches[..struck].iter().all(|game| game.ball.pos.x < 42.5),
+            "episode {episode}: the ball was pushed off"
+        );
+        assert_eq!(environment.state().score, [1, 0], "episode {episode}");
+    }
+}
+
+#[test]
 fn a_kick_waits_until_the_turn_with_the_ball_is_played_out() {
     let mut environment = library("academy_pass_and_shoot_with_keeper");
     let mut leaves = |press: usize| -> Vec<usize> {
         let key = |step| if step == press { Action::HighPass } else { Action::Right };
-        (0..12).filter_map(|episode| kicked_at(&played(&mut environment, episode, key), press)).collect()
+        (0..12)
+            .filter_map(|episode| kicked_at(&played(&mut environment, episode, key), press))
+            .collect()
     };
     // Before the player reaches the ball, the kick is their first touch. After a touch that turns
     // their run it comes later.
@@ -142,7 +175,12 @@ fn a_defender_plants_their_feet_for_a_dribbler() {
         let gap = |game: &Match| game.players[12].pos.distance(game.ball.pos.truncate());
         let Some(meets) = matches.iter().position(|game| gap(game) < 1.0) else { continue };
         let defender = &matches[meets].players[12];
-        speeds.push(defender.vel.dot((matches[meets].ball.pos.truncate() - defender.pos).normalize_or(Vec2::X)).abs());
+        speeds.push(
+            defender
+                .vel
+                .dot((matches[meets].ball.pos.truncate() - defender.pos).normalize_or(Vec2::X))
+                .abs(),
+        );
     }
     speeds.sort_by(f32::total_cmp);
     assert!(speeds.len() > 15 && speeds[speeds.len() / 2] < 2.0, "{speeds:?}");
@@ -152,7 +190,9 @@ fn a_defender_plants_their_feet_for_a_dribbler() {
 fn a_defender_stops_for_a_ball_that_rolls_up() {
     let mut environment = met(0.6);
     let stops = |episode: &u64| {
-        let matches = played(&mut environment, *episode, |step| if step == 1 { Action::Sprint } else { Action::Right });
+        let matches = played(&mut environment, *episode, |step| {
+            if step == 1 { Action::Sprint } else { Action::Right }
+        });
         matches.iter().any(|game| game.players[12].body.lunge.is_some_and(|lunge| lunge.stops))
     };
     let stopped = (0..20).filter(stops).count();
@@ -163,8 +203,9 @@ fn a_defender_stops_for_a_ball_that_rolls_up() {
 fn a_sprinter_gets_past_a_keeper_who_comes_out_and_is_often_stopped_by_them() {
     let mut environment = library("academy_run_to_score_with_keeper");
     let passes = |episode: &u64| {
-        let matches =
-            played_for(90, &mut environment, *episode, |step| if step == 1 { Action::Sprint } else { Action::Right });
+        let matches = played_for(90, &mut environment, *episode, |step| {
+            if step == 1 { Action::Sprint } else { Action::Right }
+        });
         matches.iter().any(|game| game.players[1].pos.x > 35.0 && game.owner == Some(PlayerId(1)))
     };
     let past = (0..40).filter(passes).count();
@@ -211,7 +252,9 @@ fn players_set_off_from_a_start_when_chance_will_have_it() {
         matches[4].players[1].pos.distance(matches[0].players[1].pos)
     };
     let ways: Vec<f32> = (0..40).map(&mut way).collect();
-    let (least, most) = ways.iter().fold((f32::MAX, 0.0f32), |(least, most), way| (least.min(*way), most.max(*way)));
+    let (least, most) = ways
+        .iter()
+        .fold((f32::MAX, 0.0f32), |(least, most), way| (least.min(*way), most.max(*way)));
     assert!(least < 0.7 && most > 1.0, "{least} to {most}");
 }
 
@@ -223,10 +266,15 @@ fn a_ball_struck_at_a_body_springs_off_it() {
         agents { left: 1 }
         team right { GK at (1, 0) { ai: lazy }  CB at (0.57, 0) { ai: lazy } }",
     );
-    let springs = |episode: &u64| {
-        let matches = played(&mut environment, *episode, |step| if step == 3 { Action::Shot } else { Action::Idle });
-        matches.iter().any(|game| game.ball.vel.x < -2.0 && game.last_touch.is_some_and(|id| id.0 == 12))
-    };
+    let springs =
+        |episode: &u64| {
+            let matches = played(&mut environment, *episode, |step| {
+                if step == 3 { Action::Shot } else { Action::Idle }
+            });
+            matches
+                .iter()
+                .any(|game| game.ball.vel.x < -2.0 && game.last_touch.is_some_and(|id| id.0 == 12))
+        };
     let sprung = (0..20).filter(springs).count();
     assert!(sprung > 12, "{sprung} of 20");
 }
@@ -234,14 +282,17 @@ fn a_ball_struck_at_a_body_springs_off_it() {
 /// How far ahead of its runner the ball gets in a straight run with opponents in lines at `beside`,
 /// metres.
 fn runs_ahead(beside: &str) -> f32 {
-    let line: String = (0..8).map(|i| format!("CB at ({}, {beside}) {{ ai: lazy }} ", 0.03 * f64::from(i))).collect();
+    let line: String = (0..8)
+        .map(|i| format!("CB at ({}, {beside}) {{ ai: lazy }} ", 0.03 * f64::from(i)))
+        .collect();
     let mut environment = written(&format!(
         "ball at (-0.18, 0)
         team left {{ GK at (-1, 0)  CM at (-0.2, 0) }}
         agents {{ left: 1 }}
         team right {{ GK at (1, 0) {{ ai: lazy }}  {line} }}",
     ));
-    let matches = played(&mut environment, 1, |step| if step == 1 { Action::Sprint } else { Action::Right });
+    let matches =
+        played(&mut environment, 1, |step| if step == 1 { Action::Sprint } else { Action::Right });
     let ahead = |game: &Match| game.ball.pos.truncate().distance(game.players[1].pos);
     matches.iter().skip(20).map(ahead).fold(0.0, f32::max)
 }
@@ -255,7 +306,8 @@ fn an_opponent_close_by_makes_a_dribbler_push_the_ball_further() {
 #[test]
 fn the_swing_of_a_shot_brakes_the_runner() {
     let mut environment = library("academy_empty_goal");
-    let matches = played(&mut environment, 1, |step| if step == 12 { Action::Shot } else { Action::Right });
+    let matches =
+        played(&mut environment, 1, |step| if step == 12 { Action::Shot } else { Action::Right });
     let pace = |step: usize| matches[step].players[1].vel.length();
     let leaves = kicked_at(&matches, 12).unwrap();
     assert!(pace(11) > 4.8, "{}", pace(11));
@@ -268,8 +320,9 @@ fn a_shot_scatters_more_for_whoever_only_sets_off() {
     let mut environment = library("academy_empty_goal");
     let mut scatter = |press: usize| {
         let direction = |episode: u64| {
-            let matches =
-                played(&mut environment, episode, |step| if step == press { Action::Shot } else { Action::Right });
+            let matches = played(&mut environment, episode, |step| {
+                if step == press { Action::Shot } else { Action::Right }
+            });
             let velocity = matches[kicked_at(&matches, press)?].ball.vel;
             Some((velocity.y / velocity.x).atan())
         };

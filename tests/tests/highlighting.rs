@@ -1,7 +1,12 @@
 //! The editors' grammars agree with the pest grammar. `grammar/setpiece.tmLanguage.json` is run as
 //! in an editor over every text of the repository, and the word lists of
 //! `grammar/tree-sitter/grammar.js` are compared.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use pest::Parser;
 use regex::bytes::{Regex, RegexBuilder};
@@ -38,8 +43,11 @@ impl Pattern {
         let mut at = from;
         loop {
             let end = self.end.as_ref()?.find_at(line, at)?;
-            let over =
-                self.inner.iter().filter_map(|inner| inner.find_at(line, at)).min_by_key(regex::bytes::Match::start);
+            let over = self
+                .inner
+                .iter()
+                .filter_map(|inner| inner.find_at(line, at))
+                .min_by_key(regex::bytes::Match::start);
             match over.filter(|over| over.start() < end.start()) {
                 Some(over) => at = over.end(),
                 None => return Some(end.end()),
@@ -64,7 +72,9 @@ fn patterns(grammar: &Value, list: &Value, into: &mut Vec<Pattern>) {
         into.push(Pattern {
             begin: regex(entry["match"].as_str().or(entry["begin"].as_str()).unwrap()),
             scope: entry["name"].as_str().unwrap_or_default().to_owned(),
-            groups: groups.map(|(n, group)| (n.parse().unwrap(), group["name"].as_str().unwrap().to_owned())).collect(),
+            groups: groups
+                .map(|(n, group)| (n.parse().unwrap(), group["name"].as_str().unwrap().to_owned()))
+                .collect(),
             end: entry["end"].as_str().map(regex),
             inner: entry["patterns"]
                 .as_array()
@@ -81,7 +91,8 @@ struct Highlighter(Vec<Pattern>);
 
 impl Highlighter {
     fn new() -> Highlighter {
-        let grammar: Value = serde_json::from_str(&read("grammar/setpiece.tmLanguage.json")).unwrap();
+        let grammar: Value =
+            serde_json::from_str(&read("grammar/setpiece.tmLanguage.json")).unwrap();
         let mut all = Vec::new();
         patterns(&grammar, &grammar["patterns"], &mut all);
         assert!(all.len() > 15);
@@ -110,7 +121,9 @@ impl Highlighter {
                 let first = |(index, pattern): (usize, &Pattern)| {
                     pattern.begin.find_at(bytes, at).map(|found| (found.start(), index))
                 };
-                let Some((_, index)) = self.0.iter().enumerate().filter_map(first).min() else { break };
+                let Some((_, index)) = self.0.iter().enumerate().filter_map(first).min() else {
+                    break;
+                };
                 let pattern = &self.0[index];
                 let found = pattern.begin.captures_at(bytes, at).unwrap();
                 let whole = found.get(0).unwrap();
@@ -197,18 +210,27 @@ fn every_token_that_pest_sees_is_highlighted_as_what_it_is() {
                 last = last.max(range.end);
                 continue;
             }
-            let Some(wanted) = wanted(rule, token.as_str()).filter(|_| range.start >= last) else { continue };
+            let Some(wanted) = wanted(rule, token.as_str()).filter(|_| range.start >= last) else {
+                continue;
+            };
             let bytes = text[range.clone()].bytes().zip(&scopes[range.clone()]);
             for (_, found) in bytes.filter(|(byte, _)| !matches!(byte, b'\n' | b'\r')) {
                 let fits = wanted.iter().any(|scope| found.starts_with(scope));
-                assert!(fits, "`{}` ({rule:?}) is `{found}`, not {wanted:?}, in\n{text}", token.as_str());
+                assert!(
+                    fits,
+                    "`{}` ({rule:?}) is `{found}`, not {wanted:?}, in\n{text}",
+                    token.as_str()
+                );
             }
             seen += 1;
             rules.insert(format!("{rule:?}"));
         }
         for comment in comments(&text) {
             let at = comment.start;
-            assert!(scopes[comment].iter().all(|scope| scope.starts_with("comment.")), "{at} in\n{text}");
+            assert!(
+                scopes[comment].iter().all(|scope| scope.starts_with("comment.")),
+                "{at} in\n{text}"
+            );
         }
     }
     assert!(seen > 4000 && rules.len() > 60, "{seen} tokens of {} rules", rules.len());
@@ -251,14 +273,18 @@ fn words_of(rule: &str) -> BTreeSet<String> {
 /// Words between double quotes.
 fn quoted(text: &str) -> BTreeSet<String> {
     let word = regex(r#""([A-Za-z_%/]+)""#);
-    word.captures_iter(text.as_bytes()).map(|found| String::from_utf8(found[1].to_vec()).unwrap()).collect()
+    word.captures_iter(text.as_bytes())
+        .map(|found| String::from_utf8(found[1].to_vec()).unwrap())
+        .collect()
 }
 
 /// Every keyword of the pest grammar.
 fn keywords() -> BTreeSet<String> {
     let pest = read("grammar/src/setpiece.pest");
     let rule = regex(r#"(?m)^kw_\w+\s*=\s*@\{ "(\w+)""#);
-    let words = rule.captures_iter(pest.as_bytes()).map(|found| String::from_utf8(found[1].to_vec()).unwrap());
+    let words = rule
+        .captures_iter(pest.as_bytes())
+        .map(|found| String::from_utf8(found[1].to_vec()).unwrap());
     let mut words: BTreeSet<String> = words.chain(words_of("reserved")).collect();
     for boolean in ["true", "false"] {
         words.remove(boolean);
@@ -299,16 +325,24 @@ fn every_word_of_the_vocabulary_has_its_colour() {
         is(&word, &format!("x: {word}"), 3, "support.type");
     }
     for word in words_of("unit").into_iter().chain(words_of("long_unit")) {
-        let text = if words_of("unit").contains(&word) { format!("12{word}") } else { format!("12 {word}") };
+        let text = if words_of("unit").contains(&word) {
+            format!("12{word}")
+        } else {
+            format!("12 {word}")
+        };
         is(&word, &text, text.len() - 1, "keyword.other.unit");
         is("12", &text, 0, "constant.numeric");
     }
-    assert!(names(Unit::ALL, Unit::name).is_subset(&words_of("unit").union(&words_of("long_unit")).cloned().collect()));
+    assert!(
+        names(Unit::ALL, Unit::name)
+            .is_subset(&words_of("unit").union(&words_of("long_unit")).cloned().collect())
+    );
 }
 
 /// A `const NAME = [ … ]` of the tree-sitter grammar.
 fn list(grammar: &str, name: &str) -> BTreeSet<String> {
-    let start = grammar.find(&format!("const {name} = [")).unwrap_or_else(|| panic!("no list {name}"));
+    let start =
+        grammar.find(&format!("const {name} = [")).unwrap_or_else(|| panic!("no list {name}"));
     quoted(&grammar[start..start + grammar[start..].find("];").unwrap()])
 }
 
@@ -326,7 +360,8 @@ fn the_words_of_the_tree_sitter_grammar_are_those_of_pest() {
         assert_eq!(list(&grammar, name), words_of(rule), "{name}");
     }
     let rules = &grammar[grammar.find("rules: {").unwrap()..];
-    let known: BTreeSet<String> = keywords().into_iter().chain(["true".into(), "false".into()]).collect();
+    let known: BTreeSet<String> =
+        keywords().into_iter().chain(["true".into(), "false".into()]).collect();
     // The names of fields aren't words of the language.
     let mut used = quoted(&rules.replace("field(\"", "field("));
     used.retain(|word| word.bytes().any(|byte| byte.is_ascii_alphabetic()));
@@ -337,8 +372,10 @@ fn the_words_of_the_tree_sitter_grammar_are_those_of_pest() {
 
 #[test]
 fn the_queries_of_tree_sitter_name_what_its_grammar_has() {
-    let (grammar, queries) =
-        (read("grammar/tree-sitter/grammar.js"), read("grammar/tree-sitter/queries/highlights.scm"));
+    let (grammar, queries) = (
+        read("grammar/tree-sitter/grammar.js"),
+        read("grammar/tree-sitter/queries/highlights.scm"),
+    );
     let mut nodes = 0;
     for found in regex(r"\(([a-z][a-z_]+)").captures_iter(queries.as_bytes()) {
         let node = String::from_utf8(found[1].to_vec()).unwrap();

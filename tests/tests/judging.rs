@@ -1,6 +1,11 @@
 //! From `.pitch` to payments: the standard library's rewards compared with Google Research
 //! Football's own rules, and episodes that are the same on any number of threads.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
 use setpiece_dsl::{CompileOptions, compile};
@@ -26,7 +31,9 @@ impl SourceLoader for Library {
         let inner = path.strip_prefix("std/").unwrap_or(path);
         match std::fs::read_to_string(library().join(inner)) {
             Ok(text) => Ok(Source { name: path.to_owned(), text: text.into() }),
-            Err(error) => Err(LoadError { message: error.to_string(), similar: Vec::new(), awaited: None }),
+            Err(error) => {
+                Err(LoadError { message: error.to_string(), similar: Vec::new(), awaited: None })
+            }
         }
     }
 }
@@ -43,7 +50,8 @@ fn stdlib(name: &str) -> Arc<Scenario> {
 
 fn environment(scenario: Arc<Scenario>, rewards: &[&str]) -> Environment {
     let rewards = Some(rewards.iter().map(ToString::to_string).collect());
-    Environment::new(scenario, EnvironmentOptions { rewards, ..EnvironmentOptions::default() }).unwrap()
+    Environment::new(scenario, EnvironmentOptions { rewards, ..EnvironmentOptions::default() })
+        .unwrap()
 }
 
 /// GRF's checkpoint reward by its own rules: `collected` regions, thresholds 0.99 down to 0.19 from
@@ -71,7 +79,8 @@ fn checkpoints_pay_what_grf_pays() {
     // A crowded box for the regions, and an empty goal for the remaining payment of the first goal.
     let scenarios = ["academy/academy_3_vs_1_with_keeper", "academy/academy_empty_goal"];
     let environments = scenarios.map(|name| environment(stdlib(name), &["scoring", "checkpoints"]));
-    for (seed, mut environment) in (0..15).flat_map(|seed| environments.clone().map(|environment| (seed, environment)))
+    for (seed, mut environment) in
+        (0..15).flat_map(|seed| environments.clone().map(|environment| (seed, environment)))
     {
         environment.reset(Some(seed), None).unwrap();
         let (mut collected, mut total) = (0, 0.0);
@@ -80,7 +89,10 @@ fn checkpoints_pay_what_grf_pays() {
             let action = Agent::RunAndShoot.act(environment.state(), 0, &mut stream);
             let result = environment.step(&[action], &mut scratch).unwrap();
             let goal = |team| {
-                environment.events().iter().any(|event| event.kind == EventKind::Goal && event.team == Some(team))
+                environment
+                    .events()
+                    .iter()
+                    .any(|event| event.kind == EventKind::Goal && event.team == Some(team))
             };
             let (scored, conceded) = (goal(Team::Left), goal(Team::Right));
             // The state shows the restart; if play stopped without a goal, the judge saw another
@@ -91,10 +103,15 @@ fn checkpoints_pay_what_grf_pays() {
             let game = environment.state();
             let owns = game.owner.is_some() && game.owner == game.agents[0].player;
             let (x, y) = (f64::from(game.ball.pos.x) / 54.4, f64::from(game.ball.pos.y) / 83.6);
-            let expected = grf_checkpoints(&mut collected, scored, owns.then(|| (x - 1.0).hypot(y)));
+            let expected =
+                grf_checkpoints(&mut collected, scored, owns.then(|| (x - 1.0).hypot(y)));
             let score = f64::from(i8::from(scored) - i8::from(conceded));
             let paid = f64::from(environment.rewards()[0]);
-            assert!((paid - score - expected).abs() < 1e-6, "seed {seed} step {}: {paid}", environment.steps());
+            assert!(
+                (paid - score - expected).abs() < 1e-6,
+                "seed {seed} step {}: {paid}",
+                environment.steps()
+            );
             carried += u32::from(expected > 0.0 && !scored);
             goals += u32::from(scored);
             total += expected;
@@ -133,7 +150,8 @@ fn an_edited_copy_pays_what_it_says() {
 fn bots(text: &str, n: u64) -> (Vec<EpisodeSummary>, Vec<String>) {
     let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
     let environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
-    let episodes = run_episodes(&environment, 1, 0..n, 1, || ReadyMade::new(Agent::Bot), |_| ()).unwrap();
+    let episodes =
+        run_episodes(&environment, 1, 0..n, 1, || ReadyMade::new(Agent::Bot), |_| ()).unwrap();
     (episodes.into_iter().map(Result::unwrap).collect(), environment.term_names().to_vec())
 }
 
@@ -152,10 +170,18 @@ fn a_potential_pays_its_difference_over_an_episode() {
             found.and_then(|(_, value)| value.number()).unwrap()
         };
         let (begin, over, all) = (record("begin"), record("over"), record("all"));
-        assert!((summary.terms[0][0] - (over - begin)).abs() < 1e-6, "{} of {begin}..{over}", summary.terms[0][0]);
+        assert!(
+            (summary.terms[0][0] - (over - begin)).abs() < 1e-6,
+            "{} of {begin}..{over}",
+            summary.terms[0][0]
+        );
         // 0.9 of every state minus every previous state.
         let discounted = 0.9 * all - (all - over + begin);
-        assert!((summary.terms[0][1] - discounted).abs() < 1e-6, "{} of {discounted}", summary.terms[0][1]);
+        assert!(
+            (summary.terms[0][1] - discounted).abs() < 1e-6,
+            "{} of {discounted}",
+            summary.terms[0][1]
+        );
     }
 }
 
@@ -175,8 +201,12 @@ fn agents_judged_together_are_paid_as_if_judged_alone() {
         "if touch by me then 1 else 0",
         "distance(nearest(mates, to: me), ball) / 1m - us.score",
     ];
-    for agents in ["left: 1, right: 0", "left: 3, right: 0", "left: all, right: 0", "left: 0, right: all"] {
-        let mut text = format!("scenario s extends 11_vs_11_stochastic {{ agents {{ {agents} }} end limit 300 steps\n");
+    for agents in
+        ["left: 1, right: 0", "left: 3, right: 0", "left: all, right: 0", "left: 0, right: all"]
+    {
+        let mut text = format!(
+            "scenario s extends 11_vs_11_stochastic {{ agents {{ {agents} }} end limit 300 steps\n"
+        );
         for (index, value) in paid.iter().enumerate() {
             text.push_str(&format!(
                 "reward r{index} {{ give {value} as \"sum\" }}\nrecord m{index} = sum of ({value})\n"
@@ -187,9 +217,12 @@ fn agents_judged_together_are_paid_as_if_judged_alone() {
         for summary in summaries {
             for (index, value) in paid.iter().enumerate() {
                 let term = names.iter().position(|name| *name == format!("r{index}/sum")).unwrap();
-                let (_, recorded) = summary.records.iter().find(|(name, _)| *name == format!("m{index}")).unwrap();
+                let (_, recorded) =
+                    summary.records.iter().find(|(name, _)| *name == format!("m{index}")).unwrap();
                 let alone: Vec<f64> = match recorded {
-                    Recorded::PerAgent(values) => values.iter().map(|value| value.number().unwrap()).collect(),
+                    Recorded::PerAgent(values) => {
+                        values.iter().map(|value| value.number().unwrap()).collect()
+                    }
                     one => vec![one.number().unwrap()],
                 };
                 let together: Vec<f64> = summary.terms.iter().map(|terms| terms[term]).collect();
@@ -211,7 +244,10 @@ fn threads_change_nothing() {
         let one = run(1);
         assert_eq!(one, run(2), "{name}");
         assert!(one.windows(2).any(|pair| pair[0].digest != pair[1].digest), "{name}");
-        assert!(one.iter().all(|summary| summary.length <= 400 && !summary.outcome.is_empty()), "{name}");
+        assert!(
+            one.iter().all(|summary| summary.length <= 400 && !summary.outcome.is_empty()),
+            "{name}"
+        );
     }
 }
 

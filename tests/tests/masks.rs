@@ -1,5 +1,10 @@
 //! A masked action has no effect, and an unmasked one can have one.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::observe::action_mask;
@@ -29,7 +34,8 @@ fn starting(set_piece: &str) -> String {
 /// presses.
 fn after(game: &Match, agent: usize, action: Action, scratch: &mut Scratch) -> Match {
     let mut copy = game.clone();
-    let actions: Vec<Action> = (0..game.agents.len()).map(|i| if i == agent { action } else { Action::Idle }).collect();
+    let actions: Vec<Action> =
+        (0..game.agents.len()).map(|i| if i == agent { action } else { Action::Idle }).collect();
     step::play(&mut copy, &actions, &mut Events::new(), scratch);
     for acting in &mut copy.play.acting {
         *acting = Acting::default();
@@ -53,7 +59,11 @@ fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
         ("goal_kick for choice(left, right)", 8),
     ] {
         let set_piece = name.contains(" for ");
-        let loaded = if set_piece { setpiece::compile_text(&starting(name), "<test>") } else { setpiece::load(name) };
+        let loaded = if set_piece {
+            setpiece::compile_text(&starting(name), "<test>")
+        } else {
+            setpiece::load(name)
+        };
         let scenario = loaded.unwrap_or_else(|error| panic!("{error}")).scenario;
         let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
         environment.reset(Some(seed), None).unwrap();
@@ -74,7 +84,11 @@ fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
                         open[action.index()] += 1;
                         mattered[action.index()] += u32::from(!same);
                     } else {
-                        assert!(same, "{name}, step {}, {:?}: {action:?} is masked", game.step, game.mode);
+                        assert!(
+                            same,
+                            "{name}, step {}, {:?}: {action:?} is masked",
+                            game.step, game.mode
+                        );
                         masked += 1;
                     }
                 }
@@ -83,7 +97,8 @@ fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
             let actions: Vec<Action> = (0..agents)
                 .map(|_| {
                     let bot = stream.below(3) > 0;
-                    let random = Action::from_index(stream.below(Action::FULL_SET as u32) as usize).unwrap();
+                    let random =
+                        Action::from_index(stream.below(Action::FULL_SET as u32) as usize).unwrap();
                     if bot { Action::BuiltinAi } else { random }
                 })
                 .collect();
@@ -92,12 +107,19 @@ fn a_masked_action_changes_nothing_and_an_unmasked_one_can() {
         }
     }
     assert!(masked > 10_000);
-    assert!(modes[GameMode::ThrowIn.index()] > 0 && modes[GameMode::GoalKick.index()] > 0, "{modes:?}");
+    assert!(
+        modes[GameMode::ThrowIn.index()] > 0 && modes[GameMode::GoalKick.index()] > 0,
+        "{modes:?}"
+    );
     // Keys that release themselves have nothing to release.
     let nothing = Action::ALL.iter().filter(|action| action.doc().starts_with("nothing"));
-    assert!(nothing.clone().count() == 6 && nothing.clone().all(|action| open[action.index()] == 0));
+    assert!(
+        nothing.clone().count() == 6 && nothing.clone().all(|action| open[action.index()] == 0)
+    );
     assert!(open[Action::Switch.index()] > 0);
-    for action in Action::ALL.iter().filter(|action| open[action.index()] > 0 && **action != Action::Idle) {
+    for action in
+        Action::ALL.iter().filter(|action| open[action.index()] > 0 && **action != Action::Idle)
+    {
         let (open, mattered) = (open[action.index()], mattered[action.index()]);
         let rarely = *action == Action::BuiltinAi;
         assert!(

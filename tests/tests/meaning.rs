@@ -1,6 +1,11 @@
 //! The meaning of names while a match runs: regions in the reader's frame, and a reward's states in
 //! records.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
 use setpiece_dsl::{CompileOptions, compile};
@@ -33,8 +38,9 @@ fn paid(environment: &mut Environment, steps: usize) -> Vec<f32> {
     environment.reset(Some(1), None).unwrap();
     let n = environment.state().agents.len();
     let mut step = |environment: &mut Environment| {
-        let actions: Vec<_> =
-            (0..n).map(|agent| Agent::RunAndShoot.act(environment.state(), agent, &mut stream)).collect();
+        let actions: Vec<_> = (0..n)
+            .map(|agent| Agent::RunAndShoot.act(environment.state(), agent, &mut stream))
+            .collect();
         environment.step(&actions, &mut scratch).unwrap();
         environment.rewards()[0]
     };
@@ -104,8 +110,14 @@ fn a_record_reads_what_a_reward_remembers() {
     );
     let last = f64::from(*paid(&mut environment, 25).last().unwrap());
     let of_first = |name: &str| {
-        let recorded = environment.records().find(|(known, _)| *known == name).map(|(_, value)| value).unwrap();
-        let Recorded::PerAgent(agents) = recorded else { panic!("`{name}` is one for all: {recorded:?}") };
+        let recorded = environment
+            .records()
+            .find(|(known, _)| *known == name)
+            .map(|(_, value)| value)
+            .unwrap();
+        let Recorded::PerAgent(agents) = recorded else {
+            panic!("`{name}` is one for all: {recorded:?}")
+        };
         assert_eq!(agents.len(), 2);
         let Recorded::Number(Some(number)) = agents[0] else { panic!("{agents:?}") };
         number

@@ -1,5 +1,10 @@
 //! Records, declared observations, mirrors and shuffles, end to end: they show what happened.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
@@ -38,19 +43,23 @@ fn records_say_what_happened() {
     let mut passes = 0.0;
     for index in 0..5 {
         environment.reset(Some(1), Some(index)).unwrap();
-        let (mut completed, mut attempted, mut in_box, mut top, mut xs) = (0.0, 0.0, 0.0, 0.0_f64, Vec::new());
+        let (mut completed, mut attempted, mut in_box, mut top, mut xs) =
+            (0.0, 0.0, 0.0, 0.0_f64, Vec::new());
         while environment.is_running() {
             environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
             for event in environment.events() {
                 let ours = event.kind == EventKind::Pass && event.team == Some(Team::Left);
-                completed += f64::from(u8::from(ours && event.qualifier == Some(Qualifier::Completed)));
-                attempted += f64::from(u8::from(ours && event.qualifier == Some(Qualifier::Attempted)));
+                completed +=
+                    f64::from(u8::from(ours && event.qualifier == Some(Qualifier::Completed)));
+                attempted +=
+                    f64::from(u8::from(ours && event.qualifier == Some(Qualifier::Attempted)));
             }
             // The episode's last step may have been followed by a restart, which records don't see.
             if environment.is_running() {
                 let game = environment.state();
                 let ball = game.ball.pos;
-                in_box += f64::from(u8::from((38.5..=55.0).contains(&ball.x) && ball.y.abs() <= 20.15));
+                in_box +=
+                    f64::from(u8::from((38.5..=55.0).contains(&ball.x) && ball.y.abs() <= 20.15));
                 xs.push(f64::from(ball.x) / 54.4);
                 let me = game.agents[0].player.unwrap();
                 top = top.max(f64::from(game.players[me.index()].vel.length()));
@@ -86,12 +95,22 @@ fn a_run_averages_records_over_its_episodes() {
         environment: EnvironmentOptions::default(),
     };
     let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
-    let mean = |name: &str| summary.records.iter().find(|(known, _)| known == name).map(|(_, mean)| *mean);
+    let mean =
+        |name: &str| summary.records.iter().find(|(known, _)| known == name).map(|(_, mean)| *mean);
     let attempted: f64 = summary
         .episodes
         .iter()
         .flatten()
-        .map(|episode| episode.records.iter().find(|(name, _)| name == "attempted").unwrap().1.number().unwrap())
+        .map(|episode| {
+            episode
+                .records
+                .iter()
+                .find(|(name, _)| name == "attempted")
+                .unwrap()
+                .1
+                .number()
+                .unwrap()
+        })
         .sum();
     assert_eq!(mean("attempted"), Some(attempted / 8.0));
     assert_eq!(mean("path"), None, "a series has no mean");
@@ -138,11 +157,16 @@ fn a_declared_observation_shows_the_state_in_the_own_frame() {
             }
         }",
     );
-    assert_eq!(environment.observed_names(), ["ball.x", "ball.y", "me.x", "me.y", "gap", "far", "dx"]);
+    assert_eq!(
+        environment.observed_names(),
+        ["ball.x", "ball.y", "me.x", "me.y", "gap", "far", "dx"]
+    );
     environment.reset(Some(1), None).unwrap();
     let far = environment.state().ball.pos.y / 83.6;
     let (mut left, mut right) = ([0.0; 7], [0.0; 7]);
-    let near = |found: &[f32; 7], expected: [f32; 7]| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4);
+    let near = |found: &[f32; 7], expected: [f32; 7]| {
+        found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4)
+    };
     environment.observe_vector(0, &mut left).unwrap();
     environment.observe_vector(1, &mut right).unwrap();
     let gap = |x: f32, y: f32| ((x - 0.5) * 54.4).hypot((y - far) * 83.6) / 10.0;
@@ -179,7 +203,8 @@ const PLAIN: &str = "scenario s extends academy {
 #[test]
 fn a_mirror_shows_the_same_start_the_other_way_round() {
     let starts = |mirror: &str| {
-        let mut environment = environment(&PLAIN.replace("agents {", &format!("{mirror} agents {{")));
+        let mut environment =
+            environment(&PLAIN.replace("agents {", &format!("{mirror} agents {{")));
         environment.reset(Some(1), Some(0)).unwrap();
         environment
     };
@@ -193,8 +218,12 @@ fn a_mirror_shows_the_same_start_the_other_way_round() {
     let ball = plain.state().ball;
     assert!(near(flanks.state().ball.pos.truncate(), ball.pos.x, -ball.pos.y));
     assert!(near(ends.state().ball.pos.truncate(), -ball.pos.x, -ball.pos.y));
-    assert!(near(flanks.state().ball.vel.truncate(), 3.0, -4.0) && near(ends.state().ball.vel.truncate(), -3.0, -4.0));
-    let heading = |environment: &Environment, id: usize| environment.state().players[id].heading_rad;
+    assert!(
+        near(flanks.state().ball.vel.truncate(), 3.0, -4.0)
+            && near(ends.state().ball.vel.truncate(), -3.0, -4.0)
+    );
+    let heading =
+        |environment: &Environment, id: usize| environment.state().players[id].heading_rad;
     assert!((heading(&flanks, 0) + heading(&plain, 0)).abs() < 1e-4);
     // A player at the left flank's top is at its bottom: a drawn place follows its region.
     assert!(plain.state().players[2].pos.y < -9.1 && flanks.state().players[2].pos.y > 9.1);

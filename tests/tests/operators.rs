@@ -1,6 +1,11 @@
 //! Every operator has one meaning: constants folded by the compiler and parameters computed in a
 //! match give the same.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use proptest::prelude::*;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
@@ -64,7 +69,8 @@ fn records(body: &str) -> BTreeMap<String, Option<f64>> {
     let root = Source { name: "test.pitch".to_owned(), text: text.into() };
     let outcome = compile(root, &Alone, &CompileOptions::default());
     let scenario = outcome.scenario.unwrap_or_else(|| panic!("{:#?}", outcome.problems));
-    let mut environment = Environment::new(Arc::new(scenario), EnvironmentOptions::default()).unwrap();
+    let mut environment =
+        Environment::new(Arc::new(scenario), EnvironmentOptions::default()).unwrap();
     environment.reset(Some(1), None).unwrap();
     environment.step(&[], &mut Scratch::default()).unwrap();
     let number = |recorded: &Recorded| match recorded {
@@ -92,7 +98,8 @@ fn with(form: &str, a: &str, b: &str) -> String {
 
 /// Each form, folded from constants and run on parameters.
 fn folded_and_run(a: f64, b: f64) -> Vec<(&'static str, Option<f64>, Option<f64>)> {
-    let literal = |value: f64| if value < 0.0 { format!("(-{:?})", -value) } else { format!("{value:?}") };
+    let literal =
+        |value: f64| if value < 0.0 { format!("(-{:?})", -value) } else { format!("{value:?}") };
     let mut body = format!("param p: number = {a:?}\nparam q: number = {b:?}\n");
     for (index, form) in FORMS.iter().enumerate() {
         body.push_str(&format!("record c{index} = {}\n", with(form, &literal(a), &literal(b))));
@@ -131,7 +138,9 @@ fn half_a_turn_is_positive_however_it_is_computed() {
 
 #[test]
 fn whole_numbers_agree() {
-    for (a, b) in [(0.0, 1.0), (1.0, 1.0), (-1.0, 3.0), (7.0, -2.0), (6.0, 3.0), (1.0, 0.1), (2.5, -0.5)] {
+    for (a, b) in
+        [(0.0, 1.0), (1.0, 1.0), (-1.0, 3.0), (7.0, -2.0), (6.0, 3.0), (1.0, 0.1), (2.5, -0.5)]
+    {
         agree(a, b);
     }
 }
@@ -140,7 +149,10 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
     #[test]
-    fn folded_and_run_programs_agree(a in -50.0..50.0_f64, b in prop_oneof![-50.0..-0.01_f64, 0.01..50.0_f64]) {
+    fn folded_and_run_programs_agree(
+        a in -50.0..50.0_f64,
+        b in prop_oneof![-50.0..-0.01_f64, 0.01..50.0_f64],
+    ) {
         agree(a, b);
     }
 }

@@ -1,5 +1,10 @@
 //! Team orders of the `full` action set, and continuous actions: each has its effect.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use glam::Vec2;
 use setpiece::engine::control::continuous;
@@ -9,8 +14,12 @@ use setpiece::engine::state::{Match, PlayerId, Steer};
 use setpiece::scenario::vocabulary::{Action, EventKind, Team};
 
 fn environment(body: &str) -> Environment {
-    let text = format!("scenario orders {{ rules {{ stochastic: off offside: off }} {body} end limit 200 steps }}");
-    let scenario = setpiece::compile_text(&text, "<orders>").unwrap_or_else(|error| panic!("{error}")).scenario;
+    let text = format!(
+        "scenario orders {{ rules {{ stochastic: off offside: off }} {body} end limit 200 steps }}"
+    );
+    let scenario = setpiece::compile_text(&text, "<orders>")
+        .unwrap_or_else(|error| panic!("{error}"))
+        .scenario;
     let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
     environment.reset(Some(1), None).unwrap();
     environment
@@ -44,7 +53,8 @@ const DEFENDING: &str = "ball at (-0.2, 0.2) { owner: runner }
 
 #[test]
 fn a_called_keeper_comes_out_until_called_back() {
-    let (called, not) = (after(DEFENDING, Action::KeeperRush, 30), after(DEFENDING, Action::Idle, 30));
+    let (called, not) =
+        (after(DEFENDING, Action::KeeperRush, 30), after(DEFENDING, Action::Idle, 30));
     assert!(gap(&called, 0) < gap(&not, 0) - 10.0, "{} {}", gap(&called, 0), gap(&not, 0));
     let mut environment = environment(DEFENDING);
     let mut scratch = Scratch::default();
@@ -56,19 +66,29 @@ fn a_called_keeper_comes_out_until_called_back() {
 
 #[test]
 fn pressure_chases_the_ball() {
-    let (chases, stands) = (after(DEFENDING, Action::Pressure, 20), after(DEFENDING, Action::Idle, 20));
+    let (chases, stands) =
+        (after(DEFENDING, Action::Pressure, 20), after(DEFENDING, Action::Idle, 20));
     assert!(gap(&chases, 1) < gap(&stands, 1) - 8.0, "{} {}", gap(&chases, 1), gap(&stands, 1));
 }
 
 #[test]
 fn team_pressure_sends_a_second_man() {
     // The teammates are too far away to hunt without an order.
-    let near = [("anna: CB at (-0.3, -0.3)", "anna: CB at (-0.22, 0.17)"), ("(-0.4, 0.35)", "(-0.8, 0.35)")];
-    let body =
-        near.into_iter().fold(DEFENDING.replace("(-0.5, 0)", "(-0.8, 0)"), |body, (is, so)| body.replace(is, so));
+    let near = [
+        ("anna: CB at (-0.3, -0.3)", "anna: CB at (-0.22, 0.17)"),
+        ("(-0.4, 0.35)", "(-0.8, 0.35)"),
+    ];
+    let body = near
+        .into_iter()
+        .fold(DEFENDING.replace("(-0.5, 0)", "(-0.8, 0)"), |body, (is, so)| body.replace(is, so));
     let nearest_mate = |game: &Match| (2..5).map(|id| gap(game, id)).fold(f32::MAX, f32::min);
     let (two, one) = (after(&body, Action::TeamPressure, 20), after(&body, Action::Idle, 20));
-    assert!(nearest_mate(&two) < nearest_mate(&one) - 1.0, "{} {}", nearest_mate(&two), nearest_mate(&one));
+    assert!(
+        nearest_mate(&two) < nearest_mate(&one) - 1.0,
+        "{} {}",
+        nearest_mate(&two),
+        nearest_mate(&one)
+    );
 }
 
 #[test]
@@ -118,7 +138,9 @@ const ALONE: &str = "ball at (0.9, 0.4)
 #[test]
 fn a_steered_player_runs_at_any_angle_and_pace() {
     let mut scratch = Scratch::default();
-    for (way, pace) in [(Vec2::from_angle(0.4), 1.0), (Vec2::from_angle(-1.1), 0.5), (Vec2::from_angle(2.5), 0.25)] {
+    for (way, pace) in
+        [(Vec2::from_angle(0.4), 1.0), (Vec2::from_angle(-1.1), 0.5), (Vec2::from_angle(2.5), 0.25)]
+    {
         let mut environment = environment(ALONE);
         environment.steer(0, Some(Steer { way: way * pace, power: 0.0 }));
         for _ in 0..40 {
@@ -127,7 +149,11 @@ fn a_steered_player_runs_at_any_angle_and_pace() {
         let player = environment.state().player(PlayerId(1));
         // +y of a direction is down the picture, like the world's y here.
         assert!(player.vel.normalize().dot(way) > 0.99, "{way} at {pace}: {}", player.vel);
-        assert!((player.vel.length() - 8.0 * pace).abs() < 0.9, "{way} at {pace}: {}", player.vel.length());
+        assert!(
+            (player.vel.length() - 8.0 * pace).abs() < 0.9,
+            "{way} at {pace}: {}",
+            player.vel.length()
+        );
     }
 }
 

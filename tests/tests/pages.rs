@@ -1,5 +1,10 @@
 //! The pages of the error codes: every code has one, and its examples are correct.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::Error;
 use setpiece::dsl::problem::{Code, Severity};
@@ -46,9 +51,12 @@ fn report(text: &str) -> String {
 }
 
 fn texts(folder: &Path) -> String {
-    let mut paths: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut paths: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.sort();
-    let text = |path: &PathBuf| if path.is_dir() { texts(path) } else { std::fs::read_to_string(path).unwrap() };
+    let text = |path: &PathBuf| {
+        if path.is_dir() { texts(path) } else { std::fs::read_to_string(path).unwrap() }
+    };
     paths.iter().map(text).collect()
 }
 
@@ -98,7 +106,9 @@ fn codes(text: &str) -> (BTreeSet<String>, bool) {
 
 #[test]
 fn every_code_has_a_page_and_no_page_lacks_a_code() {
-    let files = std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let files = std::fs::read_dir(folder())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let files: BTreeSet<String> = files.collect();
     let wanted: BTreeSet<String> = Code::ALL.iter().map(|code| format!("{code}.md")).collect();
     assert_eq!(files, wanted);
@@ -121,12 +131,18 @@ fn every_broken_text_earns_its_code_and_every_other_one_is_sound() {
             match info.trim().split_once('=') {
                 Some(("error", wanted)) => {
                     assert_eq!(wanted, code.to_string());
-                    assert!(found.contains(wanted), "{code} shows what earns {found:?}:\n{}", block.text);
+                    assert!(
+                        found.contains(wanted),
+                        "{code} shows what earns {found:?}:\n{}",
+                        block.text
+                    );
                     assert_eq!(failed, code.severity() == Severity::Error, "{code}: {found:?}");
                     earned += 1;
                 }
                 // A text that fails only when played.
-                Some(("file", _)) => assert!(found.iter().all(|code| code.starts_with("SP06")), "{code}: {found:?}"),
+                Some(("file", _)) => {
+                    assert!(found.iter().all(|code| code.starts_with("SP06")), "{code}: {found:?}")
+                }
                 _ => assert!(found.is_empty(), "{code} mends into {found:?}:\n{}", block.text),
             }
         }

@@ -1,22 +1,32 @@
 //! A replay plays the episode again, bit for bit, and reports if it can't.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::control::continuous;
-use setpiece::engine::environment::{AgentsChoice, Environment, EnvironmentOptions, Scratch, SideChoice};
+use setpiece::engine::environment::{
+    AgentsChoice, Environment, EnvironmentOptions, Scratch, SideChoice,
+};
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::replay::{Recorder, Replay};
 use setpiece::scenario::Action;
 
 fn environment(name: &str) -> Environment {
     let sides = [SideChoice::Count(2), SideChoice::Count(1)];
-    let options =
-        EnvironmentOptions { agents: Some(AgentsChoice { sides, fixed: None }), ..EnvironmentOptions::default() };
+    let options = EnvironmentOptions {
+        agents: Some(AgentsChoice { sides, fixed: None }),
+        ..EnvironmentOptions::default()
+    };
     Environment::new(setpiece::load(name).unwrap().scenario, options).unwrap()
 }
 
 /// Plays an episode with keys and with numbers, and records it.
 fn played(name: &str, seed: u64, steps: u32) -> (Environment, Recorder, Vec<u64>) {
-    let (mut environment, mut recorder, mut scratch) = (environment(name), Recorder::default(), Scratch::default());
+    let (mut environment, mut recorder, mut scratch) =
+        (environment(name), Recorder::default(), Scratch::default());
     environment.reset(Some(seed), Some(3)).unwrap();
     recorder.begin(None);
     let mut stream = Stream::new(seed, 0, Purpose::Agent);
@@ -42,7 +52,9 @@ fn played(name: &str, seed: u64, steps: u32) -> (Environment, Recorder, Vec<u64>
 
 #[test]
 fn an_episode_is_played_again_bit_for_bit() {
-    for (name, seed) in [("academy_3_vs_1_with_keeper", 1), ("11_vs_11_stochastic", 2), ("academy_corner", 3)] {
+    for (name, seed) in
+        [("academy_3_vs_1_with_keeper", 1), ("11_vs_11_stochastic", 2), ("academy_corner", 3)]
+    {
         let (environment, recorder, digests) = played(name, seed, 300);
         let bytes = Replay::of(&environment, &recorder).unwrap().to_bytes().unwrap();
         let mut again = Vec::new();

@@ -1,6 +1,11 @@
 //! Snapshots: a restored match continues like the original run, from any step of any match; and no
 //! bytes do harm.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use proptest::prelude::*;
 use setpiece::engine::digest;
@@ -150,7 +155,12 @@ fn looking_back() -> [Arc<Scenario>; 2] {
 fn scenarios() -> Vec<Arc<Scenario>> {
     let mut scenarios = vec![compiled(MEMORY), compiled(HALVES), library("11_vs_11_stochastic")];
     scenarios.extend(looking_back());
-    let rest = ["academy_3_vs_1_with_keeper", "academy_corner", "academy_run_to_score_with_keeper", "5_vs_5"];
+    let rest = [
+        "academy_3_vs_1_with_keeper",
+        "academy_corner",
+        "academy_run_to_score_with_keeper",
+        "5_vs_5",
+    ];
     scenarios.extend(rest.map(library));
     scenarios
 }
@@ -205,7 +215,9 @@ fn moments(environment: &Environment) -> Vec<&'static str> {
         (
             "mid-kick",
             bodies().any(|body| {
-                body.kick.is_some_and(|kick| kick.swing.is_some_and(|swing| swing.ready_at > game.tick as i32))
+                body.kick.is_some_and(|kick| {
+                    kick.swing.is_some_and(|swing| swing.ready_at > game.tick as i32)
+                })
             }),
         ),
         ("mid-save", game.play.save.iter().any(Option::is_some)),
@@ -249,7 +261,11 @@ fn a_restored_match_is_the_straight_run() {
                 tail = [1, 1, 2, 4, 12][walk.below(5) as usize];
                 let snapshot = straight.snapshot().unwrap();
                 other.restore(&snapshot).unwrap();
-                assert_eq!(other.snapshot().unwrap(), snapshot, "what is restored is what was taken");
+                assert_eq!(
+                    other.snapshot().unwrap(),
+                    snapshot,
+                    "what is restored is what was taken"
+                );
                 assert_eq!(seen(other), seen(straight));
                 core = core.max(match_bytes(straight.state()).unwrap().len());
                 whole = whole.max(snapshot.len());
@@ -266,7 +282,13 @@ fn a_restored_match_is_the_straight_run() {
             if tail > 0 {
                 tail -= 1;
                 assert_eq!(other.step(&actions, &mut scratch), result);
-                assert_eq!(seen(other), seen(straight), "{} {}", straight.scenario().name, straight.steps());
+                assert_eq!(
+                    seen(other),
+                    seen(straight),
+                    "{} {}",
+                    straight.scenario().name,
+                    straight.steps()
+                );
                 if tail == 0 {
                     assert_eq!(other.snapshot(), straight.snapshot());
                 }
@@ -302,20 +324,28 @@ fn a_copy_in_memory_is_the_straight_run() {
     let mut scratch = Scratch::default();
     // A script that draws through a `ctx` of an earlier step shares that step's numbers with
     // copies.
-    let fresh = compiled(&MEMORY.replace("this.ctx = ctx; ", "").replace(" + this.ctx.random()", ""));
+    let fresh =
+        compiled(&MEMORY.replace("this.ctx = ctx; ", "").replace(" + this.ctx.random()", ""));
     let mut scenarios = vec![fresh];
-    scenarios.extend(["11_vs_11_stochastic", "academy_corner", "academy_run_to_score_with_keeper"].map(library));
+    scenarios.extend(
+        ["11_vs_11_stochastic", "academy_corner", "academy_run_to_score_with_keeper"].map(library),
+    );
     let mut stopped = 0;
     for (k, scenario) in scenarios.iter().enumerate() {
         // The copy is wherever it was left: at first in another episode, or in a different
         // scenario.
-        let (mut straight, mut copy) = (environment(scenario), environment(&scenarios[(k + 1) % scenarios.len()]));
+        let (mut straight, mut copy) =
+            (environment(scenario), environment(&scenarios[(k + 1) % scenarios.len()]));
         for episode in 0..4 {
             straight.reset(Some(9), Some(episode)).unwrap();
             let mut actions = vec![Action::Idle; straight.n_agents()];
             for _ in 0..300 {
                 copy.clone_from(&straight);
-                assert_eq!(copy.snapshot(), straight.snapshot(), "what is copied is what was there");
+                assert_eq!(
+                    copy.snapshot(),
+                    straight.snapshot(),
+                    "what is copied is what was there"
+                );
                 stopped += u32::from(copy.judged_state().dead);
                 if !straight.is_running() {
                     break;
@@ -323,7 +353,13 @@ fn a_copy_in_memory_is_the_straight_run() {
                 choose(&mut walk, &mut actions);
                 let result = straight.step(&actions, &mut scratch);
                 assert_eq!(copy.step(&actions, &mut scratch), result);
-                assert_eq!(seen(&mut copy), seen(&mut straight), "{} {}", scenario.name, straight.steps());
+                assert_eq!(
+                    seen(&mut copy),
+                    seen(&mut straight),
+                    "{} {}",
+                    scenario.name,
+                    straight.steps()
+                );
             }
         }
     }
@@ -407,7 +443,14 @@ enum Change {
 }
 
 fn change() -> impl Strategy<Value = Change> {
-    let floats = prop_oneof![Just(f32::NAN), Just(f32::INFINITY), Just(-9.0e3), Just(9.9e3), Just(0.0), any::<f32>()];
+    let floats = prop_oneof![
+        Just(f32::NAN),
+        Just(f32::INFINITY),
+        Just(-9.0e3),
+        Just(9.9e3),
+        Just(0.0),
+        any::<f32>()
+    ];
     let bytes = prop_oneof![Just(0), Just(255), Just(127), Just(22), any::<u8>()];
     prop_oneof![
         6 => (0.0..1.0, bytes).prop_map(|(at, byte)| Change::Byte(at, byte)),
@@ -448,10 +491,14 @@ fn changed(snapshot: &[u8], changes: &[Change]) -> Vec<u8> {
 
 #[test]
 fn whatever_a_sealed_snapshot_says_does_no_harm() {
-    let worlds: Vec<(Environment, Vec<u8>)> =
-        scenarios().iter().zip(1..).map(|(scenario, seed)| underway(scenario, seed, 30 + 7 * seed as u32)).collect();
+    let worlds: Vec<(Environment, Vec<u8>)> = scenarios()
+        .iter()
+        .zip(1..)
+        .map(|(scenario, seed)| underway(scenario, seed, 30 + 7 * seed as u32))
+        .collect();
     let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(3_000) };
-    proptest!(config, |(which in 0..worlds.len(), changes in proptest::collection::vec(change(), 1..6))| {
+    let changes = proptest::collection::vec(change(), 1..6);
+    proptest!(config, |(which in 0..worlds.len(), changes in changes)| {
         let (environment, snapshot) = &worlds[which];
         harmless(&mut environment.clone(), snapshot, &sealed(changed(snapshot, &changes)));
     });

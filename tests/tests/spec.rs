@@ -12,7 +12,12 @@
 //!
 //! If the span begins in the first columns, `// @COLUMN+WIDTH SP0204: …` replaces the carets.
 //! `SETPIECE_BLESS=1` rewrites the annotations to the compiler's reports.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::Loaded;
 use setpiece::script_api::EngineScripts;
@@ -40,8 +45,13 @@ impl SourceLoader for CaseLoader {
             return Ok(Source { name: name.clone(), text: text.as_str().into() });
         }
         let names: Vec<String> = self.files.iter().map(|(name, _)| name.clone()).collect();
-        let near = setpiece_dsl::problem::nearest(path, names.iter().map(String::as_str)).map(str::to_owned);
-        Err(LoadError { message: format!("no file `{path}`"), similar: near.into_iter().collect(), awaited: None })
+        let near = setpiece_dsl::problem::nearest(path, names.iter().map(String::as_str))
+            .map(str::to_owned);
+        Err(LoadError {
+            message: format!("no file `{path}`"),
+            similar: near.into_iter().collect(),
+            awaited: None,
+        })
     }
 
     fn scenarios(&self) -> Vec<(String, String)> {
@@ -49,7 +59,8 @@ impl SourceLoader for CaseLoader {
         pitch_files(&root().join("stdlib-scenarios"), &mut files);
         let name = |file: &PathBuf| {
             let stem = file.file_stem()?.to_str()?.to_owned();
-            let inner = file.strip_prefix(root().join("stdlib-scenarios")).ok()?.to_str()?.to_owned();
+            let inner =
+                file.strip_prefix(root().join("stdlib-scenarios")).ok()?.to_str()?.to_owned();
             inner.contains('/').then(|| (stem, format!("std/{inner}")))
         };
         files.iter().filter_map(name).collect()
@@ -69,7 +80,8 @@ fn root() -> PathBuf {
 
 fn pitch_files(folder: &Path, into: &mut Vec<PathBuf>) {
     let Ok(entries) = fs::read_dir(folder) else { return };
-    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
+    let mut paths: Vec<PathBuf> =
+        entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
     paths.sort();
     for path in paths {
         if path.is_dir() {
@@ -86,7 +98,11 @@ fn split(text: &str) -> (String, Vec<Case>) {
     for line in text.lines() {
         if let Some(header) = line.strip_prefix("--- ") {
             let name = header.split_whitespace().next().unwrap_or_default().to_owned();
-            cases.push(Case { header: header.to_owned(), name, files: vec![("case.pitch".to_owned(), String::new())] });
+            cases.push(Case {
+                header: header.to_owned(),
+                name,
+                files: vec![("case.pitch".to_owned(), String::new())],
+            });
         } else if let (Some(path), Some(case)) = (line.strip_prefix("+++ "), cases.last_mut()) {
             case.files.push((path.trim().to_owned(), String::new()));
         } else {
@@ -112,7 +128,9 @@ fn is_annotation(line: &str) -> bool {
 
 /// The text of a file without its annotations.
 fn bare(text: &str) -> String {
-    text.lines().filter(|line| !is_annotation(line)).fold(String::new(), |all, line| all + line + "\n")
+    text.lines()
+        .filter(|line| !is_annotation(line))
+        .fold(String::new(), |all, line| all + line + "\n")
 }
 
 /// The text of a file with the problems annotated below their lines.
@@ -132,8 +150,13 @@ fn annotated(text: &str, problems: &[(usize, usize, &Problem)]) -> String {
             if !here {
                 continue;
             }
-            let column = line.get(..(*start - offset).min(line.len())).map_or(0, |head| head.chars().count());
-            let shown = line.get((*start - offset).min(line.len())..(*stop).clamp(*start, end).saturating_sub(offset));
+            let column = line
+                .get(..(*start - offset).min(line.len()))
+                .map_or(0, |head| head.chars().count());
+            let shown = line.get(
+                (*start - offset).min(line.len())
+                    ..(*stop).clamp(*start, end).saturating_sub(offset),
+            );
             let width = shown.map_or(1, |text| text.chars().count()).max(1);
             let place = if column < 3 {
                 format!("// @{column}+{width}")
@@ -153,10 +176,12 @@ fn annotated(text: &str, problems: &[(usize, usize, &Problem)]) -> String {
 
 /// Compiles a case, with the engine's check of its scripts; `probe` adds the dry run.
 fn run(case: &Case, probe: bool) -> CompileOutcome {
-    let bare: Vec<(String, String)> = case.files.iter().map(|(name, text)| (name.clone(), bare(text))).collect();
+    let bare: Vec<(String, String)> =
+        case.files.iter().map(|(name, text)| (name.clone(), bare(text))).collect();
     let (name, text) = bare[0].clone();
     let options = CompileOptions { scripts: Some(&EngineScripts), ..CompileOptions::default() };
-    let mut outcome = compile(Source { name, text: text.into() }, &CaseLoader { files: bare }, &options);
+    let mut outcome =
+        compile(Source { name, text: text.into() }, &CaseLoader { files: bare }, &options);
     if let (true, Some(scenario)) = (probe, &outcome.scenario) {
         let loaded = Loaded {
             scenario: Arc::new(scenario.clone()),
@@ -211,20 +236,37 @@ fn every_case_of_the_specification_holds() {
         for case in cases {
             n += 1;
             let kind = case.header.split_whitespace().nth(1).unwrap_or_default();
-            assert!(matches!(kind, "check" | "probe"), "{}: `{}` is no kind of case", path.display(), case.header);
+            assert!(
+                matches!(kind, "check" | "probe"),
+                "{}: `{}` is no kind of case",
+                path.display(),
+                case.header
+            );
             let outcome = run(&case, kind == "probe");
             // The dry run may find an error in a scenario that compiles.
-            let compiles = !outcome.problems.iter().any(|p| p.severity() == setpiece_dsl::problem::Severity::Error);
-            assert!(kind == "probe" || outcome.scenario.is_some() == compiles, "{}: {}", path.display(), case.name);
-            let written: String =
-                std::iter::once(format!("--- {}\n", case.header))
-                    .chain(case.files.iter().enumerate().map(|(index, (name, text))| {
-                        if index == 0 { text.clone() } else { format!("+++ {name}\n{text}") }
-                    }))
-                    .collect();
+            let compiles = !outcome
+                .problems
+                .iter()
+                .any(|p| p.severity() == setpiece_dsl::problem::Severity::Error);
+            assert!(
+                kind == "probe" || outcome.scenario.is_some() == compiles,
+                "{}: {}",
+                path.display(),
+                case.name
+            );
+            let written: String = std::iter::once(format!("--- {}\n", case.header))
+                .chain(case.files.iter().enumerate().map(|(index, (name, text))| {
+                    if index == 0 { text.clone() } else { format!("+++ {name}\n{text}") }
+                }))
+                .collect();
             let wanted = expected(&case, &outcome);
             if written != wanted {
-                faults.push(format!("{} {}\n{}", path.display(), case.name, difference(&written, &wanted)));
+                faults.push(format!(
+                    "{} {}\n{}",
+                    path.display(),
+                    case.name,
+                    difference(&written, &wanted)
+                ));
             }
             blessed.push_str(&wanted);
         }
@@ -232,14 +274,26 @@ fn every_case_of_the_specification_holds() {
             fs::write(&path, blessed).expect("a writable file");
         }
     }
-    assert!(bless || faults.is_empty(), "{} of {n} cases differ:\n\n{}", faults.len(), faults.join("\n\n"));
+    assert!(
+        bless || faults.is_empty(),
+        "{} of {n} cases differ:\n\n{}",
+        faults.len(),
+        faults.join("\n\n")
+    );
 }
 
 /// Lines that only one of two texts has.
 fn difference(written: &str, found: &str) -> String {
-    let (written, found): (Vec<&str>, Vec<&str>) = (written.lines().collect(), found.lines().collect());
-    let missing = written.iter().filter(|line| !found.contains(line)).map(|line| format!("  annotated: {line}"));
-    let surplus = found.iter().filter(|line| !written.contains(line)).map(|line| format!("  found:     {line}"));
+    let (written, found): (Vec<&str>, Vec<&str>) =
+        (written.lines().collect(), found.lines().collect());
+    let missing = written
+        .iter()
+        .filter(|line| !found.contains(line))
+        .map(|line| format!("  annotated: {line}"));
+    let surplus = found
+        .iter()
+        .filter(|line| !written.contains(line))
+        .map(|line| format!("  found:     {line}"));
     missing.chain(surplus).collect::<Vec<_>>().join("\n")
 }
 
@@ -272,5 +326,8 @@ fn the_standard_library_compiles_without_a_word() {
             n += 1;
         }
     }
-    assert_eq!(n, 35, "eleven Academy scenarios, seven benchmarks and seventeen of GRF's tests and examples");
+    assert_eq!(
+        n, 35,
+        "eleven Academy scenarios, seven benchmarks and seventeen of GRF's tests and examples"
+    );
 }

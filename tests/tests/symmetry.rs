@@ -1,6 +1,11 @@
 //! With chance off, a match turned by 180° and played with turned actions is exactly the turned
 //! match.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::random::{Purpose, Stream};
@@ -62,9 +67,15 @@ fn same(there: &Match, back: &Match) -> Result<(), String> {
             && a.fatigue == b.fatigue
             && a.yellow_cards == b.yellow_cards
             && c.facing == -d.facing
-            && (c.pose, c.pose_ticks, c.ready_at, c.touched_at) == (d.pose, d.pose_ticks, d.ready_at, d.touched_at)
+            && (c.pose, c.pose_ticks, c.ready_at, c.touched_at)
+                == (d.pose, d.pose_ticks, d.ready_at, d.touched_at)
             && c.kick.map(|plan| {
-                (plan.kind, plan.mate, plan.gauge_ticks, plan.swing.map(|swing| (swing.ready_at, swing.mate)))
+                (
+                    plan.kind,
+                    plan.mate,
+                    plan.gauge_ticks,
+                    plan.swing.map(|swing| (swing.ready_at, swing.mate)),
+                )
             }) == d.kick.map(|plan| {
                 (
                     plan.kind,
@@ -79,7 +90,11 @@ fn same(there: &Match, back: &Match) -> Result<(), String> {
     check("last touch", there.last_touch == back.last_touch.map(other))?;
     check("possession", there.possession == back.possession.map(Team::other))?;
     check("score", there.score == [back.score[1], back.score[0]])?;
-    check("mode", (there.mode, there.dead, there.tick, there.step) == (back.mode, back.dead, back.tick, back.step))
+    check(
+        "mode",
+        (there.mode, there.dead, there.tick, there.step)
+            == (back.mode, back.dead, back.tick, back.step),
+    )
 }
 
 /// The kinds of events with their players.
@@ -100,7 +115,8 @@ fn play(start: &Drawn, seed: u64, steps: u32, seen: &mut Vec<EventKind>) {
     for step in 0..steps {
         let action = |stream: &mut Stream| Action::from_index(stream.below(20) as usize).unwrap();
         let actions: Vec<Action> = (0..n).map(|_| action(&mut stream)).collect();
-        let swapped: Vec<Action> = actions[left..].iter().chain(&actions[..left]).copied().collect();
+        let swapped: Vec<Action> =
+            actions[left..].iter().chain(&actions[..left]).copied().collect();
         events.clear();
         turned_events.clear();
         step::play(&mut there, &actions, &mut events, &mut scratch);
@@ -148,13 +164,17 @@ const ACADEMY: &str = "scenario turned extends NAME {
 #[test]
 fn a_turned_match_is_the_turned_match() {
     use EventKind::{
-        Corner, Foul, FreeKick, Goal, GoalKick, Header, Offside, Pass, Save, Shot, Slide, Tackle, ThrowIn,
+        Corner, Foul, FreeKick, Goal, GoalKick, Header, Offside, Pass, Save, Shot, Slide, Tackle,
+        ThrowIn,
     };
     let mut seen = Vec::new();
     for (seed, start) in starts(SCRAMBLE, 80).iter().enumerate() {
         play(start, seed as u64, 300, &mut seen);
     }
-    for kind in [Corner, Foul, FreeKick, Goal, GoalKick, Header, Offside, Pass, Save, Shot, Slide, Tackle, ThrowIn] {
+    for kind in [
+        Corner, Foul, FreeKick, Goal, GoalKick, Header, Offside, Pass, Save, Shot, Slide, Tackle,
+        ThrowIn,
+    ] {
         assert!(seen.contains(&kind), "no {kind} was played");
     }
 }

@@ -1,6 +1,11 @@
 //! Texts for readers: every `.pitch` example in them compiles without a problem, and the examples
 //! can be played.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use std::path::{Path, PathBuf};
 
@@ -44,7 +49,8 @@ fn every_example_of_the_pages_compiles() {
         let blocks = blocks(&text);
         assert!(blocks.len() >= least, "{page} has {} examples", blocks.len());
         for block in blocks {
-            let loaded = setpiece::compile_text(&block, page).unwrap_or_else(|error| panic!("{}", reports(&error)));
+            let loaded = setpiece::compile_text(&block, page)
+                .unwrap_or_else(|error| panic!("{}", reports(&error)));
             assert!(loaded.warnings.is_empty(), "{page}: {:?}\n{block}", loaded.warnings);
         }
     }
@@ -61,11 +67,20 @@ fn every_example_of_the_reference_is_sound() {
         for block in blocks(&std::fs::read_to_string(&page).unwrap()) {
             let path = dir.path().join("page.pitch");
             std::fs::write(&path, &block).unwrap();
-            let found = setpiece::check(path.to_str().unwrap()).unwrap_or_else(|error| panic!("{}", reports(&error)));
+            let found = setpiece::check(path.to_str().unwrap())
+                .unwrap_or_else(|error| panic!("{}", reports(&error)));
             assert!(found.problems.is_empty(), "{}: {:?}\n{block}", page.display(), found.problems);
-            let source = setpiece::dsl::source::Source { name: "page.pitch".to_owned(), text: block.as_str().into() };
+            let source = setpiece::dsl::source::Source {
+                name: "page.pitch".to_owned(),
+                text: block.as_str().into(),
+            };
             let laid_out = setpiece::dsl::format::format(&source).unwrap();
-            assert_eq!(*laid_out, *block, "{} is not laid out as `setpiece fmt` does", page.display());
+            assert_eq!(
+                *laid_out,
+                *block,
+                "{} is not laid out as `setpiece fmt` does",
+                page.display()
+            );
             seen += 1;
         }
     }
@@ -78,7 +93,8 @@ fn every_example_file_compiles_without_a_warning() {
     for entry in std::fs::read_dir(root().join("examples")).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|ending| ending == "pitch") {
-            let loaded = setpiece::load_file(&path).unwrap_or_else(|error| panic!("{}", reports(&error)));
+            let loaded =
+                setpiece::load_file(&path).unwrap_or_else(|error| panic!("{}", reports(&error)));
             assert!(loaded.warnings.is_empty(), "{}: {:?}", path.display(), loaded.warnings);
             seen += 1;
         }
@@ -96,7 +112,11 @@ fn every_scenario_of_the_library_compiles_without_a_warning_and_has_both_difficu
         assert_eq!(loaded.scenario.name, entry.name);
         assert!(!entry.title.is_empty(), "{}", entry.name);
         for param in ["difficulty", "left_difficulty"] {
-            assert!(loaded.scenario.params.iter().any(|p| p.name == param), "{} has no `{param}`", entry.name);
+            assert!(
+                loaded.scenario.params.iter().any(|p| p.name == param),
+                "{} has no `{param}`",
+                entry.name
+            );
         }
         setpiece::scenario::verify::verify(&loaded.scenario).unwrap();
         let text = setpiece::scenario::file::to_json(&loaded.scenario).unwrap();

@@ -11,10 +11,14 @@ pub(crate) fn ci() -> Result<(), String> {
     if has_deny() {
         deny()?;
     } else {
-        println!("deny: left out, cargo-deny is not installed: `cargo install cargo-deny --locked` brings it");
+        println!(
+            "deny: left out, cargo-deny is not installed: `cargo install cargo-deny --locked` brings it"
+        );
     }
     rust_tests()?;
-    run(Command::new("cargo").args(["doc", "--workspace", "--no-deps", "--quiet"]).env("RUSTDOCFLAGS", "-D warnings"))?;
+    run(Command::new("cargo")
+        .args(["doc", "--workspace", "--no-deps", "--quiet"])
+        .env("RUSTDOCFLAGS", "-D warnings"))?;
     python()
 }
 
@@ -23,13 +27,18 @@ pub(crate) fn ci() -> Result<(), String> {
 /// Advisories are left out, with a word, where their database can't be fetched.
 pub(crate) fn deny() -> Result<(), String> {
     if !has_deny() {
-        return Err("cargo-deny is not installed: `cargo install cargo-deny --locked` brings it".to_owned());
+        return Err(
+            "cargo-deny is not installed: `cargo install cargo-deny --locked` brings it".to_owned()
+        );
     }
     for manifest in ["Cargo.toml", "fuzz/Cargo.toml"] {
         cargo(&["deny", "--manifest-path", manifest, "check", "bans", "licenses", "sources"])?;
         let mut advisories = Command::new("cargo");
-        advisories.args(["deny", "--manifest-path", manifest, "check", "advisories"]).current_dir(root());
-        let output = advisories.output().map_err(|why| format!("cargo-deny can't be run: {why}"))?;
+        advisories
+            .args(["deny", "--manifest-path", manifest, "check", "advisories"])
+            .current_dir(root());
+        let output =
+            advisories.output().map_err(|why| format!("cargo-deny can't be run: {why}"))?;
         let said = String::from_utf8_lossy(&output.stderr);
         if said.contains("failed to fetch advisory database") {
             println!("deny: advisories of {manifest} left out, their database can't be fetched");
@@ -41,13 +50,18 @@ pub(crate) fn deny() -> Result<(), String> {
 }
 
 fn has_deny() -> bool {
-    Command::new("cargo").args(["deny", "--version"]).output().is_ok_and(|output| output.status.success())
+    Command::new("cargo")
+        .args(["deny", "--version"])
+        .output()
+        .is_ok_and(|output| output.status.success())
 }
 
 /// The Rust tests, by nextest where it is installed.
 pub(crate) fn rust_tests() -> Result<(), String> {
-    let nextest =
-        Command::new("cargo").args(["nextest", "--version"]).output().is_ok_and(|output| output.status.success());
+    let nextest = Command::new("cargo")
+        .args(["nextest", "--version"])
+        .output()
+        .is_ok_and(|output| output.status.success());
     if nextest {
         cargo(&["nextest", "run", "--workspace", "--no-fail-fast"])?;
         cargo(&["test", "--workspace", "--doc", "--quiet"])
@@ -61,7 +75,10 @@ pub(crate) fn python() -> Result<(), String> {
     let python = venv("venv", "python/requirements-dev.txt")?;
     install_wheel(&python, &wheel(&python)?)?;
     let run_in = |folder: &str, args: &[&str]| {
-        run(Command::new(&python).arg("-m").args(args).current_dir(root().join("python").join(folder)))
+        run(Command::new(&python)
+            .arg("-m")
+            .args(args)
+            .current_dir(root().join("python").join(folder)))
     };
     run_in("", &["ruff", "check"])?;
     run_in("", &["ruff", "format", "--check"])?;
@@ -103,7 +120,9 @@ pub(crate) fn venv(name: &str, requirements: &str) -> Result<PathBuf, String> {
 
 /// Installs packages into an environment.
 pub(crate) fn pip(python: &Path, args: &[&str]) -> Result<(), String> {
-    run(Command::new(python).args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(args))
+    run(Command::new(python)
+        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"])
+        .args(args))
 }
 
 /// Builds the wheel with the maturin of an environment.
@@ -143,7 +162,9 @@ fn cargo(args: &[&str]) -> Result<(), String> {
 
 /// Builds the lab with every optimisation and runs it.
 pub(crate) fn lab(command: &str, args: &[String]) -> Result<(), String> {
-    run(Command::new("cargo").args(["run", "--release", "--package", "setpiece-lab", "--", command]).args(args))
+    run(Command::new("cargo")
+        .args(["run", "--release", "--package", "setpiece-lab", "--", command])
+        .args(args))
 }
 
 /// Prints and runs a command, in the repository's root unless it names another folder.

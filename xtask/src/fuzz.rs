@@ -7,8 +7,8 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Options of the compiler: count edges. Comparisons are not traced: the dictionaries know the words, and tracing takes
-/// two thirds of the time.
+/// Options of the compiler: count edges. Comparisons are not traced: the dictionaries know the
+/// words, and tracing takes two thirds of the time.
 const FLAGS: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
                      -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \
                      --cfg fuzzing -Ccodegen-units=1";
@@ -68,7 +68,8 @@ pub(crate) struct FuzzArgs {
 pub(crate) fn fuzz(args: &FuzzArgs) -> Result<(), String> {
     use clap::ValueEnum as _;
     let bins = build()?;
-    let commit = first_line(Command::new("git").args(["rev-parse", "--short", "HEAD"]).current_dir(root()))?;
+    let commit =
+        first_line(Command::new("git").args(["rev-parse", "--short", "HEAD"]).current_dir(root()))?;
     let mut failed = Vec::new();
     let targets = if args.targets.is_empty() { Target::value_variants() } else { &args.targets };
     for target in targets {
@@ -77,22 +78,38 @@ pub(crate) fn fuzz(args: &FuzzArgs) -> Result<(), String> {
         println!("{target}: {executions} executions in {} s, {result}", args.seconds);
         let line = format!("{},{commit},{target},{},{executions},{result}\n", today(), args.seed);
         let log = File::options().append(true).create(true).open(root().join("fuzz/log.csv"));
-        log.and_then(|mut log| log.write_all(line.as_bytes())).map_err(|why| format!("fuzz/log.csv: {why}"))?;
-        if ["crash-", "timeout-", "oom-", "leak-", "ended"].iter().any(|sign| result.contains(sign)) {
+        log.and_then(|mut log| log.write_all(line.as_bytes()))
+            .map_err(|why| format!("fuzz/log.csv: {why}"))?;
+        if ["crash-", "timeout-", "oom-", "leak-", "ended"].iter().any(|sign| result.contains(sign))
+        {
             failed.push(format!("{target}: {result}"));
         } else if args.keep {
             keep(&bins.join(target), target, max_len)?;
         }
     }
-    if failed.is_empty() { Ok(()) } else { Err(format!("{}; see fuzz/artifacts", failed.join("; "))) }
+    if failed.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("{}; see fuzz/artifacts", failed.join("; ")))
+    }
 }
 
 /// Builds every target; returns the folder of their programs.
 fn build() -> Result<PathBuf, String> {
     let version = first_line_with("host: ", Command::new("rustc").args(["+nightly", "-vV"]));
-    let host = version.map_err(|why| format!("no nightly ({why}); `rustup toolchain install nightly` brings it"))?;
+    let host = version.map_err(|why| {
+        format!("no nightly ({why}); `rustup toolchain install nightly` brings it")
+    })?;
     run(Command::new("cargo")
-        .args(["+nightly", "build", "--release", "--manifest-path", "fuzz/Cargo.toml", "--target-dir", "fuzz/target"])
+        .args([
+            "+nightly",
+            "build",
+            "--release",
+            "--manifest-path",
+            "fuzz/Cargo.toml",
+            "--target-dir",
+            "fuzz/target",
+        ])
         // Named explicitly, so that build scripts and macros are built without the counters.
         .args(["--target", &host])
         .env("RUSTFLAGS", FLAGS)
@@ -101,7 +118,12 @@ fn build() -> Result<PathBuf, String> {
 }
 
 /// Runs a target; returns how many inputs it tried and what came of it.
-fn fuzz_target(bin: &Path, target: &str, max_len: usize, args: &FuzzArgs) -> Result<(u64, String), String> {
+fn fuzz_target(
+    bin: &Path,
+    target: &str,
+    max_len: usize,
+    args: &FuzzArgs,
+) -> Result<(u64, String), String> {
     let (found, seeds) = (folder("target/found", target)?, fresh("target/seeds", target)?);
     let (kept, artifacts) = (folder("corpus", target)?, folder("artifacts", "")?);
     let log = root().join(format!("fuzz/target/{target}.log"));
@@ -116,10 +138,15 @@ fn fuzz_target(bin: &Path, target: &str, max_len: usize, args: &FuzzArgs) -> Res
         .stderr(File::create(&log).map_err(|why| format!("{}: {why}", log.display()))?)
         .status()
         .map_err(|why| format!("{} can't be run: {why}", bin.display()))?;
-    let said = String::from_utf8_lossy(&fs::read(&log).map_err(|why| why.to_string())?).into_owned();
-    let after = |sign: &'static str| said.lines().filter_map(move |line| Some(line.split_once(sign)?.1.trim()));
-    let executions = after("stat::number_of_executed_units:").next().and_then(|number| number.parse().ok());
-    let written = after("Test unit written to ").filter_map(|path| Path::new(path).file_name()?.to_str());
+    let said =
+        String::from_utf8_lossy(&fs::read(&log).map_err(|why| why.to_string())?).into_owned();
+    let after = |sign: &'static str| {
+        said.lines().filter_map(move |line| Some(line.split_once(sign)?.1.trim()))
+    };
+    let executions =
+        after("stat::number_of_executed_units:").next().and_then(|number| number.parse().ok());
+    let written =
+        after("Test unit written to ").filter_map(|path| Path::new(path).file_name()?.to_str());
     let written: Vec<&str> = written.collect();
     let result = match (status.success(), written.join(" ")) {
         (true, none) if none.is_empty() => "ok".to_owned(),
@@ -180,7 +207,9 @@ fn fuzzer(bin: &Path, target: &str, max_len: usize) -> Result<Command, String> {
 /// A folder of `fuzz/`, created if necessary.
 fn folder(kind: &str, target: &str) -> Result<PathBuf, String> {
     let path = root().join("fuzz").join(kind).join(target);
-    fs::create_dir_all(&path).and_then(|()| path.canonicalize()).map_err(|why| format!("{}: {why}", path.display()))
+    fs::create_dir_all(&path)
+        .and_then(|()| path.canonicalize())
+        .map_err(|why| format!("{}: {why}", path.display()))
 }
 
 /// The same, emptied.
@@ -206,13 +235,15 @@ fn first_line_with(sign: &str, command: &mut Command) -> Result<String, String> 
 
 /// The date, `2026-01-31`, by the proleptic Gregorian calendar in UTC.
 fn today() -> String {
-    let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
+    let since =
+        std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
     // Days since 1 March of year 0; the leap day is then the last day of a year.
     let days = since.as_secs() / 86_400 + 719_468;
     let (era, day) = (days / 146_097, days % 146_097);
     let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
     let day = day - (365 * year + year / 4 - year / 100);
     let month = (5 * day + 2) / 153;
-    let (date, month) = (day - (153 * month + 2) / 5 + 1, if month < 10 { month + 3 } else { month - 9 });
+    let (date, month) =
+        (day - (153 * month + 2) / 5 + 1, if month < 10 { month + 3 } else { month - 9 });
     format!("{:04}-{month:02}-{date:02}", era * 400 + year + u64::from(month < 3))
 }

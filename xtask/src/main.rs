@@ -54,7 +54,8 @@ enum Command {
     /// Train policies and play them in both games
     #[command(disable_help_flag = true)]
     Transfer {
-        /// Options of lab/transfer/transfer.py: --scenario NAME, --steps N, --episodes N, --recorded, --seed S
+        /// Options of lab/transfer/transfer.py: --scenario NAME, --steps N, --episodes N,
+        /// --recorded, --seed S
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "OPTIONS")]
         args: Vec<String>,
     },
@@ -93,7 +94,8 @@ fn main() -> ExitCode {
 /// Writes the JSON schema of a compiled scenario.
 fn schema() -> Result<(), String> {
     let path = ci::root().join("docs/pitchc.schema.json");
-    std::fs::write(&path, setpiece_scenario::schema::text()).map_err(|why| format!("{}: {why}", path.display()))
+    std::fs::write(&path, setpiece_scenario::schema::text())
+        .map_err(|why| format!("{}: {why}", path.display()))
 }
 
 #[cfg(test)]
@@ -113,7 +115,9 @@ mod tests {
     #[test]
     fn options_of_other_programs_are_handed_on() {
         let parsed = Xtask::parse_from(["xtask", "calibrate", "--only", "5", "--help"]);
-        let Some(Command::Calibrate { args }) = parsed.command else { panic!("{:?}", parsed.command) };
+        let Some(Command::Calibrate { args }) = parsed.command else {
+            panic!("{:?}", parsed.command)
+        };
         assert_eq!(args, ["--only", "5", "--help"]);
     }
 }

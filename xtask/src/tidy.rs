@@ -1,8 +1,10 @@
-//! The rules of the project that a machine can check: which room may use which, where files and clocks
-//! are read, file lengths, names of types, words.
+//! The rules of the project that a machine can check: which room may use which, where files and
+//! clocks are read, lengths of files and lines, names of types,
+//! words.
 
 mod names;
 mod rooms;
+mod width;
 mod words;
 
 use crate::ci::root;
@@ -32,7 +34,16 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("setpiece-scenario", &["ciborium", "crc32fast", "libm", "schemars", "serde", "serde_json"]),
     (
         "setpiece-dsl",
-        &["setpiece-grammar", "setpiece-scenario", "miette", "pest", "strsim", "thiserror", "serde", "serde_json"],
+        &[
+            "setpiece-grammar",
+            "setpiece-scenario",
+            "miette",
+            "pest",
+            "strsim",
+            "thiserror",
+            "serde",
+            "serde_json",
+        ],
     ),
     (
         "setpiece-engine",
@@ -54,18 +65,34 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     ("setpiece-render", &["glam", "serde", "thiserror"]),
-    ("setpiece-python", &["setpiece", "setpiece-engine", "setpiece-scenario", "numpy", "pyo3", "serde_json", "rayon"]),
+    (
+        "setpiece-python",
+        &[
+            "setpiece",
+            "setpiece-engine",
+            "setpiece-scenario",
+            "numpy",
+            "pyo3",
+            "serde_json",
+            "rayon",
+        ],
+    ),
 ];
 
 /// Words that a room's sources must not contain, and why.
 const MUST_NOT_SAY: &[(&str, &[&str], &str)] = &[
     ("dsl/src", &["std::fs", "std::env", "std::net"], "sources come through a `SourceLoader`"),
-    // Who builds words outside of the room of problems is stopped by the compiler: `say` is private there.
+    // Who builds words outside of the room of problems is stopped by the compiler: `say` is private
+    // there.
     ("dsl/src/parse", PROSE, WHERE_WORDS_STAND),
     ("dsl/src/resolve", PROSE, WHERE_WORDS_STAND),
     ("dsl/src/lower", PROSE, WHERE_WORDS_STAND),
     ("dsl/src/compile", PROSE, WHERE_WORDS_STAND),
-    ("dsl/src/problem/facts", &["message: String", "help: "], "a fact carries data; its words stand in its entry"),
+    (
+        "dsl/src/problem/facts",
+        &["message: String", "help: "],
+        "a fact carries data; its words stand in its entry",
+    ),
     (
         "engine/src",
         &["std::fs", "std::env", "std::net", "thread_local!", "HashMap", "HashSet"],
@@ -74,7 +101,16 @@ const MUST_NOT_SAY: &[(&str, &[&str], &str)] = &[
     ("engine/src", &["Instant::now", "SystemTime"], "the engine knows no clock"),
     (
         "render/src",
-        &["std::fs", "std::env", "std::net", "Instant::now", "SystemTime", "thread_local!", "HashMap", "HashSet"],
+        &[
+            "std::fs",
+            "std::env",
+            "std::net",
+            "Instant::now",
+            "SystemTime",
+            "thread_local!",
+            "HashMap",
+            "HashSet",
+        ],
         "a picture depends on its scene alone",
     ),
     ("scenario/src", &["std::fs", "std::env", "HashMap"], "the compiled scenario is plain data"),
@@ -124,10 +160,13 @@ pub(crate) fn tidy() -> Result<(), String> {
             let text = read(&file)?;
             // Tests at the end of a file may use anything.
             let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-            let allowed = |word: &str| MAY_SAY.iter().any(|(path, said)| *said == word && file.ends_with(path));
+            let allowed = |word: &str| {
+                MAY_SAY.iter().any(|(path, said)| *said == word && file.ends_with(path))
+            };
             for word in words.iter().filter(|word| !allowed(word)) {
-                if let Some(line) =
-                    code.lines().position(|line| line.contains(word) && !line.trim_start().starts_with("//"))
+                if let Some(line) = code
+                    .lines()
+                    .position(|line| line.contains(word) && !line.trim_start().starts_with("//"))
                 {
                     breaches.push(format!("{}:{}: `{word}`: {why}", file.display(), line + 1));
                 }
@@ -139,7 +178,8 @@ pub(crate) fn tidy() -> Result<(), String> {
             let text = read(&file)?;
             let lines = text.split("#[cfg(test)]").next().unwrap_or_default().lines().count();
             if lines > LINES_MAX {
-                breaches.push(format!("{}: {lines} lines; split it at {LINES_MAX}", file.display()));
+                breaches
+                    .push(format!("{}: {lines} lines; split it at {LINES_MAX}", file.display()));
             }
             if file.file_name().is_some_and(|name| name == "mod.rs") {
                 breaches.push(format!("{}: write `foo.rs` beside `foo/`", file.display()));
@@ -148,7 +188,11 @@ pub(crate) fn tidy() -> Result<(), String> {
     }
     dsl_arrows(&mut breaches)?;
     names::check(&mut breaches)?;
-    words::check(&mut breaches)?;
+    let tracked = tracked()?;
+    words::check(&tracked, &mut breaches)?;
+    for path in tracked.iter().filter(|path| path.ends_with(".rs")) {
+        width::check(path, &mut breaches)?;
+    }
     if breaches.is_empty() {
         println!("tidy: the house is in order");
         Ok(())
@@ -163,7 +207,9 @@ fn dsl_arrows(breaches: &mut Vec<String>) -> Result<(), String> {
     for (at, (room, may_use)) in DSL_ARROWS.iter().enumerate() {
         for used in *may_use {
             if !DSL_ARROWS.iter().take(at).any(|(below, _)| below == used) {
-                breaches.push(format!("dsl: `{room}` may not be allowed `{used}`, which is not below it"));
+                breaches.push(format!(
+                    "dsl: `{room}` may not be allowed `{used}`, which is not below it"
+                ));
             }
         }
     }
@@ -180,11 +226,20 @@ fn dsl_arrows(breaches: &mut Vec<String>) -> Result<(), String> {
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         // From a room's file up to the crate's root, in both notations.
         let to_root = ["crate::".to_owned(), "super::".repeat(rooms.len())];
-        for (line, code) in code.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//")) {
+        for (line, code) in
+            code.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//"))
+        {
             for used in to_root.iter().flat_map(|root| code.split(root.as_str()).skip(1)) {
-                let used = used.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
+                let used = used
+                    .split(|c: char| !c.is_alphanumeric() && c != '_')
+                    .next()
+                    .unwrap_or_default();
                 if used != own && used != "super" && !may_use.contains(&used) {
-                    breaches.push(format!("{}:{}: `{own}` may not use `{used}`", file.display(), line + 1));
+                    breaches.push(format!(
+                        "{}:{}: `{own}` may not use `{used}`",
+                        file.display(),
+                        line + 1
+                    ));
                 }
             }
         }
@@ -198,7 +253,8 @@ fn dependencies(breaches: &mut Vec<String>) -> Result<(), String> {
         .current_dir(root())
         .output()
         .map_err(|why| format!("cargo metadata can't be run: {why}"))?;
-    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).map_err(|why| why.to_string())?;
+    let metadata: serde_json::Value =
+        serde_json::from_slice(&output.stdout).map_err(|why| why.to_string())?;
     let list = |value: &serde_json::Value| value.as_array().cloned().unwrap_or_default();
     let mut seen = 0;
     for package in list(&metadata["packages"]) {
@@ -213,14 +269,34 @@ fn dependencies(breaches: &mut Vec<String>) -> Result<(), String> {
             }
         }
     }
-    if seen == MAY_USE.len() { Ok(()) } else { Err("cargo metadata does not show every room".to_owned()) }
+    if seen == MAY_USE.len() {
+        Ok(())
+    } else {
+        Err("cargo metadata does not show every room".to_owned())
+    }
+}
+
+/// The paths of the tracked files that are there, from the project's root.
+fn tracked() -> Result<Vec<String>, String> {
+    let output = Command::new("git")
+        .args(["ls-files", "-z"])
+        .current_dir(root())
+        .output()
+        .map_err(|why| format!("git ls-files can't be run: {why}"))?;
+    if !output.status.success() {
+        let why = String::from_utf8_lossy(&output.stderr);
+        return Err(format!("git ls-files failed: {}", why.trim()));
+    }
+    let paths = String::from_utf8_lossy(&output.stdout);
+    Ok(paths.split('\0').filter(|path| root().join(path).is_file()).map(str::to_owned).collect())
 }
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+        for path in fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path())
+        {
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|ending| ending == "rs") {

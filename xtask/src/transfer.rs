@@ -22,10 +22,14 @@ pub(crate) fn transfer(args: &[String]) -> Result<(), String> {
     let wheel = wheel(&venv("venv", "python/requirements-dev.txt")?)?;
     let python = venv("venv-transfer", "lab/transfer/requirements.txt")?;
     if !args.iter().any(|arg| arg == "--recorded") {
-        pip(&python, &["--requirement", "lab/transfer/requirements-there.txt"])
-            .map_err(|why| format!("{why}; EnvPool brings the real game, `--recorded` works without it"))?;
+        pip(&python, &["--requirement", "lab/transfer/requirements-there.txt"]).map_err(|why| {
+            format!("{why}; EnvPool brings the real game, `--recorded` works without it")
+        })?;
     }
     install_wheel(&python, &wheel)?;
     // The networks are small: more threads only wait for each other.
-    run(Command::new(&python).arg("lab/transfer/transfer.py").args(args).env("OMP_NUM_THREADS", "1"))
+    run(Command::new(&python)
+        .arg("lab/transfer/transfer.py")
+        .args(args)
+        .env("OMP_NUM_THREADS", "1"))
 }

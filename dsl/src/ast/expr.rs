@@ -75,7 +75,8 @@ pub enum ExprKind {
 pub struct Arg {
     /// All of it.
     pub span: Span,
-    /// The key before the colon, an expression (a plain name for named arguments, any value for weights).
+    /// The key before the colon, an expression (a plain name for named arguments, any value for
+    /// weights).
     pub key: Option<Expr>,
     /// The value.
     pub value: Expr,

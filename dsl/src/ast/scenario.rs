@@ -1,6 +1,8 @@
 //! Scenarios: their statements, options, the ball.
 
-use super::{Binding, EndStmt, Expr, FnItem, Ident, ParamDecl, Place, RewardUse, Span, Spanned, TeamStmt};
+use super::{
+    Binding, EndStmt, Expr, FnItem, Ident, ParamDecl, Place, RewardUse, Span, Spanned, TeamStmt,
+};
 
 /// A statement of a scenario.
 #[derive(Clone, Debug, PartialEq)]

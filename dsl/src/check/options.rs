@@ -5,8 +5,16 @@ pub(crate) const AGENTS: &[&str] = &["left", "right", "others", "switching"];
 /// Keys of `team { }`.
 pub(crate) const TEAM: &[&str] = &["difficulty", "formation"];
 /// Keys of a player's `{ }`.
-pub(crate) const PLAYER: &[&str] =
-    &["ai", "difficulty", "controllable", "stats", "fatigue", "yellow_cards", "velocity", "overlap"];
+pub(crate) const PLAYER: &[&str] = &[
+    "ai",
+    "difficulty",
+    "controllable",
+    "stats",
+    "fatigue",
+    "yellow_cards",
+    "velocity",
+    "overlap",
+];
 /// Keys of the ball's `{ }`.
 pub(crate) const BALL: &[&str] = &["velocity", "height", "spin", "owner"];
 /// Keys of `start … { }`.

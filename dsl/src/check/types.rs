@@ -260,6 +260,7 @@ fn unit_name(dim: Dim) -> String {
         1 => Some(name.to_owned()),
         n => Some(format!("{name}^{n}")),
     };
-    let parts: Vec<String> = [part("m", dim.m), part("s", dim.s), part("rad", dim.rad)].into_iter().flatten().collect();
+    let parts: Vec<String> =
+        [part("m", dim.m), part("s", dim.s), part("rad", dim.rad)].into_iter().flatten().collect();
     parts.join("·")
 }

@@ -39,7 +39,8 @@ pub(super) fn read<'a>(
     casting
 }
 
-/// The one option of the one `each` of the one team of the one scenario, if the text has nothing else.
+/// The one option of the one `each` of the one team of the one scenario, if the text has nothing
+/// else.
 fn the_statement(library: &Library, file: FileId) -> Option<(&Ident, &Field)> {
     let [item] = library.files.get(file.0 as usize)?.items.as_slice() else { return None };
     let ItemKind::Scenario(scenario) = &item.kind else { return None };

@@ -1,9 +1,9 @@
 //! Finds and loads every script that the files name.
 
 use crate::ast::{
-    BehaviorBody, BehaviorStmt, BehaviorStmtKind, DoStmt, DoWhat, EndCondition, EndStmt, FieldValue, GiveStmt,
-    GiveValue, ItemKind, RewardStmt, RewardStmtKind, RewardUseKind, ScenarioStmtKind, ScriptRef, ScriptSource,
-    TeamStmt, TeamStmtKind,
+    BehaviorBody, BehaviorStmt, BehaviorStmtKind, DoStmt, DoWhat, EndCondition, EndStmt,
+    FieldValue, GiveStmt, GiveValue, ItemKind, RewardStmt, RewardStmtKind, RewardUseKind,
+    ScenarioStmtKind, ScriptRef, ScriptSource, TeamStmt, TeamStmtKind,
 };
 use crate::lower::script::LoadedScripts;
 use crate::problem::Problem;
@@ -36,7 +36,8 @@ pub(super) fn load(
                             RewardUseKind::Named(_) => {}
                         },
                         ScenarioStmtKind::End(EndStmt::When {
-                            condition: Some(EndCondition::Script(script)), ..
+                            condition: Some(EndCondition::Script(script)),
+                            ..
                         }) => named.push(script),
                         ScenarioStmtKind::Team { body, .. } => of_team(body, &mut named),
                         _ => {}
@@ -53,7 +54,8 @@ pub(super) fn load(
             break;
         }
         let from = path.span.file;
-        let from_name = library.sources.get(from).map_or(String::new(), |source| source.name.clone());
+        let from_name =
+            library.sources.get(from).map_or(String::new(), |source| source.name.clone());
         let (sources, inputs) = (&mut library.sources, &mut library.inputs);
         let awaited = scripts.load(from, &from_name, &path.node, loader, &mut |source: Source| {
             if !inputs.contains(&source.name) {
@@ -68,7 +70,9 @@ pub(super) fn load(
 fn of_reward<'a>(body: &'a [RewardStmt], named: &mut Vec<&'a ScriptRef>) {
     for stmt in body {
         match &stmt.kind {
-            RewardStmtKind::Give(GiveStmt { value: GiveValue::Script(script), .. }) => named.push(script),
+            RewardStmtKind::Give(GiveStmt { value: GiveValue::Script(script), .. }) => {
+                named.push(script)
+            }
             RewardStmtKind::On { body, .. } => of_reward(body, named),
             RewardStmtKind::When { then, otherwise, .. } => {
                 of_reward(then, named);
@@ -85,7 +89,9 @@ fn of_behavior<'a>(body: &'a [BehaviorStmt], named: &mut Vec<&'a ScriptRef>) {
         match &stmt.kind {
             Kind::Do(DoStmt { what: DoWhat::Script(script), .. }) => named.push(script),
             Kind::Interrupt { body, .. } | Kind::Repeat { body, .. } => of_behavior(body, named),
-            Kind::Choose(chances) => chances.iter().for_each(|chance| of_behavior(&chance.body, named)),
+            Kind::Choose(chances) => {
+                chances.iter().for_each(|chance| of_behavior(&chance.body, named))
+            }
             Kind::If { arms, otherwise } => {
                 for (_, body) in arms {
                     of_behavior(body, named);

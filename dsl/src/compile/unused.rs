@@ -1,7 +1,8 @@
 //! Warns of what the root declares and nothing uses.
 
 use crate::ast::{
-    Ident, Item, ItemKind, RewardItem, RewardStmt, RewardStmtKind, RewardUseKind, ScenarioStmtKind, Span,
+    Ident, Item, ItemKind, RewardItem, RewardStmt, RewardStmtKind, RewardUseKind, ScenarioStmtKind,
+    Span,
 };
 use crate::lower::World;
 use crate::problem::Problem;
@@ -19,7 +20,8 @@ pub(super) struct Unused {
 }
 
 impl Unused {
-    /// Notes the values that a scenario declares; what an abstract one declares, its children may use.
+    /// Notes the values that a scenario declares; what an abstract one declares, its children may
+    /// use.
     pub(super) fn declare(&mut self, world: &World<'_>) {
         let flat = world.flat;
         if flat.item.is_abstract {

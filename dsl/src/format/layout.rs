@@ -49,7 +49,8 @@ struct LineLayout<'p, 't> {
     block_of: Vec<usize>,
     /// Of every curly bracket, the block that it opens or closes.
     bracket_of: Vec<usize>,
-    /// Whether a piece stands before a statement, or at the end of its block, rather than inside a statement.
+    /// Whether a piece stands before a statement, or at the end of its block, rather than inside a
+    /// statement.
     free: Vec<bool>,
     /// Line breaks that width asks for.
     wrapped: Vec<bool>,
@@ -70,13 +71,20 @@ pub(super) fn lay_out<'t>(pieces: &[SourcePiece<'t>]) -> Vec<FormatLine<'t>> {
 
 impl<'p, 't> LineLayout<'p, 't> {
     fn new(pieces: &'p [SourcePiece<'t>]) -> LineLayout<'p, 't> {
-        let mut blocks =
-            vec![BraceBlock { open: usize::MAX, close: pieces.len(), broken: true, parent: 0, fields: false }];
-        let (mut current, mut block_of, mut bracket_of) = (0, Vec::with_capacity(pieces.len()), vec![0; pieces.len()]);
+        let mut blocks = vec![BraceBlock {
+            open: usize::MAX,
+            close: pieces.len(),
+            broken: true,
+            parent: 0,
+            fields: false,
+        }];
+        let (mut current, mut block_of, mut bracket_of) =
+            (0, Vec::with_capacity(pieces.len()), vec![0; pieces.len()]);
         for (index, piece) in pieces.iter().enumerate() {
             if piece.is(Rule::brace_close)
                 && current != 0
-                && let (Some(block), Some(bracket)) = (blocks.get_mut(current), bracket_of.get_mut(index))
+                && let (Some(block), Some(bracket)) =
+                    (blocks.get_mut(current), bracket_of.get_mut(index))
             {
                 (block.close, *bracket) = (index, current);
                 current = block.parent;
@@ -84,7 +92,13 @@ impl<'p, 't> LineLayout<'p, 't> {
             block_of.push(current);
             if piece.is(Rule::brace_open) {
                 let fields = piece.within == Rule::fields;
-                blocks.push(BraceBlock { open: index, close: pieces.len(), broken: false, parent: current, fields });
+                blocks.push(BraceBlock {
+                    open: index,
+                    close: pieces.len(),
+                    broken: false,
+                    parent: current,
+                    fields,
+                });
                 current = blocks.len() - 1;
                 if let Some(bracket) = bracket_of.get_mut(index) {
                     *bracket = current;
@@ -93,7 +107,9 @@ impl<'p, 't> LineLayout<'p, 't> {
         }
         for block in blocks.iter_mut().skip(1) {
             let inside = pieces.get(block.open + 1..=block.close).unwrap_or_default();
-            let breaks = |piece: &SourcePiece<'_>| piece.newlines > 0 || piece.ends_line() || piece.text.contains('\n');
+            let breaks = |piece: &SourcePiece<'_>| {
+                piece.newlines > 0 || piece.ends_line() || piece.text.contains('\n')
+            };
             block.broken = inside.len() > 1 && inside.iter().any(breaks);
         }
         let mut free = vec![true; pieces.len()];
@@ -104,7 +120,14 @@ impl<'p, 't> LineLayout<'p, 't> {
             }
             *free = next;
         }
-        LineLayout { pieces, blocks, block_of, bracket_of, free, wrapped: vec![false; pieces.len()] }
+        LineLayout {
+            pieces,
+            blocks,
+            block_of,
+            bracket_of,
+            free,
+            wrapped: vec![false; pieces.len()],
+        }
     }
 
     fn is_broken(&self, block: usize) -> bool {
@@ -122,15 +145,21 @@ impl<'p, 't> LineLayout<'p, 't> {
 
     /// Whether a piece is printed: commas that mean nothing are not.
     fn is_shown(&self, index: usize) -> bool {
-        let Some(piece) = self.pieces.get(index).filter(|piece| piece.is(Rule::comma)) else { return true };
-        let last =
-            self.pieces.get(index + 1).is_none_or(|next| next.closes() && (piece.separates || next.newlines == 0));
+        let Some(piece) = self.pieces.get(index).filter(|piece| piece.is(Rule::comma)) else {
+            return true;
+        };
+        let last = self
+            .pieces
+            .get(index + 1)
+            .is_none_or(|next| next.closes() && (piece.separates || next.newlines == 0));
         !(last || (piece.separates && self.is_broken(self.block(index))))
     }
 
     /// Whether a line begins with this piece, which follows `before`.
     fn breaks(&self, before: usize, before_breaks: bool, index: usize) -> bool {
-        let (Some(last), Some(piece)) = (self.pieces.get(before), self.pieces.get(index)) else { return false };
+        let (Some(last), Some(piece)) = (self.pieces.get(before), self.pieces.get(index)) else {
+            return false;
+        };
         if last.ends_line() || piece.is(Rule::doc) {
             return true;
         }
@@ -161,10 +190,13 @@ impl<'p, 't> LineLayout<'p, 't> {
         let mut lines: Vec<FormatLine<'t>> = Vec::new();
         let mut frames = vec![OpenBracket { close: 0, inner: 0, curly: true, opened: true }];
         let (mut before, mut before_breaks) = (None, true);
-        for (index, piece) in self.pieces.iter().enumerate().filter(|(index, _)| self.is_shown(*index)) {
+        for (index, piece) in
+            self.pieces.iter().enumerate().filter(|(index, _)| self.is_shown(*index))
+        {
             let breaks = before.is_none_or(|before| self.breaks(before, before_breaks, index));
             if breaks {
-                let indent = frames.last().map_or(0, |frame| frame.indent(piece, self.is_free(index)));
+                let indent =
+                    frames.last().map_or(0, |frame| frame.indent(piece, self.is_free(index)));
                 let spaced = before.is_some_and(|before| self.is_spaced(before, index));
                 lines.push(FormatLine { indent, spaced, parts: Vec::new() });
             }
@@ -172,7 +204,9 @@ impl<'p, 't> LineLayout<'p, 't> {
             let comma = piece.begins
                 && self.blocks.get(self.block(index)).is_some_and(|block| block.fields)
                 && !breaks
-                && before.and_then(|at| self.pieces.get(at)).is_some_and(|last| !last.separates && !last.opens());
+                && before
+                    .and_then(|at| self.pieces.get(at))
+                    .is_some_and(|last| !last.separates && !last.opens());
             if piece.closes() && frames.len() > 1 {
                 frames.pop();
             }
@@ -182,7 +216,8 @@ impl<'p, 't> LineLayout<'p, 't> {
                     .find(|next| self.is_shown(*next))
                     .is_some_and(|next| self.breaks(index, breaks, next));
                 let curly = piece.is(Rule::brace_open);
-                let outer = frames.iter().rev().find(|frame| frame.curly).map_or(0, |frame| frame.inner);
+                let outer =
+                    frames.iter().rev().find(|frame| frame.curly).map_or(0, |frame| frame.inner);
                 let close = if curly { outer } else { line.indent };
                 frames.push(OpenBracket { close, inner: close + INDENT, curly, opened });
             }
@@ -191,9 +226,12 @@ impl<'p, 't> LineLayout<'p, 't> {
         lines
     }
 
-    /// Whether an empty line stands between two lines: the author's, or one behind an item that is a block.
+    /// Whether an empty line stands between two lines: the author's, or one behind an item that is
+    /// a block.
     fn is_spaced(&self, before: usize, index: usize) -> bool {
-        let (Some(last), Some(piece)) = (self.pieces.get(before), self.pieces.get(index)) else { return false };
+        let (Some(last), Some(piece)) = (self.pieces.get(before), self.pieces.get(index)) else {
+            return false;
+        };
         if last.opens() || last.is(Rule::doc) || piece.closes() || !self.is_free(index) {
             return false;
         }
@@ -222,7 +260,8 @@ impl<'p, 't> LineLayout<'p, 't> {
         changed
     }
 
-    /// Breaks a line at the last place that fits, as far outside of brackets as can be; whether there is one.
+    /// Breaks a line at the last place that fits, as far outside of brackets as can be; whether
+    /// there is one.
     fn wrap(&mut self, line: &FormatLine<'t>) -> bool {
         let mut column = line.indent;
         let mut best: Option<(bool, usize, usize)> = None;
@@ -231,7 +270,10 @@ impl<'p, 't> LineLayout<'p, 't> {
             column += last.piece.text.chars().count();
             let fits = column <= WIDTH;
             column += gap(&last.piece, part);
-            if !may_break(&last.piece, &part.piece) || part.piece.is_comment() || part.piece.closes() {
+            if !may_break(&last.piece, &part.piece)
+                || part.piece.is_comment()
+                || part.piece.closes()
+            {
                 continue;
             }
             let better = match best {
@@ -243,7 +285,9 @@ impl<'p, 't> LineLayout<'p, 't> {
                 best = Some((fits, part.depth, part.index));
             }
         }
-        let Some(slot) = best.and_then(|(_, _, index)| self.wrapped.get_mut(index)) else { return false };
+        let Some(slot) = best.and_then(|(_, _, index)| self.wrapped.get_mut(index)) else {
+            return false;
+        };
         !std::mem::replace(slot, true)
     }
 }
@@ -264,7 +308,11 @@ impl OpenBracket {
     fn indent(&self, piece: &SourcePiece<'_>, free: bool) -> usize {
         match (piece.closes(), self.curly) {
             (true, _) => self.close,
-            (false, true) if piece.begins || piece.is(Rule::doc) || (piece.is_comment() && free) => self.inner,
+            (false, true)
+                if piece.begins || piece.is(Rule::doc) || (piece.is_comment() && free) =>
+            {
+                self.inner
+            }
             (false, false) if self.opened => self.inner,
             (false, false) => self.close + INDENT,
             (false, true) => self.inner + INDENT,
@@ -272,11 +320,13 @@ impl OpenBracket {
     }
 }
 
-/// Whether a line inside a statement may end between two tokens: in brackets, and before the words that join.
+/// Whether a line inside a statement may end between two tokens: in brackets, and before the words
+/// that join.
 fn may_break(last: &SourcePiece<'_>, piece: &SourcePiece<'_>) -> bool {
     let PieceKind::Token(rule) = piece.kind else { return false };
-    let in_brackets = matches!(last.kind, PieceKind::Token(Rule::paren_open | Rule::bracket_open | Rule::comma))
-        || matches!(rule, Rule::paren_close | Rule::bracket_close);
+    let in_brackets =
+        matches!(last.kind, PieceKind::Token(Rule::paren_open | Rule::bracket_open | Rule::comma))
+            || matches!(rule, Rule::paren_close | Rule::bracket_close);
     let joins = matches!(
         rule,
         Rule::kw_and

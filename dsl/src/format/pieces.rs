@@ -52,11 +52,17 @@ impl SourcePiece<'_> {
     }
 
     pub(super) fn opens(&self) -> bool {
-        matches!(self.kind, PieceKind::Token(Rule::brace_open | Rule::paren_open | Rule::bracket_open))
+        matches!(
+            self.kind,
+            PieceKind::Token(Rule::brace_open | Rule::paren_open | Rule::bracket_open)
+        )
     }
 
     pub(super) fn closes(&self) -> bool {
-        matches!(self.kind, PieceKind::Token(Rule::brace_close | Rule::paren_close | Rule::bracket_close))
+        matches!(
+            self.kind,
+            PieceKind::Token(Rule::brace_close | Rule::paren_close | Rule::bracket_close)
+        )
     }
 }
 
@@ -113,9 +119,18 @@ impl<'t> PieceReader<'t> {
         }
         let (newlines, blanks) = self.gap(pair.as_span().start());
         self.at = pair.as_span().start() + text.len();
-        let text = if pair.as_rule() == Rule::quantity { quantity(pair) } else { Cow::Borrowed(text) };
+        let text =
+            if pair.as_rule() == Rule::quantity { quantity(pair) } else { Cow::Borrowed(text) };
         let kind = PieceKind::Token(pair.as_rule());
-        self.pieces.push(SourcePiece { kind, text, within, newlines, blanks, begins, separates: false });
+        self.pieces.push(SourcePiece {
+            kind,
+            text,
+            within,
+            newlines,
+            blanks,
+            begins,
+            separates: false,
+        });
     }
 
     /// Reads the comments up to `end`; the line breaks and blanks behind the last of them.
@@ -133,7 +148,15 @@ impl<'t> PieceReader<'t> {
                 let text = Cow::Borrowed(rest.get(..length).unwrap_or(rest).trim_end());
                 let newlines = newlines.max(usize::from(semicolon));
                 let (within, begins, separates) = (Rule::COMMENT, false, false);
-                self.pieces.push(SourcePiece { kind, text, within, newlines, blanks, begins, separates });
+                self.pieces.push(SourcePiece {
+                    kind,
+                    text,
+                    within,
+                    newlines,
+                    blanks,
+                    begins,
+                    separates,
+                });
                 self.at += length;
             } else {
                 let sign = rest.chars().next().unwrap_or(' ');

@@ -29,13 +29,18 @@ pub(super) fn print(lines: &[FormatLine<'_>]) -> String {
     let mut rows: Vec<TextRow> = lines.iter().map(row).collect();
     let main = |row: &TextRow| row.indent + row.main.chars().count();
     align(&mut rows, |row| row.label.as_mut(), main);
-    align(&mut rows, |row| row.comment.as_mut(), |row| main(row) + shown(row.label.as_ref()).chars().count());
+    align(
+        &mut rows,
+        |row| row.comment.as_mut(),
+        |row| main(row) + shown(row.label.as_ref()).chars().count(),
+    );
     let mut text = String::new();
     for row in &rows {
         if row.spaced {
             text.push('\n');
         }
-        let line = [row.main.as_str(), &shown(row.label.as_ref()), &shown(row.comment.as_ref())].concat();
+        let line =
+            [row.main.as_str(), &shown(row.label.as_ref()), &shown(row.comment.as_ref())].concat();
         text.push_str(&" ".repeat(row.indent));
         text.push_str(line.trim_end());
         text.push('\n');
@@ -106,18 +111,29 @@ pub(super) fn gap(last: &SourcePiece<'_>, part: &LinePart<'_>) -> usize {
 
 /// Whether a blank stands between two pieces of a line.
 fn spaced(last: &SourcePiece<'_>, piece: &SourcePiece<'_>) -> bool {
-    let (PieceKind::Token(before), PieceKind::Token(rule)) = (last.kind, piece.kind) else { return true };
+    let (PieceKind::Token(before), PieceKind::Token(rule)) = (last.kind, piece.kind) else {
+        return true;
+    };
     let touches = match rule {
-        Rule::paren_close | Rule::bracket_close | Rule::comma | Rule::colon | Rule::dot | Rule::range_dots => true,
+        Rule::paren_close
+        | Rule::bracket_close
+        | Rule::comma
+        | Rule::colon
+        | Rule::dot
+        | Rule::range_dots => true,
         Rule::paren_open => matches!(piece.within, Rule::args | Rule::params),
         Rule::brace_close => before == Rule::brace_open,
         _ => false,
     };
-    let holds = matches!(before, Rule::paren_open | Rule::bracket_open | Rule::dot | Rule::range_dots | Rule::sign);
+    let holds = matches!(
+        before,
+        Rule::paren_open | Rule::bracket_open | Rule::dot | Rule::range_dots | Rule::sign
+    );
     !touches && !holds
 }
 
-/// Puts the ends of neighbouring rows into one column where the author began one, by two blanks or more.
+/// Puts the ends of neighbouring rows into one column where the author began one, by two blanks or
+/// more.
 fn align(
     rows: &mut [TextRow],
     column: impl Fn(&mut TextRow) -> Option<&mut AlignedColumn>,
@@ -132,7 +148,10 @@ fn align(
             continue;
         }
         let mut to = from + 1;
-        while rows.get_mut(to).is_some_and(|row| row.indent == indent && !row.spaced && column(row).is_some()) {
+        while rows
+            .get_mut(to)
+            .is_some_and(|row| row.indent == indent && !row.spaced && column(row).is_some())
+        {
             to += 1;
         }
         if let Some(run) = rows.get_mut(from..to) {

@@ -1,4 +1,5 @@
-//! Whether two texts say the same: their trees but for commas that mean nothing, and their comments.
+//! Whether two texts say the same: their trees but for commas that mean nothing, and their
+//! comments.
 
 use super::pieces::{SourcePiece, pieces};
 use pest::Parser;

@@ -32,7 +32,9 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
         let Some(expr) = fields::expression(lower, field) else { continue };
         match field.key.node.as_str() {
             "others" => {
-                if let Some(other) = word(lower, field, expr, &[("bot", Others::Bot), ("hold", Others::Hold)]) {
+                if let Some(other) =
+                    word(lower, field, expr, &[("bot", Others::Bot), ("hold", Others::Hold)])
+                {
                     agents.others = other;
                 }
             }
@@ -44,9 +46,11 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
                 }
             }
             side => {
-                let team = lower.world.mirror.team(if side == "left" { Team::Left } else { Team::Right });
+                let team =
+                    lower.world.mirror.team(if side == "left" { Team::Left } else { Team::Right });
                 if let Some(found) = lower_side(lower, expr, team, players)
-                    && let (Some(slot), Some(at)) = (agents.sides.get_mut(team.index()), at.get_mut(team.index()))
+                    && let (Some(slot), Some(at)) =
+                        (agents.sides.get_mut(team.index()), at.get_mut(team.index()))
                 {
                     *slot = found;
                     *at = Some(expr.span);
@@ -60,7 +64,9 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
         SideAgents::All => true,
         SideAgents::Players(_) => false,
     });
-    if let Some(at) = switching.filter(|_| agents.switching == Switching::Auto && listed && !counted) {
+    if let Some(at) =
+        switching.filter(|_| agents.switching == Switching::Auto && listed && !counted)
+    {
         lower.report(Problem::new(at, Players::ListedAgentSwitches));
     }
     for (team, at) in Team::ALL.iter().zip(at) {
@@ -69,7 +75,12 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
     agents
 }
 
-fn word<T: Copy>(lower: &Lower<'_, '_>, field: &Field, expr: &Expr, words: &[(&'static str, T)]) -> Option<T> {
+fn word<T: Copy>(
+    lower: &Lower<'_, '_>,
+    field: &Field,
+    expr: &Expr,
+    words: &[(&'static str, T)],
+) -> Option<T> {
     let name = match &expr.kind {
         ExprKind::Name(name) => name.as_str(),
         _ => "",
@@ -78,7 +89,10 @@ fn word<T: Copy>(lower: &Lower<'_, '_>, field: &Field, expr: &Expr, words: &[(&'
     if found.is_none() {
         let text = lower.world.text(expr.span);
         let known = words.iter().map(|(word, _)| *word).collect();
-        lower.report(Problem::new(expr.span, Bounds::NeverWord { option: field.key.node.clone(), word: text, known }));
+        lower.report(Problem::new(
+            expr.span,
+            Bounds::NeverWord { option: field.key.node.clone(), word: text, known },
+        ));
     }
     found
 }
@@ -92,8 +106,10 @@ fn lower_side<'w>(
     match &expr.kind {
         ExprKind::Name(name) if name == "all" => Some(SideAgents::All),
         ExprKind::List(names) => {
-            let of_team = lower.world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
-            let controllable: Vec<bool> = of_team.map(|(_, options)| options.controllable).collect();
+            let of_team =
+                lower.world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
+            let controllable: Vec<bool> =
+                of_team.map(|(_, options)| options.controllable).collect();
             let mut list = Vec::new();
             for name in names {
                 list.extend(listed(lower, name, team, &list, &controllable));
@@ -108,7 +124,8 @@ fn lower_side<'w>(
             }
             let reg = lower.reg(&value);
             lower.check_not_drawn(reg, "the number of agents", expr.span);
-            let fits = lower.check_range(reg, (0.0, 11.0), "the number of agents", expr.span, "`0..11`");
+            let fits =
+                lower.check_range(reg, (0.0, 11.0), "the number of agents", expr.span, "`0..11`");
             fits.then_some(SideAgents::Count(reg))
         }
     }
@@ -125,7 +142,10 @@ fn listed<'w>(
     let text = lower.world.text(name.span);
     let index = players.iter().position(|player| player.name.is_some_and(|name| name.node == text));
     let Some(index) = index else {
-        let names: Vec<&str> = players.iter().filter_map(|player| player.name.map(|name| name.node.as_str())).collect();
+        let names: Vec<&str> = players
+            .iter()
+            .filter_map(|player| player.name.map(|name| name.node.as_str()))
+            .collect();
         let (is_anyone, guess) = (!names.is_empty(), Guess::similar_or_all(&text, &names));
         let fact = Players::NoSuchAgent { team, name: text, is_anyone, guess };
         lower.report(Problem::new(name.span, fact));
@@ -143,7 +163,13 @@ fn listed<'w>(
 }
 
 /// Reports a team of which more players are asked for than it has.
-fn check_count(lower: &Lower<'_, '_>, agents: &Agents, team: Team, at: Option<Span>, players: &[PlayerOptions]) {
+fn check_count(
+    lower: &Lower<'_, '_>,
+    agents: &Agents,
+    team: Team,
+    at: Option<Span>,
+    players: &[PlayerOptions],
+) {
     let world = lower.world;
     let Some(SideAgents::Count(reg)) = agents.sides.get(team.index()) else { return };
     let of_team = world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
@@ -159,17 +185,27 @@ fn check_count(lower: &Lower<'_, '_>, agents: &Agents, team: Team, at: Option<Sp
         Some(at) if world.flat.is_inherited(at) => (name, AskedFor::Inherited(at)),
         Some(at) => (at, AskedFor::Here),
     };
-    lower.report(Problem::new(span, Players::TooManyAgents { team, asked: most, controllable, place }));
+    lower.report(Problem::new(
+        span,
+        Players::TooManyAgents { team, asked: most, controllable, place },
+    ));
 }
 
 /// The one team that has agents; `None` if both have or none.
-pub(crate) fn side_with_agents(lower: &Lower<'_, '_>, agents: &Agents, players: &[PlayerOptions]) -> Option<Team> {
+pub(crate) fn side_with_agents(
+    lower: &Lower<'_, '_>,
+    agents: &Agents,
+    players: &[PlayerOptions],
+) -> Option<Team> {
     let has = |team: Team| match agents.sides.get(team.index()) {
         Some(SideAgents::Count(reg)) => lower.interval(*reg).is_none_or(|(_, most)| most > 0.0),
         Some(SideAgents::Players(list)) => !list.is_empty(),
-        Some(SideAgents::All) => {
-            lower.world.roster.iter().zip(players).any(|(player, options)| player.team == team && options.controllable)
-        }
+        Some(SideAgents::All) => lower
+            .world
+            .roster
+            .iter()
+            .zip(players)
+            .any(|(player, options)| player.team == team && options.controllable),
         None => false,
     };
     match (has(Team::Left), has(Team::Right)) {

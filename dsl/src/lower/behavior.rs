@@ -1,8 +1,8 @@
 //! Behaviours: a state machine of nodes over one step program.
 //!
-//! Calls of other behaviours are written out, so that a player's behaviour is one list of nodes. Arguments and
-//! conditions are registers of the program, which runs at every step; what is frozen (`let`), remembered (`state`) or
-//! drawn lies in cells that nodes write when they are reached.
+//! Calls of other behaviours are written out, so that a player's behaviour is one list of nodes.
+//! Arguments and conditions are registers of the program, which runs at every step; what is frozen
+//! (`let`), remembered (`state`) or drawn lies in cells that nodes write when they are reached.
 
 mod act;
 mod statement;
@@ -11,7 +11,9 @@ use super::builder::RegisterLayout;
 use super::step::StepWorld;
 use super::value::{LiteralFrame, LocalName, Scope, Value};
 use super::{Lower, ProgramStage, param};
-use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span};
+use crate::ast::{
+    Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span,
+};
 use crate::check::types::Ty;
 use crate::problem::facts::{Assigned, Behaviors, Names};
 use crate::problem::{Guess, Problem};
@@ -92,7 +94,8 @@ pub(crate) fn lower_behaviors<'w>(
     behaviors
 }
 
-/// Checks the behaviours of the root that no player of this scenario uses: their mistakes are reported all the same.
+/// Checks the behaviours of the root that no player of this scenario uses: their mistakes are
+/// reported all the same.
 fn check_unused(step: &StepWorld<'_, '_>) {
     let world = step.world;
     let root = FileId(0);
@@ -118,7 +121,8 @@ pub(crate) fn report_names(items: &[Item], problems: &mut Vec<Problem>) {
     for item in items {
         let ItemKind::Behavior(BehaviorItem { name, .. }) = &item.kind else { continue };
         if Primitive::from_name(&name.node).is_some() {
-            problems.push(Problem::new(name.span, Names::HidesPrimitive { name: name.node.clone() }));
+            problems
+                .push(Problem::new(name.span, Names::HidesPrimitive { name: name.node.clone() }));
         }
     }
 }
@@ -153,12 +157,25 @@ struct Call {
 
 impl<'c, 'w> BehaviorWriter<'c, 'w> {
     fn new(step: &'c StepWorld<'c, 'w>) -> BehaviorWriter<'c, 'w> {
-        let mut lower = Lower::in_step(step, ProgramStage::Behavior(None), Scope::new(false, LiteralFrame::Own));
+        let mut lower = Lower::in_step(
+            step,
+            ProgramStage::Behavior(None),
+            Scope::new(false, LiteralFrame::Own),
+        );
         let us = lower.code.us();
         lower.team = Some(us);
         let (nodes, watches, states, calls) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let around = lower.scope.clone();
-        BehaviorWriter { lower, nodes, watches, states, around, calls, written: 0, too_large: false }
+        BehaviorWriter {
+            lower,
+            nodes,
+            watches,
+            states,
+            around,
+            calls,
+            written: 0,
+            too_large: false,
+        }
     }
 
     /// Writes a behaviour out; its arguments are read in the present scope.
@@ -166,7 +183,11 @@ impl<'c, 'w> BehaviorWriter<'c, 'w> {
         if self.calls.iter().any(|call| call.name == item.name.span) {
             self.lower.report(Problem::new(
                 span,
-                Names::Recursion { name: item.name.node.clone(), declared: Some(item.name.span), is_behavior: true },
+                Names::Recursion {
+                    name: item.name.node.clone(),
+                    declared: Some(item.name.span),
+                    is_behavior: true,
+                },
             ));
             return;
         }
@@ -174,7 +195,10 @@ impl<'c, 'w> BehaviorWriter<'c, 'w> {
         let deep = self.written > CALLS_MAX.0 || self.calls.len() >= CALLS_MAX.1;
         if deep || self.nodes.len() > NODES_MAX || self.watches.len() > WATCHES_MAX {
             if !self.too_large {
-                self.lower.report(Problem::new(span, Behaviors::TooLarge { name: item.name.node.clone() }));
+                self.lower.report(Problem::new(
+                    span,
+                    Behaviors::TooLarge { name: item.name.node.clone() },
+                ));
             }
             self.too_large = true;
             return;
@@ -190,7 +214,11 @@ impl<'c, 'w> BehaviorWriter<'c, 'w> {
     fn body(&mut self, item: &'w BehaviorItem, scope: Scope<'w>) {
         let (outer, states) = (self.lower.scope.clone(), std::mem::take(&mut self.states));
         let around = std::mem::replace(&mut self.around, scope.clone());
-        self.calls.push(Call { name: item.name.span, from: self.nodes.len(), finishes: Vec::new() });
+        self.calls.push(Call {
+            name: item.name.span,
+            from: self.nodes.len(),
+            finishes: Vec::new(),
+        });
         match &item.body {
             BehaviorBody::Block(statements) => {
                 self.lower.scope = scope;
@@ -216,9 +244,12 @@ impl<'c, 'w> BehaviorWriter<'c, 'w> {
 
     /// Runs `f`; the draws in what it reads happen before what comes next.
     fn drawing<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
-        let outer = std::mem::replace(&mut self.lower.stage, ProgramStage::Behavior(Some(Vec::new())));
+        let outer =
+            std::mem::replace(&mut self.lower.stage, ProgramStage::Behavior(Some(Vec::new())));
         let result = f(self);
-        let ProgramStage::Behavior(draws) = std::mem::replace(&mut self.lower.stage, outer) else { return result };
+        let ProgramStage::Behavior(draws) = std::mem::replace(&mut self.lower.stage, outer) else {
+            return result;
+        };
         for Draw { cell, count, key, from } in draws.into_iter().flatten() {
             self.nodes.push(Node::Draw { cell, count, key, from });
         }
@@ -236,7 +267,9 @@ impl<'c, 'w> BehaviorWriter<'c, 'w> {
     /// Tells a node where it jumps.
     fn patch(&mut self, at: usize, target: u32) {
         let node = self.nodes.get_mut(at);
-        if let Some(Node::Branch { otherwise: to, .. } | Node::Jump(to) | Node::Finish { to, .. }) = node {
+        if let Some(Node::Branch { otherwise: to, .. } | Node::Jump(to) | Node::Finish { to, .. }) =
+            node
+        {
             *to = target;
         }
     }
@@ -269,14 +302,25 @@ impl<'c, 'w> BehaviorWriter<'c, 'w> {
     /// Reports an assignment to what is no state.
     fn not_a_state(&self, name: &Ident) {
         let states: Vec<&str> = self.states.iter().map(|state| state.name).collect();
-        let is = if self.lower.scope.find(&name.node).is_some() { Assigned::Value } else { Assigned::Nothing };
+        let is = if self.lower.scope.find(&name.node).is_some() {
+            Assigned::Value
+        } else {
+            Assigned::Nothing
+        };
         let guess = Guess::similar_or(&name.node, &states, &[]);
-        self.lower.report(Problem::new(name.span, Names::NotAState { name: name.node.clone(), is, guess }));
+        self.lower.report(Problem::new(
+            name.span,
+            Names::NotAState { name: name.node.clone(), is, guess },
+        ));
     }
 
     fn finish(self, name: String) -> Behavior {
-        let mut behavior =
-            Behavior { name, program: setpiece_scenario::Program::default(), nodes: self.nodes, watches: self.watches };
+        let mut behavior = Behavior {
+            name,
+            program: setpiece_scenario::Program::default(),
+            nodes: self.nodes,
+            watches: self.watches,
+        };
         let mut roots: Vec<Reg> = Vec::new();
         behavior.regs_mut(&mut |reg| roots.push(*reg));
         let (program, layout): (_, RegisterLayout) = self.lower.code.finish(&roots);

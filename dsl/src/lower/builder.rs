@@ -1,12 +1,13 @@
 //! Builds a register program: shares equal values, folds constants, keeps loops apart.
 //!
-//! Registers are *virtual* here (numbered as they are made); [`Builder::finish`] drops what nothing uses, lays the blocks
-//! out in order and tells where each register went. A pure instruction is put into the outermost block in which its
-//! operands are known, so that what doesn't depend on the element of a loop is computed once, before the loop.
+//! Registers are *virtual* here (numbered as they are made); [`Builder::finish`] drops what nothing
+//! uses, lays the blocks out in order and tells where each register went. A pure instruction is put
+//! into the outermost block in which its operands are known, so that what doesn't depend on the
+//! element of a loop is computed once, before the loop.
 
 use setpiece_scenario::{
-    BinaryOp, Distribution, Each, EventField, EventFilter, Field, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp,
-    When, Who,
+    BinaryOp, Distribution, Each, EventField, EventFilter, Field, Fold, FoldKind, Instr, Over,
+    Program, Reg, UnaryOp, When, Who,
 };
 use std::collections::HashMap;
 
@@ -129,7 +130,10 @@ impl Builder {
         let mut seen = vec![false; self.nodes.len()];
         let mut stack = vec![reg];
         while let Some(reg) = stack.pop() {
-            let (Some(node), Some(mark)) = (self.nodes.get(reg.index()), seen.get_mut(reg.index())) else { continue };
+            let (Some(node), Some(mark)) = (self.nodes.get(reg.index()), seen.get_mut(reg.index()))
+            else {
+                continue;
+            };
             if std::mem::replace(mark, true) {
                 continue;
             }
@@ -146,7 +150,9 @@ impl Builder {
 
     /// Whether a register can be read at the present place.
     pub(crate) fn is_visible(&self, reg: Reg) -> bool {
-        self.nodes.get(reg.index()).is_some_and(|node| node.block == PROLOGUE || self.open.contains(&node.block))
+        self.nodes
+            .get(reg.index())
+            .is_some_and(|node| node.block == PROLOGUE || self.open.contains(&node.block))
     }
 
     /// Whether a loop is open at the present place.
@@ -186,7 +192,8 @@ impl Builder {
         self.shared(ROOT, Key::Param(index), Instr::Param(index))
     }
 
-    /// The register of a broken expression: nothing is known of it, so that nothing more is found wrong with it.
+    /// The register of a broken expression: nothing is known of it, so that nothing more is found
+    /// wrong with it.
     pub(crate) fn unknown(&mut self) -> Reg {
         self.param(u32::MAX)
     }
@@ -218,7 +225,8 @@ impl Builder {
 
     /// One operand; folded where it is constant and the result finite.
     pub(crate) fn unary(&mut self, op: UnaryOp, a: Reg) -> Reg {
-        if let Some(folded) = self.constant_of(a).and_then(|a| op.fold(a)).filter(|v| v.is_finite()) {
+        if let Some(folded) = self.constant_of(a).and_then(|a| op.fold(a)).filter(|v| v.is_finite())
+        {
             return self.constant(folded);
         }
         match (op, self.instr(a)) {
@@ -241,15 +249,27 @@ impl Builder {
             return self.constant(folded);
         }
         match (op, left, right) {
-            (BinaryOp::Add | BinaryOp::Or, Some(0.0), _) | (BinaryOp::Mul | BinaryOp::And, Some(1.0), _) => return b,
+            (BinaryOp::Add | BinaryOp::Or, Some(0.0), _)
+            | (BinaryOp::Mul | BinaryOp::And, Some(1.0), _) => return b,
             (BinaryOp::Add | BinaryOp::Sub | BinaryOp::Or, _, Some(0.0))
             | (BinaryOp::Mul | BinaryOp::Div | BinaryOp::And, _, Some(1.0)) => return a,
-            (BinaryOp::And, Some(0.0), _) | (BinaryOp::And, _, Some(0.0)) => return self.constant(0.0),
-            (BinaryOp::Or, Some(1.0), _) | (BinaryOp::Or, _, Some(1.0)) => return self.constant(1.0),
+            (BinaryOp::And, Some(0.0), _) | (BinaryOp::And, _, Some(0.0)) => {
+                return self.constant(0.0);
+            }
+            (BinaryOp::Or, Some(1.0), _) | (BinaryOp::Or, _, Some(1.0)) => {
+                return self.constant(1.0);
+            }
             _ => {}
         }
         let (a, b) = match op {
-            BinaryOp::Add | BinaryOp::Mul | BinaryOp::And | BinaryOp::Or | BinaryOp::Eq | BinaryOp::Ne if b < a => {
+            BinaryOp::Add
+            | BinaryOp::Mul
+            | BinaryOp::And
+            | BinaryOp::Or
+            | BinaryOp::Eq
+            | BinaryOp::Ne
+                if b < a =>
+            {
                 (b, a)
             }
             _ => (a, b),
@@ -271,12 +291,17 @@ impl Builder {
     /// A number of the match.
     pub(crate) fn load(&mut self, field: Field, of: Option<Reg>, when: When) -> Reg {
         let block = of.map_or(ROOT, |reg| self.block_of(&[reg]));
-        self.shared(block, Key::Load(field, of.map(|reg| reg.0), when), Instr::Load { field, of, when })
+        self.shared(
+            block,
+            Key::Load(field, of.map(|reg| reg.0), when),
+            Instr::Load { field, of, when },
+        )
     }
 
     /// A field of the present event; the caller knows that a loop over events is open.
     pub(crate) fn event(&mut self, field: EventField) -> Reg {
-        let block = self.open.iter().rev().copied().find(|&b| self.is_event_body(b)).unwrap_or(ROOT);
+        let block =
+            self.open.iter().rev().copied().find(|&b| self.is_event_body(b)).unwrap_or(ROOT);
         self.shared(block, Key::Event(field.index()), Instr::Event(field))
     }
 
@@ -387,9 +412,9 @@ impl Builder {
 
     fn is_event_body(&self, block: BlockId) -> bool {
         let owner = self.blocks.get(block).and_then(|block| block.owner);
-        owner
-            .and_then(|at| self.nodes.get(at as usize))
-            .is_some_and(|node| matches!(&node.instr, Instr::Each(each) if matches!(each.over, Over::Events(_))))
+        owner.and_then(|at| self.nodes.get(at as usize)).is_some_and(
+            |node| matches!(&node.instr, Instr::Each(each) if matches!(each.over, Over::Events(_))),
+        )
     }
 
     /// The innermost block, of the open ones, that any of the operands needs.
@@ -403,7 +428,8 @@ impl Builder {
     }
 
     fn shared(&mut self, block: BlockId, key: Key, instr: Instr) -> Reg {
-        let known = |b: BlockId| self.blocks.get(b).and_then(|block| block.known.get(&key)).copied();
+        let known =
+            |b: BlockId| self.blocks.get(b).and_then(|block| block.known.get(&key)).copied();
         if let Some(at) = known(block) {
             return Reg(at);
         }
@@ -441,7 +467,10 @@ impl Builder {
             }
         }
         while let Some(reg) = stack.pop() {
-            let (Some(node), Some(mark)) = (self.nodes.get(reg.index()), live.get_mut(reg.index())) else { continue };
+            let (Some(node), Some(mark)) = (self.nodes.get(reg.index()), live.get_mut(reg.index()))
+            else {
+                continue;
+            };
             if std::mem::replace(mark, true) {
                 continue;
             }
@@ -461,7 +490,9 @@ impl Builder {
         let Some(block) = self.blocks.get(block) else { return };
         for &at in &block.nodes {
             let at = at as usize;
-            let Some(node) = self.nodes.get(at).filter(|_| live.get(at) == Some(&true)) else { continue };
+            let Some(node) = self.nodes.get(at).filter(|_| live.get(at) == Some(&true)) else {
+                continue;
+            };
             let new = out.code.len();
             if let Some(slot) = out.layout.get_mut(at) {
                 *slot = Some(Reg(new as u32));
@@ -505,10 +536,14 @@ impl LaidOutCode {
             Instr::Unary(op, a) => Instr::Unary(*op, p(a)),
             Instr::Binary(op, a, b) => Instr::Binary(*op, p(a), p(b)),
             Instr::Select(a, b, c) => Instr::Select(p(a), p(b), p(c)),
-            Instr::Load { field, of, when } => Instr::Load { field: *field, of: of.as_ref().map(p), when: *when },
+            Instr::Load { field, of, when } => {
+                Instr::Load { field: *field, of: of.as_ref().map(p), when: *when }
+            }
             Instr::Each(each) => {
                 let over = match &each.over {
-                    Over::Players { team, except } => Over::Players { team: p(team), except: except.as_ref().map(p) },
+                    Over::Players { team, except } => {
+                        Over::Players { team: p(team), except: except.as_ref().map(p) }
+                    }
                     Over::Events(filter) => {
                         let who = |who: &Who| match who {
                             Who::Team(reg) => Who::Team(p(reg)),
@@ -524,10 +559,14 @@ impl LaidOutCode {
                 };
                 Instr::Each(Box::new(Each { over, body: each.body, fold: each.fold.clone() }))
             }
-            Instr::Held { of, seconds, cell } => Instr::Held { of: p(of), seconds: p(seconds), cell: *cell },
+            Instr::Held { of, seconds, cell } => {
+                Instr::Held { of: p(of), seconds: p(seconds), cell: *cell }
+            }
             Instr::Ever { of, cell } => Instr::Ever { of: p(of), cell: *cell },
             Instr::Since { of, cell } => Instr::Since { of: p(of), cell: *cell },
-            Instr::Until { of, release, cell } => Instr::Until { of: p(of), release: p(release), cell: *cell },
+            Instr::Until { of, release, cell } => {
+                Instr::Until { of: p(of), release: p(release), cell: *cell }
+            }
             Instr::Once { of, cell } => Instr::Once { of: p(of), cell: *cell },
             Instr::Give { term, value, guard } => {
                 Instr::Give { term: *term, value: p(value), guard: guard.as_ref().map(p) }
@@ -539,9 +578,13 @@ impl LaidOutCode {
                 let from = match &**from {
                     Distribution::Uniform(a, b) => Distribution::Uniform(p(a), p(b)),
                     Distribution::Normal(a, b) => Distribution::Normal(p(a), p(b)),
-                    Distribution::TruncatedNormal(a, b, c, d) => Distribution::TruncatedNormal(p(a), p(b), p(c), p(d)),
+                    Distribution::TruncatedNormal(a, b, c, d) => {
+                        Distribution::TruncatedNormal(p(a), p(b), p(c), p(d))
+                    }
                     Distribution::Integer(a, b) => Distribution::Integer(p(a), p(b)),
-                    Distribution::Weighted(weights) => Distribution::Weighted(weights.iter().map(p).collect()),
+                    Distribution::Weighted(weights) => {
+                        Distribution::Weighted(weights.iter().map(p).collect())
+                    }
                 };
                 Instr::Random { key: *key, from: Box::new(from) }
             }

@@ -28,7 +28,10 @@ pub(super) fn apply<'w>(world: &World<'w>, players: &mut [Rostered<'w>], team: T
         }
         match players.get_mut(place) {
             Some(player) => player.fields.push(cast.field),
-            None => world.report(Problem::new(cast.who.span, Names::NoSuchPlace { team: team.name(), place })),
+            None => world.report(Problem::new(
+                cast.who.span,
+                Names::NoSuchPlace { team: team.name(), place },
+            )),
         }
     }
 }

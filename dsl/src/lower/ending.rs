@@ -41,10 +41,14 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
         None => None,
     };
     if let (Some(label), None) = (ending.label, verdict)
-        && let Some(meant) = nearest(&label.name.node, Verdict::ALL.iter().map(|verdict| verdict.name()))
+        && let Some(meant) =
+            nearest(&label.name.node, Verdict::ALL.iter().map(|verdict| verdict.name()))
     {
         let name = &label.name.node;
-        lower.report(Problem::new(label.name.span, Names::LikeAVerdict { label: name.clone(), meant }));
+        lower.report(Problem::new(
+            label.name.span,
+            Names::LikeAVerdict { label: name.clone(), meant },
+        ));
     }
     let label = match (ending.label, verdict) {
         (Some(label), _) => label.bare().to_owned(),
@@ -79,7 +83,14 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
             };
             lower.world.mark_used(at);
             let mut scope = Scope::new(false, LiteralFrame::World);
-            lower.bind_params(&item.name.node, &item.params, &reference.args, reference.span, &mut scope, true);
+            lower.bind_params(
+                &item.name.node,
+                &item.params,
+                &reference.args,
+                reference.span,
+                &mut scope,
+                true,
+            );
             let reg = lower.within(scope, |lower| lower.condition(&item.body));
             lowered.when = Some(reg);
         }

@@ -27,7 +27,9 @@ use setpiece_scenario::{BinaryOp, Reg, UnaryOp as WorldOp};
 pub(crate) fn is_tuple(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Tuple(_) => true,
-        ExprKind::Unary(PrefixOp::Neg | PrefixOp::Plus, inner) | ExprKind::Own(inner) => is_tuple(inner),
+        ExprKind::Unary(PrefixOp::Neg | PrefixOp::Plus, inner) | ExprKind::Own(inner) => {
+            is_tuple(inner)
+        }
         _ => false,
     }
 }
@@ -132,7 +134,8 @@ impl<'w> Lower<'_, 'w> {
         // The height of a normalised point is in metres, as the frame has no scale for it.
         let wanted = |i: usize| if i == 2 && first == Ty::Number { Ty::LENGTH } else { first };
         if let Some(at) = (0..kinds.len()).find(|&i| kinds.get(i) != Some(&wanted(i))) {
-            let spans = (parts.first().map_or(span, |p| p.span), parts.get(at).map_or(span, |p| p.span));
+            let spans =
+                (parts.first().map_or(span, |p| p.span), parts.get(at).map_or(span, |p| p.span));
             let operand = |i: usize, span: Span| Operand {
                 ty: values.get(i).map_or(Ty::Error, |value| value.ty),
                 text: self.world.text(span),
@@ -140,7 +143,10 @@ impl<'w> Lower<'_, 'w> {
                 is_quoted: false,
             };
             let (first, other) = (operand(0, spans.0), operand(at, spans.1));
-            return self.fail(Problem::new(spans.1, Types::MixedPoint { first, other, is_height: at == 2 }));
+            return self.fail(Problem::new(
+                spans.1,
+                Types::MixedPoint { first, other, is_height: at == 2 },
+            ));
         }
         let regs: Vec<Reg> = values.iter().flat_map(Value::regs).collect();
         let (Some(&x), Some(&y)) = (regs.first(), regs.get(1)) else { return Value::error() };
@@ -162,7 +168,9 @@ impl<'w> Lower<'_, 'w> {
     /// A pair of the reader's frame in the world's, or back: both frames differ by half a turn.
     pub(crate) fn turned(&mut self, (x, y): (Reg, Reg)) -> (Reg, Reg) {
         let (x, y) = match self.side() {
-            Some(side) => (self.code.binary(BinaryOp::Mul, x, side), self.code.binary(BinaryOp::Mul, y, side)),
+            Some(side) => {
+                (self.code.binary(BinaryOp::Mul, x, side), self.code.binary(BinaryOp::Mul, y, side))
+            }
             None => (x, y),
         };
         (x, if self.world.mirror == Mirror::Flanks { self.code.unary(WorldOp::Neg, y) } else { y })
@@ -191,11 +199,16 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// A truth value; `better` knows what was meant by some values that are none.
-    fn condition_or(&mut self, expr: &'w Expr, better: impl FnOnce(&Self, Ty) -> Option<String>) -> Reg {
+    fn condition_or(
+        &mut self,
+        expr: &'w Expr,
+        better: impl FnOnce(&Self, Ty) -> Option<String>,
+    ) -> Reg {
         let value = self.expr(expr);
         if !value.is_error() && value.ty != Ty::Bool {
             let condition = better(self, value.ty);
-            let instead = condition.map_or(Instead::Condition, |condition| Instead::Repeated { condition });
+            let instead =
+                condition.map_or(Instead::Condition, |condition| Instead::Repeated { condition });
             self.report(self.mismatch_with(value.ty, Ty::Bool, expr.span, instead));
             return self.code.unknown();
         }

@@ -21,10 +21,13 @@ impl Lower<'_, '_> {
         warn(self.world, name, at, || of_scenario().or_else(|| of_file(self.world, at.file, name)));
     }
 
-    /// The same of a name in a block of its own, which may hide a local of the scope around it, too.
+    /// The same of a name in a block of its own, which may hide a local of the scope around it,
+    /// too.
     pub(crate) fn check_hides_local(&self, name: &str, at: Span, around: &Scope<'_>) {
         let Some(known) = around.find(name) else { return self.check_hides(name, at, around) };
-        warn(self.world, name, at, || Some(Hidden { what: "the outer value", at: known.declared() }));
+        warn(self.world, name, at, || {
+            Some(Hidden { what: "the outer value", at: known.declared() })
+        });
     }
 }
 
@@ -36,7 +39,8 @@ pub(crate) fn check_scenario(world: &World<'_>) {
     let regions = flat.regions.iter().map(|region| &region.name);
     let shuffled = flat.tuples.iter().flat_map(|(names, _)| *names);
     let players = world.roster.iter().filter_map(|player| player.name);
-    let all: Vec<&Ident> = params.chain(bindings).chain(regions).chain(shuffled).chain(players).collect();
+    let all: Vec<&Ident> =
+        params.chain(bindings).chain(regions).chain(shuffled).chain(players).collect();
     for name in all {
         warn(world, &name.node, name.span, || of_file(world, name.span.file, &name.node));
     }
@@ -47,7 +51,9 @@ fn of_scenario(world: &World<'_>, name: &str) -> Option<Hidden> {
         return Some(Hidden { what: "the scenario's value", at: Some(at) });
     }
     let mut players = world.roster.iter().filter_map(|player| player.name);
-    players.find(|known| known.node == name).map(|known| Hidden { what: "the player", at: Some(known.span) })
+    players
+        .find(|known| known.node == name)
+        .map(|known| Hidden { what: "the player", at: Some(known.span) })
 }
 
 /// A value that the same file declares: what is imported, nobody need know by heart.
@@ -68,6 +74,8 @@ fn warn(world: &World<'_>, name: &str, at: Span, hidden: impl FnOnce() -> Option
     if at.file != FileId(0) {
         return;
     }
-    let Some(Hidden { what, at: before }) = hidden().filter(|hidden| hidden.at != Some(at)) else { return };
+    let Some(Hidden { what, at: before }) = hidden().filter(|hidden| hidden.at != Some(at)) else {
+        return;
+    };
     world.report(Problem::new(at, Names::Hides { name: name.to_owned(), what, hidden: before }));
 }

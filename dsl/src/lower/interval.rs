@@ -11,7 +11,8 @@ pub(crate) type Interval = (f64, f64);
 /// That of a condition that never holds.
 const NEVER: Interval = (0.0, 0.0);
 
-/// What a number of the match can be, generously: metres, m/s, radians. The ball may fly on a little beyond the lines.
+/// What a number of the match can be, generously: metres, m/s, radians. The ball may fly on a
+/// little beyond the lines.
 fn of_field(field: Field) -> Option<Interval> {
     Some(match field {
         Field::BallX | Field::PlayerX => (-80.0, 80.0),
@@ -28,14 +29,21 @@ fn of_field(field: Field) -> Option<Interval> {
 
 /// The interval of a register, if it is bounded; `params` are the parameters' ranges, in order.
 pub(crate) fn interval(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> Option<Interval> {
-    Search { code, params, in_play: false, longest: None, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0)
+    Search { code, params, in_play: false, longest: None, visits: Cell::new(VISITS_MAX) }
+        .bounded(reg, 0)
 }
 
 /// Whether a condition never holds, whatever happens in the match.
 ///
 /// - `longest`: how long the match lasts, seconds, if that is known.
-pub(crate) fn never_holds(code: &Builder, reg: Reg, params: &[Option<Interval>], longest: Option<f64>) -> bool {
-    Search { code, params, in_play: true, longest, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0) == Some(NEVER)
+pub(crate) fn never_holds(
+    code: &Builder,
+    reg: Reg,
+    params: &[Option<Interval>],
+    longest: Option<f64>,
+) -> bool {
+    Search { code, params, in_play: true, longest, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0)
+        == Some(NEVER)
 }
 
 /// Most registers that are looked at: what is shared is looked at again and again.
@@ -66,9 +74,15 @@ impl Search<'_> {
             Instr::Unary(UnaryOp::Side, _) if self.in_play => (-1.0, 1.0),
             Instr::Unary(op, a) => unary(*op, of(*a)?)?,
             // One half that never holds is enough, whatever the other one is.
-            Instr::Binary(BinaryOp::And, a, b) if of(*a) == Some(NEVER) || of(*b) == Some(NEVER) => NEVER,
+            Instr::Binary(BinaryOp::And, a, b)
+                if of(*a) == Some(NEVER) || of(*b) == Some(NEVER) =>
+            {
+                NEVER
+            }
             Instr::Binary(op, a, b) => binary(*op, of(*a)?, of(*b)?)?,
-            Instr::Load { field: Field::Elapsed | Field::Remaining, .. } if self.in_play => (0.0, self.longest?),
+            Instr::Load { field: Field::Elapsed | Field::Remaining, .. } if self.in_play => {
+                (0.0, self.longest?)
+            }
             Instr::Load { field, .. } if self.in_play => of_field(*field)?,
             Instr::Each(each) if self.in_play => match (each.fold.kind, &each.over) {
                 (FoldKind::Count, Over::Players { team, .. }) => {
@@ -139,7 +153,8 @@ fn binary(op: BinaryOp, a: Interval, b: Interval) -> Option<Interval> {
         BinaryOp::Eq | BinaryOp::Ne => (0.0, 1.0),
         BinaryOp::Mod if b.0 > 0.0 => (0.0, b.1),
         BinaryOp::Hypot => {
-            let size = |a: Interval| if a.0 <= 0.0 && a.1 >= 0.0 { 0.0 } else { a.0.abs().min(a.1.abs()) };
+            let size =
+                |a: Interval| if a.0 <= 0.0 && a.1 >= 0.0 { 0.0 } else { a.0.abs().min(a.1.abs()) };
             (size(a).hypot(size(b)), a.0.abs().max(a.1.abs()).hypot(b.0.abs().max(b.1.abs())))
         }
         _ => return None,
@@ -183,5 +198,7 @@ fn apart(a: Interval, b: Interval) -> bool {
 
 fn corners(a: Interval, b: Interval, f: impl Fn(f64, f64) -> f64) -> Interval {
     let values = [f(a.0, b.0), f(a.0, b.1), f(a.1, b.0), f(a.1, b.1)];
-    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
+    values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
 }

@@ -1,8 +1,8 @@
 //! `mirror: flanks` and `mirror: ends`: the same scenario with y or both ends exchanged.
 //!
-//! What the author writes keeps its meaning: literals, coordinates, angles, landmarks and directions are read in
-//! the mirror, wherever they stand. `flanks` reflects y, so that left backs become right backs; `ends` turns the pitch
-//! by 180° and exchanges the teams.
+//! What the author writes keeps its meaning: literals, coordinates, angles, landmarks and
+//! directions are read in the mirror, wherever they stand. `flanks` reflects y, so that left backs
+//! become right backs; `ends` turns the pitch by 180° and exchanges the teams.
 
 use super::Lower;
 use crate::ast::Ident;

@@ -33,9 +33,10 @@ pub(crate) struct ParamInfo<'w> {
 impl ParamInfo<'_> {
     /// Least and greatest value.
     pub(crate) fn interval(&self) -> Option<Interval> {
-        if let (Some(least), Some(greatest)) =
-            (self.param.values.iter().copied().reduce(f64::min), self.param.values.iter().copied().reduce(f64::max))
-        {
+        if let (Some(least), Some(greatest)) = (
+            self.param.values.iter().copied().reduce(f64::min),
+            self.param.values.iter().copied().reduce(f64::max),
+        ) {
             return Some((least, greatest));
         }
         match self.param.ty {
@@ -50,9 +51,13 @@ impl ParamInfo<'_> {
 pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
     match Type::from_name(ty.node.trim_end_matches('?')) {
         Some(Type::Behavior) | None => {
-            let known: Vec<&str> = Type::ALL.iter().filter(|ty| **ty != Type::Behavior).map(|ty| ty.name()).collect();
+            let known: Vec<&str> =
+                Type::ALL.iter().filter(|ty| **ty != Type::Behavior).map(|ty| ty.name()).collect();
             let guess = Guess::similar_or_all(&ty.node, &known);
-            world.report(Problem::new(ty.span, Names::Unknown { kind: Kind::Type, name: ty.node.clone(), guess }));
+            world.report(Problem::new(
+                ty.span,
+                Names::Unknown { kind: Kind::Type, name: ty.node.clone(), guess },
+            ));
             Ty::Error
         }
         Some(ty) => Ty::of(ty),
@@ -96,12 +101,16 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
         if world.flat.item.is_abstract {
             return info;
         }
-        world.report(Problem::new(decl.name.span, Bounds::NoValue { parameter: decl.name.node.clone() }));
+        world.report(Problem::new(
+            decl.name.span,
+            Bounds::NoValue { parameter: decl.name.node.clone() },
+        ));
         return info;
     };
     if flat.is_argument && !is_constant(world, expr) {
         info.bound = Some(expr);
-        if let (Some(ty), Some(Domain::Range(low, high))) = (declared.filter(|ty| ty.dim().is_some()), flat.domain)
+        if let (Some(ty), Some(Domain::Range(low, high))) =
+            (declared.filter(|ty| ty.dim().is_some()), flat.domain)
             && let (Some(low), Some(high)) = (constant(world, low, ty), constant(world, high, ty))
         {
             info.param.range = Some((low, high));
@@ -159,7 +168,8 @@ fn is_constant<'w>(world: &World<'w>, expr: &'w Expr) -> bool {
 
 /// Whether a range is written with fractions.
 fn in_fractions(domain: Option<&Domain>) -> bool {
-    let fraction = |expr: &Expr| matches!(expr.kind, crate::ast::ExprKind::Number { is_int: false, .. });
+    let fraction =
+        |expr: &Expr| matches!(expr.kind, crate::ast::ExprKind::Number { is_int: false, .. });
     match domain {
         Some(Domain::Range(low, high)) => fraction(low) || fraction(high),
         Some(Domain::List(values, _)) => values.iter().any(fraction),
@@ -187,7 +197,9 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
     match domain {
         None => return,
         Some(Domain::Range(low, high)) => {
-            let (Some(least), Some(greatest)) = (constant(world, low, info.ty), constant(world, high, info.ty)) else {
+            let (Some(least), Some(greatest)) =
+                (constant(world, low, info.ty), constant(world, high, info.ty))
+            else {
                 return;
             };
             if least > greatest {
@@ -198,7 +210,8 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
             info.param.range = Some((least, greatest));
         }
         Some(Domain::List(values, _)) => {
-            info.param.values = values.iter().filter_map(|value| constant(world, value, info.ty)).collect();
+            info.param.values =
+                values.iter().filter_map(|value| constant(world, value, info.ty)).collect();
             if info.param.values.len() < values.len() {
                 info.param.values.clear();
                 return;
@@ -207,7 +220,9 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
     }
     if info.param.admit(info.param.default).is_err() {
         let allowed = match domain {
-            Some(Domain::Range(low, high)) => format!("{}..{}", world.text(low.span), world.text(high.span)),
+            Some(Domain::Range(low, high)) => {
+                format!("{}..{}", world.text(low.span), world.text(high.span))
+            }
             Some(Domain::List(_, span)) => world.text(*span),
             None => String::new(),
         };
@@ -224,7 +239,13 @@ fn domain<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: Span, flat: 
 }
 
 /// A string parameter is the place of its word in the list of words it may be.
-fn choices<'w>(world: &World<'w>, info: &mut ParamInfo<'w>, default: &str, at: Span, domain: Option<&'w Domain>) {
+fn choices<'w>(
+    world: &World<'w>,
+    info: &mut ParamInfo<'w>,
+    default: &str,
+    at: Span,
+    domain: Option<&'w Domain>,
+) {
     let mut words = Vec::new();
     match domain {
         Some(Domain::List(values, _)) => {

@@ -157,10 +157,14 @@ impl<'w> Lower<'_, 'w> {
                 let first = lower.first_team();
                 let team = lower.code.constant(player.team.index() as f64);
                 let kicks = lower.code.binary(BinaryOp::Eq, first, team);
-                if let Some(slot) = lower.start_mut().and_then(|start| start.layouts.get_mut(index)) {
+                if let Some(slot) = lower.start_mut().and_then(|start| start.layouts.get_mut(index))
+                {
                     *slot = Some((place, other));
                 }
-                (lower.code.select(kicks, place.0, other.0), lower.code.select(kicks, place.1, other.1))
+                (
+                    lower.code.select(kicks, place.0, other.0),
+                    lower.code.select(kicks, place.1, other.1),
+                )
             })
         })
     }
@@ -170,10 +174,15 @@ impl<'w> Lower<'_, 'w> {
         let (place, scope) = match stand {
             Stand::At(place, scope) => (*place, scope),
             Stand::Either(condition, then, otherwise) => {
-                let condition =
-                    self.within(Scope::new(true, LiteralFrame::World), |lower| lower.want_reg(condition, Ty::Bool));
-                let (a, b) = (self.player_stand(player, then), self.player_stand(player, otherwise));
-                return (self.code.select(condition, a.0, b.0), self.code.select(condition, a.1, b.1));
+                let condition = self.within(Scope::new(true, LiteralFrame::World), |lower| {
+                    lower.want_reg(condition, Ty::Bool)
+                });
+                let (a, b) =
+                    (self.player_stand(player, then), self.player_stand(player, otherwise));
+                return (
+                    self.code.select(condition, a.0, b.0),
+                    self.code.select(condition, a.1, b.1),
+                );
             }
         };
         self.within(scope.clone(), |lower| {
@@ -234,7 +243,9 @@ impl<'w> Lower<'_, 'w> {
                     self.report(self.mismatch_with(value.ty, Ty::Region, region.span, instead));
                     return self.nowhere();
                 }
-                let drawn = self.as_region(value, region).and_then(|found| self.draw_in(&found, region.span));
+                let drawn = self
+                    .as_region(value, region)
+                    .and_then(|found| self.draw_in(&found, region.span));
                 drawn.unwrap_or_else(|| self.nowhere())
             }
             PlaceKind::Relative { direction, of, by } => {
@@ -256,7 +267,10 @@ impl<'w> Lower<'_, 'w> {
                 };
                 let (dx, dy) = match direction {
                     "ahead" => ahead,
-                    "behind" => (self.code.unary(UnaryOp::Neg, ahead.0), self.code.unary(UnaryOp::Neg, ahead.1)),
+                    "behind" => (
+                        self.code.unary(UnaryOp::Neg, ahead.0),
+                        self.code.unary(UnaryOp::Neg, ahead.1),
+                    ),
                     "right" => (self.code.unary(UnaryOp::Neg, ahead.1), ahead.0),
                     _ => (ahead.1, self.code.unary(UnaryOp::Neg, ahead.0)),
                 };
@@ -268,13 +282,19 @@ impl<'w> Lower<'_, 'w> {
                     Some(at) => self.want_reg(at, Ty::Percent),
                     None => self.code.constant(0.5),
                 };
-                let way = (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
+                let way = (
+                    self.code.binary(BinaryOp::Sub, q.0, p.0),
+                    self.code.binary(BinaryOp::Sub, q.1, p.1),
+                );
                 self.moved(p, way, share)
             }
             PlaceKind::Beyond { of, by, from } => {
                 let (p, q) = (self.want_point(from), self.want_point(of));
                 let length = self.want_reg(by, Ty::LENGTH);
-                let way = (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
+                let way = (
+                    self.code.binary(BinaryOp::Sub, q.0, p.0),
+                    self.code.binary(BinaryOp::Sub, q.1, p.1),
+                );
                 let distance = self.distance(p, q);
                 let unit = (
                     self.code.binary(BinaryOp::Div, way.0, distance),
@@ -287,18 +307,23 @@ impl<'w> Lower<'_, 'w> {
                 let angle = self.want_reg(along, Ty::ANGLE);
                 let angle = self.turned_angle(angle);
                 let length = self.want_reg(by, Ty::LENGTH);
-                let way = (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
+                let way =
+                    (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
                 self.moved(p, way, length)
             }
         }
     }
 
     fn moved(&mut self, from: (Reg, Reg), way: (Reg, Reg), by: Reg) -> (Reg, Reg) {
-        let (dx, dy) = (self.code.binary(BinaryOp::Mul, way.0, by), self.code.binary(BinaryOp::Mul, way.1, by));
+        let (dx, dy) = (
+            self.code.binary(BinaryOp::Mul, way.0, by),
+            self.code.binary(BinaryOp::Mul, way.1, by),
+        );
         (self.code.binary(BinaryOp::Add, from.0, dx), self.code.binary(BinaryOp::Add, from.1, dy))
     }
 
-    /// The unit vector that points ahead: the explicit facing of a player, else their team's attack.
+    /// The unit vector that points ahead: the explicit facing of a player, else their team's
+    /// attack.
     fn ahead(&mut self, view: Viewpoint, asked: Span) -> (Reg, Reg) {
         let world = self.world;
         let player = match view {
@@ -309,7 +334,10 @@ impl<'w> Lower<'_, 'w> {
             if player.facing.is_some_and(|facing| !self.is_being_placed(facing)) {
                 let heading = self.heading_of(index, asked);
                 if let Some(heading) = heading {
-                    return (self.code.unary(UnaryOp::Cos, heading), self.code.unary(UnaryOp::Sin, heading));
+                    return (
+                        self.code.unary(UnaryOp::Cos, heading),
+                        self.code.unary(UnaryOp::Sin, heading),
+                    );
                 }
             }
             let zero = self.code.constant(0.0);
@@ -322,14 +350,16 @@ impl<'w> Lower<'_, 'w> {
         (side, self.code.constant(0.0))
     }
 
-    /// Whether a player faces what is just being placed: `ball behind striker` and `striker … facing ball` then mean
-    /// the direction of the player's attack.
+    /// Whether a player faces what is just being placed: `ball behind striker` and
+    /// `striker … facing ball` then mean the direction of the player's attack.
     fn is_being_placed(&self, facing: &Facing) -> bool {
         let crate::ast::ExprKind::Name(name) = &facing.target.kind else { return false };
         let Some(start) = self.start() else { return false };
         let roster = self.world.roster.iter().zip(&start.places);
-        let mut placed = roster.filter(|(player, _)| player.name.is_some_and(|known| known.node == *name));
-        (name == "ball" && start.ball == OnDemand::Busy) || placed.any(|(_, place)| *place == OnDemand::Busy)
+        let mut placed =
+            roster.filter(|(player, _)| player.name.is_some_and(|known| known.node == *name));
+        (name == "ball" && start.ball == OnDemand::Busy)
+            || placed.any(|(_, place)| *place == OnDemand::Busy)
     }
 
     /// The heading that a player of the roster faces, radians in the world frame.
@@ -348,7 +378,9 @@ impl<'w> Lower<'_, 'w> {
         *self.start_mut()?.headings.get_mut(index)? = OnDemand::Busy;
         let heading = self.for_team(player.team.index() as f64, |lower| {
             let name = format!("{} facing", player.stream());
-            lower.drawing(&name, |lower| lower.within(player.scope.clone(), |lower| lower.facing(facing, index)))
+            lower.drawing(&name, |lower| {
+                lower.within(player.scope.clone(), |lower| lower.facing(facing, index))
+            })
         });
         *self.start_mut()?.headings.get_mut(index)? = OnDemand::Done(heading);
         Some(heading)
@@ -367,8 +399,11 @@ impl<'w> Lower<'_, 'w> {
             let target = self.convert(value, Ty::Point, &facing.target);
             let target = self.pair(&target);
             let here = self.place_of_rostered(index, facing.target.span);
-            let constant = |place: (Reg, Reg)| Some((self.code.constant_of(place.0)?, self.code.constant_of(place.1)?));
-            let same = target == here || constant(target).is_some_and(|known| constant(here) == Some(known));
+            let constant = |place: (Reg, Reg)| {
+                Some((self.code.constant_of(place.0)?, self.code.constant_of(place.1)?))
+            };
+            let same = target == here
+                || constant(target).is_some_and(|known| constant(here) == Some(known));
             if same && !self.code.is_unknown(here.0) {
                 self.report(Problem::new(facing.target.span, Players::FacesItself));
             }

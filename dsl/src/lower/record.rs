@@ -1,7 +1,8 @@
 //! Records: what is measured of an episode.
 //!
-//! `count of EVENT`, `max of E` and their like are sums in cells, so that they may stand anywhere in a record:
-//! `(count of pass completed by left) / (count of pass by left)`. `series of E` keeps every step's value and stands alone.
+//! `count of EVENT`, `max of E` and their like are sums in cells, so that they may stand anywhere
+//! in a record: `(count of pass completed by left) / (count of pass by left)`. `series of E` keeps
+//! every step's value and stands alone.
 
 use super::step::StepWorld;
 use super::value::{LiteralFrame, Repr, Scope, Value};
@@ -19,8 +20,11 @@ pub(crate) fn lower_records(step: &StepWorld<'_, '_>) -> Vec<Record> {
 }
 
 fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Record> {
-    let mut lower =
-        Lower::in_step(step, ProgramStage::Record(Remembered::default()), Scope::new(true, LiteralFrame::World));
+    let mut lower = Lower::in_step(
+        step,
+        ProgramStage::Record(Remembered::default()),
+        Scope::new(true, LiteralFrame::World),
+    );
     if let Some(team) = step.agents {
         let team = lower.code.constant(team.index() as f64);
         lower.team = Some(team);
@@ -32,7 +36,8 @@ fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Re
     let value = lower.expr(expr);
     let values = lower.measured(&value, expr)?;
     // A program that reads `me` runs once per agent.
-    let per_agent = matches!(&lower.stage, ProgramStage::Record(remembered) if remembered.per_agent);
+    let per_agent =
+        matches!(&lower.stage, ProgramStage::Record(remembered) if remembered.per_agent);
     let me = per_agent.then(|| lower.code.me());
     let roots: Vec<Reg> = values.iter().copied().chain(me).collect();
     let (program, layout) = lower.code.finish(&roots);
@@ -58,7 +63,10 @@ impl<'w> Lower<'_, 'w> {
         if value.ty.is_place() {
             let (x, y) = self.place_of(value, expr.span);
             let (sx, sy) = (self.code.constant(X_SCALE_M), self.code.constant(Y_SCALE_M));
-            return Some(vec![self.code.binary(BinaryOp::Div, x, sx), self.code.binary(BinaryOp::Div, y, sy)]);
+            return Some(vec![
+                self.code.binary(BinaryOp::Div, x, sx),
+                self.code.binary(BinaryOp::Div, y, sy),
+            ]);
         }
         match (&value.repr, value.ty) {
             (Repr::One(reg), Ty::Bool | Ty::Team) => Some(vec![*reg]),
@@ -116,11 +124,15 @@ impl<'w> Lower<'_, 'w> {
         let before = self.code.cell(seen);
         let one = self.code.constant(1.0);
         let now = self.code.binary(BinaryOp::Add, before, one);
-        let results: Vec<Reg> = regs.iter().map(|&reg| self.gather(kind, reg, before, now)).collect();
+        let results: Vec<Reg> =
+            regs.iter().map(|&reg| self.gather(kind, reg, before, now)).collect();
         self.code.assign(seen, now, None);
         match *results.as_slice() {
             [x, y] => Value::two(value.ty, (x, y)),
-            [result] => Value::one(if kind == "mean" && value.ty == Ty::Int { Ty::Number } else { value.ty }, result),
+            [result] => Value::one(
+                if kind == "mean" && value.ty == Ty::Int { Ty::Number } else { value.ty },
+                result,
+            ),
             _ => Value::error(),
         }
     }

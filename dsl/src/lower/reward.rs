@@ -8,7 +8,8 @@ use super::step::StepWorld;
 use super::value::{LiteralFrame, Scope};
 use super::{Lower, ProgramStage, World};
 use crate::ast::{
-    Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse, RewardUseKind, ScriptRef, Span,
+    Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse,
+    RewardUseKind, ScriptRef, Span,
 };
 use crate::check::types::Ty;
 use crate::problem::facts::{Chance, Kind, Names, Rewards};
@@ -24,7 +25,8 @@ const SCRIPT_TERM: &str = "script";
 
 /// A reward as it is written.
 pub(super) struct WrittenReward<'w> {
-    /// Its parents, the root first, and itself, with their arguments; nothing where it stands in a scenario.
+    /// Its parents, the root first, and itself, with their arguments; nothing where it stands in a
+    /// scenario.
     links: Vec<(&'w RewardItem, &'w [Arg])>,
     /// Its statements where it stands in a scenario.
     inline: &'w [RewardStmt],
@@ -37,7 +39,12 @@ impl<'w> WrittenReward<'w> {
         WrittenReward { links: Vec::new(), inline: body, span }
     }
 
-    fn named(world: &World<'w>, item: &'w RewardItem, args: &'w [Arg], span: Span) -> WrittenReward<'w> {
+    fn named(
+        world: &World<'w>,
+        item: &'w RewardItem,
+        args: &'w [Arg],
+        span: Span,
+    ) -> WrittenReward<'w> {
         let mut found = Vec::new();
         let chain = reward_chain(world.library, item, &mut found);
         for problem in found {
@@ -51,7 +58,8 @@ impl<'w> WrittenReward<'w> {
             Some(reference) => reference.args.as_slice(),
             None => &[],
         };
-        let links = chain.into_iter().map(|(link, reference)| (link, arguments(link, reference))).collect();
+        let links =
+            chain.into_iter().map(|(link, reference)| (link, arguments(link, reference))).collect();
         WrittenReward { links, inline: &[], span }
     }
 
@@ -76,7 +84,12 @@ impl<'w> WrittenReward<'w> {
 }
 
 /// Lowers a reward that a scenario uses.
-pub(crate) fn lower_use<'w>(step: &StepWorld<'_, 'w>, name: &str, used: &'w RewardUse, span: Span) -> Option<Reward> {
+pub(crate) fn lower_use<'w>(
+    step: &StepWorld<'_, 'w>,
+    name: &str,
+    used: &'w RewardUse,
+    span: Span,
+) -> Option<Reward> {
     let world = step.world;
     if world.effort.is_spent() {
         return None;
@@ -85,7 +98,9 @@ pub(crate) fn lower_use<'w>(step: &StepWorld<'_, 'w>, name: &str, used: &'w Rewa
         check_weight(world, weight, name);
     }
     match &used.what {
-        RewardUseKind::Script(script) => Some(lower_script(step, name, script, used.weight.as_ref())),
+        RewardUseKind::Script(script) => {
+            Some(lower_script(step, name, script, used.weight.as_ref()))
+        }
         RewardUseKind::Inline { .. } | RewardUseKind::Named(_) => {
             let (written, doc) = written(world, used, span)?;
             Some(lower_written(step, name, doc, &written, used.weight.as_ref()))
@@ -93,17 +108,25 @@ pub(crate) fn lower_use<'w>(step: &StepWorld<'_, 'w>, name: &str, used: &'w Rewa
     }
 }
 
-/// The statements of a reward that a scenario uses, and what it is for; `None` of a script, or after a report.
-pub(super) fn written<'w>(world: &World<'w>, used: &'w RewardUse, span: Span) -> Option<(WrittenReward<'w>, String)> {
+/// The statements of a reward that a scenario uses, and what it is for; `None` of a script, or
+/// after a report.
+pub(super) fn written<'w>(
+    world: &World<'w>,
+    used: &'w RewardUse,
+    span: Span,
+) -> Option<(WrittenReward<'w>, String)> {
     let reference = match &used.what {
         RewardUseKind::Script(_) => return None,
-        RewardUseKind::Inline { body, .. } => return Some((WrittenReward::inline(body, span), String::new())),
+        RewardUseKind::Inline { body, .. } => {
+            return Some((WrittenReward::inline(body, span), String::new()));
+        }
         RewardUseKind::Named(reference) => reference,
     };
     let name = &reference.name;
     // A parent's `reward NAME` means what the scenario's own file sees first: names bind late.
     let own = world.library.find(FileId(0), &name.node);
-    let own = own.filter(|found| !name.node.contains('.') && matches!(found.item.kind, ItemKind::Reward(_)));
+    let own = own
+        .filter(|found| !name.node.contains('.') && matches!(found.item.kind, ItemKind::Reward(_)));
     let found = own.or_else(|| world.library.find(name.span.file, &name.node));
     let Some((found, ItemKind::Reward(item))) = found.map(|found| (found, &found.item.kind)) else {
         unknown_reward(world, &name.node, name.span);
@@ -126,7 +149,10 @@ fn unknown_reward(world: &World<'_>, name: &str, span: Span) {
         .map(|(name, _)| name)
         .collect();
     let guess = Guess::similar_or_all(name, &known);
-    world.report(Problem::new(span, Names::Unknown { kind: Kind::Reward, name: name.to_owned(), guess }));
+    world.report(Problem::new(
+        span,
+        Names::Unknown { kind: Kind::Reward, name: name.to_owned(), guess },
+    ));
 }
 
 /// Warns of a weight that is 0, whatever the parameters are.
@@ -137,8 +163,14 @@ fn check_weight<'w>(world: &World<'w>, weight: &'w Expr, name: &str) {
 }
 
 /// A reward that is a script: one term, `script`.
-fn lower_script<'w>(step: &StepWorld<'_, 'w>, name: &str, script: &'w ScriptRef, weight: Option<&'w Expr>) -> Reward {
-    let mut lower = Lower::in_step(step, ProgramStage::Reward, Scope::new(true, LiteralFrame::World));
+fn lower_script<'w>(
+    step: &StepWorld<'_, 'w>,
+    name: &str,
+    script: &'w ScriptRef,
+    weight: Option<&'w Expr>,
+) -> Reward {
+    let mut lower =
+        Lower::in_step(step, ProgramStage::Reward, Scope::new(true, LiteralFrame::World));
     let weight = weight.map(|weight| lower.want_reg(weight, Ty::Number));
     let hooks = RewardWriter::script_alone(&mut lower, script, weight);
     let (step, _) = lower.code.finish(&[]);
@@ -190,14 +222,20 @@ fn lower_written<'w>(
         }
     }
 
-    let mut lower = Lower::in_step(step, ProgramStage::Reward, Scope::new(false, LiteralFrame::Own));
+    let mut lower =
+        Lower::in_step(step, ProgramStage::Reward, Scope::new(false, LiteralFrame::Own));
     let us = lower.code.us();
     lower.team = Some(us);
     // The first cells are the states', as in the program that sets them.
-    let cells: Vec<Vec<u32>> =
-        firsts.iter().map(|first| first.regs().iter().map(|_| lower.code.new_cell()).collect()).collect();
-    let weight = weight
-        .map(|weight| lower.within(Scope::new(true, LiteralFrame::World), |lower| lower.want_reg(weight, Ty::Number)));
+    let cells: Vec<Vec<u32>> = firsts
+        .iter()
+        .map(|first| first.regs().iter().map(|_| lower.code.new_cell()).collect())
+        .collect();
+    let weight = weight.map(|weight| {
+        lower.within(Scope::new(true, LiteralFrame::World), |lower| {
+            lower.want_reg(weight, Ty::Number)
+        })
+    });
     lower.scope = written.bind(&mut lower);
     for ((state, first), cells) in states.iter().zip(&firsts).zip(cells) {
         let before = cells.iter().map(|&cell| lower.code.cell_before(cell)).collect();
@@ -207,13 +245,17 @@ fn lower_written<'w>(
     let writer::WrittenProgram { terms, mut hooks } =
         RewardWriter::write(&mut lower, &statements, weight, true, params);
     let (mut init, _) = init.code.finish(&[]);
-    let roots: Vec<Reg> = hooks.iter().flat_map(|hook| &hook.args).flat_map(|arg| &arg.regs).copied().collect();
+    let roots: Vec<Reg> =
+        hooks.iter().flat_map(|hook| &hook.args).flat_map(|arg| &arg.regs).copied().collect();
     let (step, layout) = lower.code.finish(&roots);
     let fixed = step.fixed();
     for arg in hooks.iter_mut().flat_map(|hook| &mut hook.args) {
         arg.regs.iter_mut().for_each(|reg| *reg = layout.reg(*reg));
         if arg.regs.iter().any(|reg| !fixed.get(reg.index()).copied().unwrap_or_default()) {
-            world.report(Problem::new(written.span, Chance::ScriptParameterChanges { name: arg.name.clone() }));
+            world.report(Problem::new(
+                written.span,
+                Chance::ScriptParameterChanges { name: arg.name.clone() },
+            ));
         }
     }
     init.cells = step.cells;

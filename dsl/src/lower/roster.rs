@@ -4,7 +4,8 @@ use super::start::StartState;
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, World, casting};
 use crate::ast::{
-    Expr, ExprKind, Facing, Field, FieldValue, FormationItem, Ident, Place, PlayerStmt, Span, Spanned, TeamStmtKind,
+    Expr, ExprKind, Facing, Field, FieldValue, FormationItem, Ident, Place, PlayerStmt, Span,
+    Spanned, TeamStmtKind,
 };
 use crate::cast::CastTarget;
 use crate::check::types::Ty;
@@ -87,7 +88,13 @@ pub(super) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
             Some((_, fields, span)) => from_layouts(world, *team, flat, fields, *span),
             None => from_statements(world, *team, flat),
         };
-        adjust(world, &mut players, &flat.absent, &flat.overrides, &Scope::new(true, LiteralFrame::World));
+        adjust(
+            world,
+            &mut players,
+            &flat.absent,
+            &flat.overrides,
+            &Scope::new(true, LiteralFrame::World),
+        );
         // What a parent says of a role that the child has not is said of nobody.
         let side = world
             .casting
@@ -111,7 +118,10 @@ pub(super) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
 }
 
 /// The players of a team.
-pub(crate) fn of_team<'a, 'w>(roster: &'a [Rostered<'w>], team: Team) -> impl Iterator<Item = &'a Rostered<'w>> {
+pub(crate) fn of_team<'a, 'w>(
+    roster: &'a [Rostered<'w>],
+    team: Team,
+) -> impl Iterator<Item = &'a Rostered<'w>> {
     roster.iter().filter(move |player| player.team == team)
 }
 
@@ -188,12 +198,17 @@ fn from_layouts<'w>(
                 let guess = Guess::of(&field.key.node, ["kicking", "receiving"]);
                 Problem::new(
                     field.key.span,
-                    Names::NoOption { whose: "`kickoff`".to_owned(), option: field.key.node.clone(), guess },
+                    Names::NoOption {
+                        whose: "`kickoff`".to_owned(),
+                        option: field.key.node.clone(),
+                        guess,
+                    },
                 )
             });
         }
     }
-    let (Some((mut kicking, _)), Some((receiving, at))) = (layout("kicking"), layout("receiving")) else {
+    let (Some((mut kicking, _)), Some((receiving, at))) = (layout("kicking"), layout("receiving"))
+    else {
         return Vec::new();
     };
     if team == Team::Left {
@@ -205,11 +220,16 @@ fn from_layouts<'w>(
     kicking
 }
 
-/// Two layouts of one team have the same players; the second says where they stand, and nothing else of them.
+/// Two layouts of one team have the same players; the second says where they stand, and nothing
+/// else of them.
 fn check_same(world: &World<'_>, one: &[Rostered<'_>], other: &[Rostered<'_>], at: Span) {
-    if one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.role == other.role) {
+    if one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.role == other.role)
+    {
         let more = |player: &&Rostered<'_>| {
-            player.facing.is_some() || player.jitter.is_some() || player.when.is_some() || !player.fields.is_empty()
+            player.facing.is_some()
+                || player.jitter.is_some()
+                || player.when.is_some()
+                || !player.fields.is_empty()
         };
         if let Some(player) = other.iter().find(more) {
             world.report(Problem::new(at, Players::SecondLayoutSaysMore { player: player.span }));
@@ -219,23 +239,28 @@ fn check_same(world: &World<'_>, one: &[Rostered<'_>], other: &[Rostered<'_>], a
     let roles = |players: &[Rostered<'_>]| -> String {
         players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
     };
-    world.report(Problem::new(at, Players::LayoutsDiffer { first: roles(one), second: roles(other) }));
+    world.report(Problem::new(
+        at,
+        Players::LayoutsDiffer { first: roles(one), second: roles(other) },
+    ));
 }
 
-/// The players of a formation value: its name, a call with arguments, or a choice of two, which has the places of both
-/// and is the first in everything else.
+/// The players of a formation value: its name, a call with arguments, or a choice of two, which has
+/// the places of both and is the first in everything else.
 fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<Rostered<'w>> {
     if let ExprKind::If(condition, then, otherwise) = &expr.kind {
         let mut players = formation_players(world, then, team);
         let others = formation_players(world, otherwise, team);
         check_same(world, &players, &others, expr.span);
         for (player, other) in players.iter_mut().zip(others) {
-            let stand = Stand::Either(condition, Box::new(player.stand.clone()), Box::new(other.stand));
+            let stand =
+                Stand::Either(condition, Box::new(player.stand.clone()), Box::new(other.stand));
             player.stand = stand;
         }
         return players;
     }
-    let mut lower = Lower::of_start(world, Scope::new(true, LiteralFrame::World), StartState::default());
+    let mut lower =
+        Lower::of_start(world, Scope::new(true, LiteralFrame::World), StartState::default());
     if let ExprKind::Call { name, args } = &expr.kind
         && let Some(found) = world.library.find(name.span.file, &name.node)
         && let crate::ast::ItemKind::Formation(item) = &found.item.kind
@@ -256,7 +281,12 @@ fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<R
     }
 }
 
-fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'w>, team: Team) -> Vec<Rostered<'w>> {
+fn chain_players<'w>(
+    world: &World<'w>,
+    item: &'w FormationItem,
+    scope: &Scope<'w>,
+    team: Team,
+) -> Vec<Rostered<'w>> {
     let mut found = Vec::new();
     let chain = formation_chain(world.library, item, &mut found);
     for problem in found {
@@ -272,19 +302,30 @@ fn chain_players<'w>(world: &World<'w>, item: &'w FormationItem, scope: &Scope<'
             let mut lower = Lower::of_start(world, scope, StartState::default());
             scope = Scope::new(false, LiteralFrame::Own);
             let args = reference.map_or(&[][..], |reference| reference.args.as_slice());
-            lower.bind_params(&link.name.node, &link.params, args, link.name.span, &mut scope, false);
+            lower.bind_params(
+                &link.name.node,
+                &link.params,
+                args,
+                link.name.span,
+                &mut scope,
+                false,
+            );
             scope.players_of = Some(team);
         }
         let (mut absent, mut overrides, mut each) = (Vec::new(), Vec::new(), Vec::new());
         for stmt in &link.body {
             match &stmt.kind {
                 TeamStmtKind::Player(_) if !has_room(world, &players, stmt.span, team) => break,
-                TeamStmtKind::Player(player) => players.extend(copies(world, player, stmt.span, &scope, team)),
+                TeamStmtKind::Player(player) => {
+                    players.extend(copies(world, player, stmt.span, &scope, team))
+                }
                 TeamStmtKind::Override { who, change } => overrides.push((who, change)),
                 TeamStmtKind::Each { who, fields } => each.push((who, fields.as_slice())),
                 TeamStmtKind::Absent(role) => absent.push(role.clone()),
-                TeamStmtKind::Field(field) => world
-                    .report(Problem::new(field.key.span, Names::NoFormationOption { option: field.key.node.clone() })),
+                TeamStmtKind::Field(field) => world.report(Problem::new(
+                    field.key.span,
+                    Names::NoFormationOption { option: field.key.node.clone() },
+                )),
                 TeamStmtKind::Broken => {}
             }
         }
@@ -305,10 +346,16 @@ fn copies<'w>(
     if let (Some(count), Some(name)) = (&player.count, &player.name)
         && count.node != 1
     {
-        world.report(Problem::new(name.span, Names::OneNameForMany { name: name.node.clone(), count: count.node }));
+        world.report(Problem::new(
+            name.span,
+            Names::OneNameForMany { name: name.node.clone(), count: count.node },
+        ));
     }
     if let Some(none) = player.count.as_ref().filter(|count| count.node == 0) {
-        world.report(Problem::new(none.span, Players::NoneInLine { role: player.role.node.to_string() }));
+        world.report(Problem::new(
+            none.span,
+            Players::NoneInLine { role: player.role.node.to_string() },
+        ));
     }
     let one = Rostered {
         id: 0,
@@ -340,29 +387,41 @@ fn adjust<'w>(
         players.retain(|player| player.role != role.node);
         // A team is said to have no keeper by `GK absent`, whether a formation brings one or not.
         if before == players.len() && before > 0 && role.node != Role::GK {
-            world.report(Problem::new(role.span, Players::NobodyToBeAbsent { role: role.node.to_string() }));
+            world.report(Problem::new(
+                role.span,
+                Players::NobodyToBeAbsent { role: role.node.to_string() },
+            ));
         }
     }
     for (who, change) in overrides {
         let role = Role::from_name(&who.node);
-        let meant =
-            |player: &Rostered<'w>| player.name.is_some_and(|name| name.node == who.node) || Some(player.role) == role;
+        let meant = |player: &Rostered<'w>| {
+            player.name.is_some_and(|name| name.node == who.node) || Some(player.role) == role
+        };
         match players.iter().filter(|player| meant(player)).count() {
             1 => {}
             0 => {
                 let names: Vec<&str> = players
                     .iter()
-                    .flat_map(|player| [player.name.map(|name| name.node.as_str()), Some(player.role.name())])
+                    .flat_map(|player| {
+                        [player.name.map(|name| name.node.as_str()), Some(player.role.name())]
+                    })
                     .flatten()
                     .collect();
                 world.report({
                     let guess = Guess::of(&who.node, names);
-                    Problem::new(who.span, Names::Unknown { kind: Kind::Player, name: who.node.clone(), guess })
+                    Problem::new(
+                        who.span,
+                        Names::Unknown { kind: Kind::Player, name: who.node.clone(), guess },
+                    )
                 });
                 continue;
             }
             n => {
-                world.report(Problem::new(who.span, Names::AmbiguousPlayer { role: who.node.clone(), count: n }));
+                world.report(Problem::new(
+                    who.span,
+                    Names::AmbiguousPlayer { role: who.node.clone(), count: n },
+                ));
                 continue;
             }
         }
@@ -381,7 +440,8 @@ fn adjust<'w>(
     }
 }
 
-/// `each …`: defaults, behind the players' own options; `is_own` tells whether it must fit somebody.
+/// `each …`: defaults, behind the players' own options; `is_own` tells whether it must fit
+/// somebody.
 fn apply_each<'w>(
     world: &World<'w>,
     players: &mut [Rostered<'w>],
@@ -393,7 +453,8 @@ fn apply_each<'w>(
     for (who, fields) in each {
         let role = Role::from_name(&who.node);
         if role.is_none() && !matches!(who.node.as_str(), "all" | "outfield") {
-            let known = ["all", "outfield"].into_iter().chain(Role::ALL.iter().map(|role| role.name()));
+            let known =
+                ["all", "outfield"].into_iter().chain(Role::ALL.iter().map(|role| role.name()));
             world.report({
                 let guess = Guess::of(&who.node, known);
                 Problem::new(who.span, Names::EachOfNothing { name: who.node.clone(), guess })
@@ -412,7 +473,10 @@ fn apply_each<'w>(
             }
         }
         if !anyone && !players.is_empty() && is_own(who.span) {
-            world.report(Problem::new(who.span, Names::NobodyOfRole { team: team.name(), name: who.node.clone() }));
+            world.report(Problem::new(
+                who.span,
+                Names::NobodyOfRole { team: team.name(), name: who.node.clone() },
+            ));
         }
     }
     for (player, mut fields) in players.iter_mut().zip(defaults) {
@@ -425,7 +489,8 @@ fn check_size(world: &World<'_>, players: &[Rostered<'_>], team: Team) {
     if let Some(extra) = players.get(TEAM_MAX) {
         world.report(Problem::new(extra.span, Players::TooMany { team, most: TEAM_MAX }));
     }
-    let keepers: Vec<&Rostered<'_>> = players.iter().filter(|p| p.role == Role::GK && p.when.is_none()).collect();
+    let keepers: Vec<&Rostered<'_>> =
+        players.iter().filter(|p| p.role == Role::GK && p.when.is_none()).collect();
     if let [first, second, ..] = keepers.as_slice() {
         world.report(Problem::new(second.span, Players::TwoKeepers { team, first: first.span }));
     }
@@ -435,14 +500,22 @@ fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
     for (index, player) in roster.iter().enumerate() {
         let Some(name) = player.name else { continue };
         let earlier = roster.iter().take(index).filter_map(|other| other.name);
-        let first = earlier.into_iter().find(|other| other.node == name.node && other.span != name.span);
+        let first =
+            earlier.into_iter().find(|other| other.node == name.node && other.span != name.span);
         if let Some(first) = first {
-            world.report(Problem::new(name.span, Names::TwoPlayers { name: name.node.clone(), first: first.span }));
+            world.report(Problem::new(
+                name.span,
+                Names::TwoPlayers { name: name.node.clone(), first: first.span },
+            ));
         }
         if let Some(value) = world.declaration(&name.node) {
             // Of the two the author wrote the one that stands in their own scenario.
-            let (again, first) = if world.flat.is_own(name.span) { (name.span, value) } else { (value, name.span) };
-            world.report(Problem::new(again, Names::PlayerAndValue { name: name.node.clone(), first }));
+            let (again, first) =
+                if world.flat.is_own(name.span) { (name.span, value) } else { (value, name.span) };
+            world.report(Problem::new(
+                again,
+                Names::PlayerAndValue { name: name.node.clone(), first },
+            ));
         }
     }
 }

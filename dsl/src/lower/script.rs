@@ -21,7 +21,8 @@ pub(crate) struct LoadedScript {
     found: Result<FileId, LoadError>,
 }
 
-/// Every script that the files name; loaded before anything is lowered, as the sources can't grow afterwards.
+/// Every script that the files name; loaded before anything is lowered, as the sources can't grow
+/// afterwards.
 #[derive(Default)]
 pub(crate) struct LoadedScripts<'a> {
     loaded: Vec<LoadedScript>,
@@ -76,15 +77,23 @@ impl<'w> Lower<'_, 'w> {
         let mut args = Vec::new();
         for decl in params {
             let known = self.scope.find(&decl.name.node).cloned();
-            let Some(LocalName::Expr { now: Some(value), .. } | LocalName::Value(value)) = known else { continue };
+            let Some(LocalName::Expr { now: Some(value), .. } | LocalName::Value(value)) = known
+            else {
+                continue;
+            };
             self.world.mark_used(decl.name.span);
             if value.is_error() {
                 continue;
             }
             match script_type(&value) {
-                Some(ty) => args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() }),
+                Some(ty) => {
+                    args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() })
+                }
                 None if !every => {}
-                None => self.report(Problem::new(decl.name.span, Types::NoScriptParameter { ty: value.ty })),
+                None => self.report(Problem::new(
+                    decl.name.span,
+                    Types::NoScriptParameter { ty: value.ty },
+                )),
             }
         }
         args
@@ -104,13 +113,20 @@ fn script_type(value: &Value<'_>) -> Option<Type> {
     }
 }
 
-/// Embeds a script and gives its place in the scenario; `None` after a report. `own` are the names that its hook finds
-/// among the scenario's parameters.
-pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str, own: &[&str]) -> Option<u32> {
+/// Embeds a script and gives its place in the scenario; `None` after a report. `own` are the names
+/// that its hook finds among the scenario's parameters.
+pub(crate) fn embed(
+    world: &World<'_>,
+    script: &ScriptRef,
+    hook: &'static str,
+    own: &[&str],
+) -> Option<u32> {
     let (name, source, text_at) = match &script.source {
         ScriptSource::File(path) => {
             let loaded = world.scripts_loaded.loaded.iter();
-            let found = loaded.into_iter().find(|known| known.from == path.span.file && known.path == path.node)?;
+            let found = loaded
+                .into_iter()
+                .find(|known| known.from == path.span.file && known.path == path.node)?;
             match &found.found {
                 Ok(file) => {
                     let source = world.library.sources.get(*file)?;
@@ -118,14 +134,19 @@ pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str, o
                 }
                 Err(error) => {
                     let (why, similar) = (error.message.clone(), error.similar.first().cloned());
-                    world.report(Problem::new(path.span, Files::Missing { why, similar, is_script: true }));
+                    world.report(Problem::new(
+                        path.span,
+                        Files::Missing { why, similar, is_script: true },
+                    ));
                     return None;
                 }
             }
         }
         ScriptSource::Inline(text) => {
-            let name =
-                format!("inline in {}", world.library.sources.get(text.span.file).map_or("", |f| f.name.as_str()));
+            let name = format!(
+                "inline in {}",
+                world.library.sources.get(text.span.file).map_or("", |f| f.name.as_str())
+            );
             let source = Source { name: name.clone(), text: text.node.as_str().into() };
             (name, source, (text.span.file, text.span.start))
         }
@@ -137,7 +158,8 @@ pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str, o
         world.mark_used(param.name.span);
     }
     let mut scripts = world.scripts.borrow_mut();
-    let at = world.library.sources.get(text_at.0).map_or((1, 1), |file| file.line_column(text_at.1));
+    let at =
+        world.library.sources.get(text_at.0).map_or((1, 1), |file| file.line_column(text_at.1));
     let embedded = Script { name, at, source: source.text.to_string() };
     let known = scripts.iter().position(|script| *script == embedded);
     let index = known.unwrap_or_else(|| {
@@ -147,10 +169,17 @@ pub(crate) fn embed(world: &World<'_>, script: &ScriptRef, hook: &'static str, o
     Some(index as u32)
 }
 
-fn check(world: &World<'_>, source: &Source, (file, offset): (FileId, u32), hook: &str, own: &[&str]) {
+fn check(
+    world: &World<'_>,
+    source: &Source,
+    (file, offset): (FileId, u32),
+    hook: &str,
+    own: &[&str],
+) {
     let Some(api) = world.scripts_loaded.api else { return };
     let bound = world.params.iter().filter(|param| param.bound.is_none());
-    let params: Vec<&str> = bound.map(|param| param.param.name.as_str()).chain(own.iter().copied()).collect();
+    let params: Vec<&str> =
+        bound.map(|param| param.param.name.as_str()).chain(own.iter().copied()).collect();
     for found in api.check(source, hook, &params) {
         let span = Span {
             file,

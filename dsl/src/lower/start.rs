@@ -23,7 +23,9 @@ use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
 use setpiece_scenario::pitch::{LONGEST_S, STEP_S};
 use setpiece_scenario::vocabulary::{StartKind, Team};
-use setpiece_scenario::{Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start};
+use setpiece_scenario::{
+    Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
+};
 use std::collections::BTreeMap;
 
 /// A player's places at kick-offs: when their team kicks off, and when the others do.
@@ -97,8 +99,13 @@ pub(crate) struct LoweredStart<'c, 'w> {
 pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> {
     let scope = Scope::new(true, LiteralFrame::World);
     let n = world.roster.len();
-    let (places, headings, layouts) = (vec![OnDemand::Todo; n], vec![OnDemand::Todo; n], vec![None; n]);
-    let mut lower = Lower::of_start(world, scope, StartState { places, headings, layouts, ..StartState::default() });
+    let (places, headings, layouts) =
+        (vec![OnDemand::Todo; n], vec![OnDemand::Todo; n], vec![None; n]);
+    let mut lower = Lower::of_start(
+        world,
+        scope,
+        StartState { places, headings, layouts, ..StartState::default() },
+    );
 
     for param in world.params.iter().filter(|param| param.bound.is_some()) {
         lower.scenario_let(&param.name.node, param.name.span);
@@ -114,13 +121,16 @@ pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> 
         debug_assert!(span.start <= span.end);
     }
     let (kind, taker) = lower.start_kind();
-    let places: Vec<(Reg, Reg)> = (0..n).map(|i| lower.place_of_rostered(i, roster_span(world, i))).collect();
-    let headings: Vec<Option<Reg>> = (0..n).map(|i| lower.heading_of(i, roster_span(world, i))).collect();
+    let places: Vec<(Reg, Reg)> =
+        (0..n).map(|i| lower.place_of_rostered(i, roster_span(world, i))).collect();
+    let headings: Vec<Option<Reg>> =
+        (0..n).map(|i| lower.heading_of(i, roster_span(world, i))).collect();
     let ball = lower.ball();
     lower.check_kickoff_ball(kind, ball.as_ref());
     let options: Vec<PlayerOptions> =
         world.roster.iter().map(|player| lower_player_options(&mut lower, player)).collect();
-    let difficulty = [lower_difficulty(&mut lower, Team::Left), lower_difficulty(&mut lower, Team::Right)];
+    let difficulty =
+        [lower_difficulty(&mut lower, Team::Left), lower_difficulty(&mut lower, Team::Right)];
     let agents = lower_agents(&mut lower, &options);
     let side = side_with_agents(&lower, &agents, &options);
     let rules = lower.rules();
@@ -130,7 +140,9 @@ pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> 
     football::check_places(&mut lower, &places, &options, ball.as_ref());
     let kickoff = lower.kickoff(&places);
     let written = world.flat.requires.iter().map(|stmt| match &stmt.kind {
-        ScenarioStmtKind::Require { condition, .. } => RequireOrigin { span: Some(condition.span), help: None },
+        ScenarioStmtKind::Require { condition, .. } => {
+            RequireOrigin { span: Some(condition.span), help: None }
+        }
         _ => RequireOrigin::default(),
     });
     let state = lower.start_mut().map(std::mem::take).unwrap_or_default();
@@ -174,7 +186,8 @@ pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> 
     let place = |layout: &RegisterLayout, reg: Reg| layout.reg(reg);
     let mut start = map_start(&start, &mut |reg| place(&layout, reg));
     start.program = program;
-    let players = players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
+    let players =
+        players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
     let agents = map_agents(&agents, &mut |reg| place(&layout, reg));
     let step = StepWorld::new(world, &start, lets, side);
     LoweredStart { start, players, agents, step, behaviors, origins }
@@ -192,13 +205,17 @@ fn slots(
     options: Vec<PlayerOptions>,
 ) -> Vec<PlayerSlot> {
     let mut slots = Vec::new();
-    for (((player, place), heading), option) in world.roster.iter().zip(places).zip(headings).zip(options) {
+    for (((player, place), heading), option) in
+        world.roster.iter().zip(places).zip(headings).zip(options)
+    {
         slots.push(PlayerSlot {
             team: player.team,
             role: player.role,
-            // A formation that both teams use names two players alike; then neither bears the name alone.
+            // A formation that both teams use names two players alike; then neither bears the name
+            // alone.
             name: player.name.map(|name| name.node.clone()).filter(|name| {
-                let same = |other: &&Rostered<'_>| other.name.is_some_and(|other| other.node == *name);
+                let same =
+                    |other: &&Rostered<'_>| other.name.is_some_and(|other| other.node == *name);
                 world.roster.iter().filter(same).count() == 1
             }),
             ai: option.ai,
@@ -234,7 +251,8 @@ impl<'w> Lower<'_, 'w> {
         match self.stage {
             ProgramStage::Start(_) => {}
             ProgramStage::Constant => {
-                return self.fail(Problem::new(asked, Chance::ComputedAtReset { name: name.to_owned() }));
+                return self
+                    .fail(Problem::new(asked, Chance::ComputedAtReset { name: name.to_owned() }));
             }
             ProgramStage::Init
             | ProgramStage::Reward
@@ -288,7 +306,8 @@ impl<'w> Lower<'_, 'w> {
             })
         });
         self.team = team;
-        if let Some((range, domain)) = bound.and_then(|param| Some((param.param.range?, param.name)))
+        if let Some((range, domain)) =
+            bound.and_then(|param| Some((param.param.range?, param.name)))
             && binding.is_none()
             && value.ty.dim().is_some()
         {
@@ -297,7 +316,9 @@ impl<'w> Lower<'_, 'w> {
                 Some(Named::Param(at)) => world.flat.params.get(at),
                 _ => None,
             };
-            if let Some(crate::ast::Domain::Range(low, high)) = allowed.and_then(|param| param.domain) {
+            if let Some(crate::ast::Domain::Range(low, high)) =
+                allowed.and_then(|param| param.domain)
+            {
                 let shown = format!("`{}..{}`", world.text(low.span), world.text(high.span));
                 self.check_range(reg, range, &format!("`{name}`"), expr.span, &shown);
             }
@@ -307,7 +328,12 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// `let (a, b) = shuffle(x, y)`: all its names at once, from the stream of the first.
-    fn shuffled_let(&mut self, name: &'w str, names: &'w [crate::ast::Ident], expr: &'w Expr) -> Value<'w> {
+    fn shuffled_let(
+        &mut self,
+        name: &'w str,
+        names: &'w [crate::ast::Ident],
+        expr: &'w Expr,
+    ) -> Value<'w> {
         for one in names {
             self.set_let(&one.node, None);
         }
@@ -318,10 +344,16 @@ impl<'w> Lower<'_, 'w> {
         });
         self.team = team;
         for (index, one) in names.iter().enumerate() {
-            let value = values.as_ref().and_then(|values| values.get(index)).cloned().unwrap_or_else(Value::error);
+            let value = values
+                .as_ref()
+                .and_then(|values| values.get(index))
+                .cloned()
+                .unwrap_or_else(Value::error);
             self.set_let(&one.node, Some(value));
         }
-        self.start().and_then(|start| start.lets.get(name).cloned().flatten()).unwrap_or_else(Value::error)
+        self.start()
+            .and_then(|start| start.lets.get(name).cloned().flatten())
+            .unwrap_or_else(Value::error)
     }
 
     fn set_let(&mut self, name: &'w str, value: Option<Value<'w>>) {
@@ -330,7 +362,10 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn let_slots(&self, lets: BTreeMap<&'w str, Option<Value<'w>>>) -> (Vec<LetSlot<'w>>, Vec<Reg>) {
+    fn let_slots(
+        &self,
+        lets: BTreeMap<&'w str, Option<Value<'w>>>,
+    ) -> (Vec<LetSlot<'w>>, Vec<Reg>) {
         let mut regs: Vec<Reg> = Vec::new();
         let mut slots = Vec::new();
         for (name, value) in lets {
@@ -361,8 +396,9 @@ impl<'w> Lower<'_, 'w> {
             Some((expr, _, _)) => {
                 let team = self.team.take();
                 let scope = Scope::new(true, LiteralFrame::World);
-                let first =
-                    self.within(scope, |lower| lower.drawing("kickoff", |lower| lower.want_reg(expr, Ty::Team)));
+                let first = self.within(scope, |lower| {
+                    lower.drawing("kickoff", |lower| lower.want_reg(expr, Ty::Team))
+                });
                 self.team = team;
                 first
             }
@@ -376,10 +412,13 @@ impl<'w> Lower<'_, 'w> {
 
     fn kickoff(&mut self, places: &[(Reg, Reg)]) -> Option<Kickoff> {
         self.world.flat.kickoff?;
-        let layouts = self.start()?.layouts.iter().zip(places).map(|(layout, place)| match layout {
-            Some((kicking, receiving)) => KickoffPlaces { kicking: *kicking, receiving: *receiving },
-            None => KickoffPlaces { kicking: *place, receiving: *place },
-        });
+        let layouts =
+            self.start()?.layouts.iter().zip(places).map(|(layout, place)| match layout {
+                Some((kicking, receiving)) => {
+                    KickoffPlaces { kicking: *kicking, receiving: *receiving }
+                }
+                None => KickoffPlaces { kicking: *place, receiving: *place },
+            });
         let places = layouts.collect();
         Some(Kickoff { first: self.first_team(), places })
     }
@@ -388,7 +427,13 @@ impl<'w> Lower<'_, 'w> {
         let (expr, _) = self.world.flat.limit?;
         let reg = self.want_reg(expr, Ty::DURATION);
         self.check_not_drawn(reg, "the limit", expr.span);
-        if self.check_range(reg, (STEP_S, LONGEST_S), "the limit", expr.span, "`1 step..1000000 steps`") {
+        if self.check_range(
+            reg,
+            (STEP_S, LONGEST_S),
+            "the limit",
+            expr.span,
+            "`1 step..1000000 steps`",
+        ) {
             self.check_steps(reg, "the limit", expr.span);
         }
         Some(reg)
@@ -396,26 +441,38 @@ impl<'w> Lower<'_, 'w> {
 
     /// Reports a constant duration that is no whole number of steps.
     pub(crate) fn check_steps(&self, reg: Reg, what: &str, span: Span) {
-        let Some(steps) = self.code.constant_of(reg).map(|seconds| seconds / STEP_S) else { return };
+        let Some(steps) = self.code.constant_of(reg).map(|seconds| seconds / STEP_S) else {
+            return;
+        };
         if (steps - steps.round()).abs() > 1e-6 {
             let text = self.world.text(span);
-            self.report(Problem::new(span, Bounds::NotWholeSteps { what: what.to_owned(), text, steps }));
+            self.report(Problem::new(
+                span,
+                Bounds::NotWholeSteps { what: what.to_owned(), text, steps },
+            ));
         }
     }
 
     fn requires(&mut self) -> Vec<Require> {
         let mut requires = Vec::new();
         for stmt in &self.world.flat.requires {
-            let ScenarioStmtKind::Require { condition, probability, label } = &stmt.kind else { continue };
+            let ScenarioStmtKind::Require { condition, probability, label } = &stmt.kind else {
+                continue;
+            };
             let met = self.drawing("require", |lower| lower.condition(condition));
             let probability = probability.as_ref().map(|expr| {
                 let reg = self.want_reg(expr, Ty::Percent);
                 self.check_range(reg, (0.0, 1.0), "the probability", expr.span, "`0%..100%`");
                 reg
             });
-            let words = label.as_ref().map_or_else(|| self.world.text(condition.span), |label| label.node.clone());
+            let words = label
+                .as_ref()
+                .map_or_else(|| self.world.text(condition.span), |label| label.node.clone());
             if self.interval(met) == Some((0.0, 0.0)) && probability.is_none() {
-                self.report(Problem::new(condition.span, Chance::NeverMet { label: words.clone() }));
+                self.report(Problem::new(
+                    condition.span,
+                    Chance::NeverMet { label: words.clone() },
+                ));
             }
             requires.push(Require { condition: met, probability, label: words });
         }

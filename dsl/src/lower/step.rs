@@ -1,4 +1,5 @@
-//! What the programs of a step know of the start: it is made from a lowered one, so none can be written before.
+//! What the programs of a step know of the start: it is made from a lowered one, so none can be
+//! written before.
 
 use super::value::Value;
 use super::{Lower, World};
@@ -60,7 +61,8 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn step_let(&mut self, name: &str) -> Value<'w> {
         let lets = self.step.map_or(&[][..], |step| &step.lets);
         // They stand in the order of their names.
-        let slot = lets.binary_search_by(|slot| slot.name.cmp(name)).ok().and_then(|at| lets.get(at));
+        let slot =
+            lets.binary_search_by(|slot| slot.name.cmp(name)).ok().and_then(|at| lets.get(at));
         let Some(slot) = slot else { return Value::error() };
         // A value's registers are gone through in the order of its parts.
         let mut parts = slot.parts.iter();

@@ -45,10 +45,14 @@ pub(crate) fn lower_difficulty(lower: &mut Lower<'_, '_>, team: Team) -> Reg {
             && field.key.node == "difficulty"
             && let Some(expr) = fields::expression(lower, field)
         {
-            found = Some(lower.drawing(&format!("{team} difficulty"), |lower| share(lower, expr, "`difficulty`")));
+            found = Some(lower.drawing(&format!("{team} difficulty"), |lower| {
+                share(lower, expr, "`difficulty`")
+            }));
         }
     }
-    found.unwrap_or_else(|| lower.code.constant(if world.mirror.team(team) == Team::Left { 1.0 } else { 0.6 }))
+    found.unwrap_or_else(|| {
+        lower.code.constant(if world.mirror.team(team) == Team::Left { 1.0 } else { 0.6 })
+    })
 }
 
 /// A number of 0..1.
@@ -59,7 +63,10 @@ fn share<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, what: &str) -> Reg {
 }
 
 /// Lowers a player's options, those of `each` included.
-pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Rostered<'w>) -> PlayerOptions {
+pub(crate) fn lower_player_options<'w>(
+    lower: &mut Lower<'_, 'w>,
+    player: &Rostered<'w>,
+) -> PlayerOptions {
     let mut options = PlayerOptions {
         ai: Ai::Bot,
         controllable: true,
@@ -77,7 +84,9 @@ pub(crate) fn lower_player_options<'w>(lower: &mut Lower<'_, 'w>, player: &Roste
         lower.within(scope, |lower| {
             set_ai(lower, None);
             for field in &player.fields {
-                lower.drawing(&format!("{stream} {}", field.key.node), |lower| option(lower, field, &mut options));
+                lower.drawing(&format!("{stream} {}", field.key.node), |lower| {
+                    option(lower, field, &mut options)
+                });
             }
             if let Some(when) = player.when {
                 let reg = lower.condition(when);
@@ -124,7 +133,12 @@ fn not_a_group(lower: &Lower<'_, '_>, span: crate::ast::Span) {
     lower.report(Problem::new(span, Types::StatsIsAGroup));
 }
 
-fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options: &mut PlayerOptions) {
+fn expression<'w>(
+    lower: &mut Lower<'_, 'w>,
+    key: &str,
+    expr: &'w Expr,
+    options: &mut PlayerOptions,
+) {
     match key {
         "ai" => ai(lower, expr, options),
         "stats" => not_a_group(lower, expr.span),
@@ -132,7 +146,13 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
         "fatigue" => options.fatigue = Some(share(lower, expr, "`fatigue`")),
         "yellow_cards" => {
             let reg = lower.want_reg(expr, Ty::Int);
-            lower.check_range(reg, (0.0, YELLOW_CARDS_MAX.into()), "`yellow_cards`", expr.span, "`0..1`");
+            lower.check_range(
+                reg,
+                (0.0, YELLOW_CARDS_MAX.into()),
+                "`yellow_cards`",
+                expr.span,
+                "`0..1`",
+            );
             options.yellow_cards = Some(reg);
         }
         "velocity" => {
@@ -142,7 +162,12 @@ fn expression<'w>(lower: &mut Lower<'_, 'w>, key: &str, expr: &'w Expr, options:
             }
             let velocity = lower.pair(&value);
             let zero = lower.code.constant(0.0);
-            lower.check_speed((velocity.0, velocity.1, zero), PLAYER_SPEED_MAX_MPS, "a player", expr.span);
+            lower.check_speed(
+                (velocity.0, velocity.1, zero),
+                PLAYER_SPEED_MAX_MPS,
+                "a player",
+                expr.span,
+            );
             options.velocity = Some(velocity);
         }
         "controllable" => {
@@ -170,7 +195,9 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
         return;
     };
     let built_in = [("bot", Ai::Bot), ("hold", Ai::Hold), ("lazy", Ai::Lazy)];
-    if let (Some((_, ai)), true) = (built_in.iter().find(|(known, _)| *known == name), args.is_empty()) {
+    if let (Some((_, ai)), true) =
+        (built_in.iter().find(|(known, _)| *known == name), args.is_empty())
+    {
         options.ai = *ai;
         set_ai(lower, None);
         return;
@@ -187,9 +214,11 @@ fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions
         set_ai(lower, Some(used));
         return;
     }
-    let behaviors =
-        library.visible(expr.span.file).filter(|(_, found)| matches!(found.item.kind, ItemKind::Behavior(_)));
-    let known: Vec<&str> = behaviors.map(|(name, _)| name).chain(built_in.iter().map(|(name, _)| *name)).collect();
+    let behaviors = library
+        .visible(expr.span.file)
+        .filter(|(_, found)| matches!(found.item.kind, ItemKind::Behavior(_)));
+    let known: Vec<&str> =
+        behaviors.map(|(name, _)| name).chain(built_in.iter().map(|(name, _)| *name)).collect();
     let guess = Guess::similar_or(&name, &known, &[]);
     lower.report(Problem::new(expr.span, Names::Unknown { kind: Kind::Ai, name, guess }));
 }
@@ -199,7 +228,10 @@ fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOp
         lower.report({
             let known: Vec<&str> = Stat::ALL.iter().map(|stat| stat.name()).collect();
             let guess = Guess::or_all(&field.key.node, &known);
-            Problem::new(field.key.span, Names::Unknown { kind: Kind::Statistic, name: field.key.node.clone(), guess })
+            Problem::new(
+                field.key.span,
+                Names::Unknown { kind: Kind::Statistic, name: field.key.node.clone(), guess },
+            )
         });
         return;
     };

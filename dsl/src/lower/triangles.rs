@@ -1,7 +1,8 @@
 //! Polygons as triangles: ear clipping.
 //!
-//! Which triangles, and in which order, is part of a scenario: a seed picks one by its number, and then a point in it.
-//! A library that cuts otherwise (earcutr) would begin every polygon's episodes elsewhere, and refuses no crossing edges.
+//! Which triangles, and in which order, is part of a scenario: a seed picks one by its number, and
+//! then a point in it. A library that cuts otherwise (earcutr) would begin every polygon's episodes
+//! elsewhere, and refuses no crossing edges.
 
 /// A triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +89,16 @@ mod tests {
         back.reverse();
         assert_eq!(area(&arrow), Some(6.0));
         assert_eq!(area(&back), Some(6.0));
-        let comb = [[0.0, 0.0], [5.0, 0.0], [5.0, 3.0], [4.0, 3.0], [4.0, 1.0], [3.0, 1.0], [3.0, 3.0], [0.0, 3.0]];
+        let comb = [
+            [0.0, 0.0],
+            [5.0, 0.0],
+            [5.0, 3.0],
+            [4.0, 3.0],
+            [4.0, 1.0],
+            [3.0, 1.0],
+            [3.0, 3.0],
+            [0.0, 3.0],
+        ];
         assert_eq!(area(&comb), Some(13.0));
     }
 

@@ -143,14 +143,25 @@ impl RegionValue {
         let pair = |(x, y): (Reg, Reg), f: &mut dyn FnMut(Reg) -> Reg| (f(x), f(y));
         match self {
             RegionValue::Rect(a, b) => RegionValue::Rect(pair(*a, f), pair(*b, f)),
-            RegionValue::Circle(centre, radius) => RegionValue::Circle(pair(*centre, f), f(*radius)),
-            RegionValue::Sector { centre, radius, from, width } => {
-                RegionValue::Sector { centre: pair(*centre, f), radius: f(*radius), from: f(*from), width: f(*width) }
+            RegionValue::Circle(centre, radius) => {
+                RegionValue::Circle(pair(*centre, f), f(*radius))
             }
-            RegionValue::Polygon(corners) => RegionValue::Polygon(corners.iter().map(|&at| pair(at, f)).collect()),
+            RegionValue::Sector { centre, radius, from, width } => RegionValue::Sector {
+                centre: pair(*centre, f),
+                radius: f(*radius),
+                from: f(*from),
+                width: f(*width),
+            },
+            RegionValue::Polygon(corners) => {
+                RegionValue::Polygon(corners.iter().map(|&at| pair(at, f)).collect())
+            }
             RegionValue::Union(a, b) => RegionValue::Union(Rc::new(a.map(f)), Rc::new(b.map(f))),
-            RegionValue::Intersection(a, b) => RegionValue::Intersection(Rc::new(a.map(f)), Rc::new(b.map(f))),
-            RegionValue::Difference(a, b) => RegionValue::Difference(Rc::new(a.map(f)), Rc::new(b.map(f))),
+            RegionValue::Intersection(a, b) => {
+                RegionValue::Intersection(Rc::new(a.map(f)), Rc::new(b.map(f)))
+            }
+            RegionValue::Difference(a, b) => {
+                RegionValue::Difference(Rc::new(a.map(f)), Rc::new(b.map(f)))
+            }
         }
     }
 }
@@ -187,7 +198,8 @@ struct Local<'w> {
 pub(crate) enum LocalName<'w> {
     /// A value of its own: the element of a loop.
     Value(Value<'w>),
-    /// An expression, read in the scope where it was written; `now` is its value in the present program.
+    /// An expression, read in the scope where it was written; `now` is its value in the present
+    /// program.
     Expr {
         /// The expression.
         expr: &'w Expr,

@@ -47,8 +47,9 @@ pub(crate) struct World<'w> {
     is_tentative: Cell<bool>,
 }
 
-/// One compilation may lower this much: expressions of every scenario of a file, each as often as it is used, and the
-/// instructions that they become. The largest scenarios of the library take some thousand.
+/// One compilation may lower this much: expressions of every scenario of a file, each as often as
+/// it is used, and the instructions that they become. The largest scenarios of the library take
+/// some thousand.
 pub(crate) const MAX_LOWERED: usize = 400_000;
 
 /// What one compilation may still lower.
@@ -124,18 +125,22 @@ impl World<'_> {
         }
     }
 
-    /// Whether another problem of this kind wouldn't be reported, so that its explanation can be skipped.
+    /// Whether another problem of this kind wouldn't be reported, so that its explanation can be
+    /// skipped.
     pub(crate) fn is_full(&self, code: Code) -> bool {
-        self.is_tentative.get() || self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
+        self.is_tentative.get()
+            || self.counts.borrow().get(&code).is_some_and(|count| *count >= MAX_PROBLEMS)
     }
 
-    /// How many problems were found so far: more of them afterwards say that what was read in between is wrong.
+    /// How many problems were found so far: more of them afterwards say that what was read in
+    /// between is wrong.
     pub(crate) fn found(&self) -> usize {
         self.found.get()
     }
 
-    /// Runs `f` and reports no problem that it finds. The caller only tries something out that is also compiled elsewhere,
-    /// where its problems are reported. Names that `f` refers to count as used.
+    /// Runs `f` and reports no problem that it finds. The caller only tries something out that is
+    /// also compiled elsewhere, where its problems are reported. Names that `f` refers to count as
+    /// used.
     pub(crate) fn tentatively<T>(&self, f: impl FnOnce() -> T) -> T {
         let outer = self.is_tentative.replace(true);
         let result = f();

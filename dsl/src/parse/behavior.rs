@@ -36,22 +36,25 @@ impl Reader<'_> {
             Rule::choose => {
                 let chances = node.into_inner().filter(|child| child.as_rule() == Rule::chance);
                 let chances = self.bounded(chances, "branches").into_iter();
-                return Some(BehaviorStmtKind::Choose(chances.filter_map(|chance| self.chance(chance)).collect()));
+                return Some(BehaviorStmtKind::Choose(
+                    chances.filter_map(|chance| self.chance(chance)).collect(),
+                ));
             }
             _ => {}
         }
         let mut nodes = CstNodes::of(node);
         Some(match rule {
             Rule::interrupt => {
-                let condition = nodes.seek(Rule::condition).map(|condition| self.expr(condition))?;
+                let condition =
+                    nodes.seek(Rule::condition).map(|condition| self.expr(condition))?;
                 BehaviorStmtKind::Interrupt { condition, body: self.take_body(&mut nodes)? }
             }
             Rule::repeat => {
                 nodes.eat(Rule::kw_repeat);
                 let how = match nodes.peek() {
-                    Some(Rule::kw_until) => {
-                        RepeatHow::Until(nodes.seek(Rule::condition).map(|condition| self.expr(condition))?)
-                    }
+                    Some(Rule::kw_until) => RepeatHow::Until(
+                        nodes.seek(Rule::condition).map(|condition| self.expr(condition))?,
+                    ),
                     Some(Rule::times) => {
                         let sum = CstNodes::of(nodes.next()?).seek(Rule::sum)?;
                         RepeatHow::Times(self.expr(sum))
@@ -61,14 +64,16 @@ impl Reader<'_> {
                 BehaviorStmtKind::Repeat { how, body: self.take_body(&mut nodes)? }
             }
             Rule::if_stmt => {
-                let condition = nodes.seek(Rule::condition).map(|condition| self.expr(condition))?;
+                let condition =
+                    nodes.seek(Rule::condition).map(|condition| self.expr(condition))?;
                 let mut arms = vec![(condition, self.take_body(&mut nodes)?)];
                 let mut otherwise = Vec::new();
                 for rest in self.bounded(nodes, "branches") {
                     let is_arm = rest.as_rule() == Rule::else_if;
                     let mut inner = CstNodes::of(rest);
                     if is_arm {
-                        let condition = inner.seek(Rule::condition).map(|condition| self.expr(condition))?;
+                        let condition =
+                            inner.seek(Rule::condition).map(|condition| self.expr(condition))?;
                         arms.push((condition, self.take_body(&mut inner)?));
                     } else {
                         inner.eat(Rule::kw_else);
@@ -81,7 +86,10 @@ impl Reader<'_> {
                 let name = nodes.want(Rule::ident)?;
                 let name = self.value_name(&name);
                 nodes.eat(Rule::equals);
-                BehaviorStmtKind::Assign { name, value: nodes.next().map(|value| self.expr(value))? }
+                BehaviorStmtKind::Assign {
+                    name,
+                    value: nodes.next().map(|value| self.expr(value))?,
+                }
             }
         })
     }
@@ -125,11 +133,15 @@ impl Reader<'_> {
             let twice = match clause.as_rule() {
                 Rule::kw_sprinting => stmt.sprinting.replace(span).is_some(),
                 Rule::do_until => {
-                    let condition = CstNodes::of(clause).seek(Rule::condition).map(|condition| self.expr(condition))?;
+                    let condition = CstNodes::of(clause)
+                        .seek(Rule::condition)
+                        .map(|condition| self.expr(condition))?;
                     stmt.until.replace(condition).is_some()
                 }
                 _ => {
-                    let duration = CstNodes::of(clause).seek(Rule::duration).map(|duration| self.expr(duration))?;
+                    let duration = CstNodes::of(clause)
+                        .seek(Rule::duration)
+                        .map(|duration| self.expr(duration))?;
                     stmt.duration.replace(duration).is_some()
                 }
             };

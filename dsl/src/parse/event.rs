@@ -19,7 +19,8 @@ impl Reader<'_> {
                 Rule::event_from => event.from = self.phrase(part, Rule::area),
                 _ => {
                     let span = self.span(&part);
-                    event.qualifier = Qualifier::from_name(part.as_str()).map(|node| Spanned { node, span });
+                    event.qualifier =
+                        Qualifier::from_name(part.as_str()).map(|node| Spanned { node, span });
                 }
             }
         }

@@ -14,7 +14,9 @@ impl Reader<'_> {
     pub(super) fn expr(&mut self, node: CstNode<'_>) -> Expr {
         let span = self.span(&node);
         match node.as_rule() {
-            Rule::expr | Rule::set | Rule::sum | Rule::over_what | Rule::factor => self.flat(node, span),
+            Rule::expr | Rule::set | Rule::sum | Rule::over_what | Rule::factor => {
+                self.flat(node, span)
+            }
             Rule::switch => Expr { span, kind: ExprKind::Bool(node.as_str().starts_with("on")) },
             _ => match node.into_inner().next() {
                 Some(inner) => self.expr(inner),
@@ -30,14 +32,21 @@ impl Reader<'_> {
 
     /// An expression's own operators, counted against the limit that bounds the tree's height.
     fn flat(&mut self, node: CstNode<'_>, span: Span) -> Expr {
-        let weight = node.clone().into_inner().filter(|child| child.as_rule() != Rule::operand).count() as u32 + 1;
+        let weight =
+            node.clone().into_inner().filter(|child| child.as_rule() != Rule::operand).count()
+                as u32
+                + 1;
         if self.operators + weight > MAX_OPERATORS {
             self.push(Problem::new(span, Syntax::TooManyOperators { most: MAX_OPERATORS }));
             return broken(span);
         }
         self.operators += weight;
         let mut nodes = CstNodes::of(node);
-        let expr = if nodes.eat(Rule::kw_if) { self.conditional(&mut nodes, span) } else { self.or(&mut nodes, span) };
+        let expr = if nodes.eat(Rule::kw_if) {
+            self.conditional(&mut nodes, span)
+        } else {
+            self.or(&mut nodes, span)
+        };
         self.operators -= weight;
         expr
     }
@@ -49,7 +58,8 @@ impl Reader<'_> {
         while let Some(node) = nodes.want(Rule::expr) {
             let expr = self.expr(node);
             if nodes.eat(Rule::kw_then) {
-                let then = nodes.want(Rule::expr).map_or_else(|| broken(span), |node| self.expr(node));
+                let then =
+                    nodes.want(Rule::expr).map_or_else(|| broken(span), |node| self.expr(node));
                 arms.push((expr, then));
                 nodes.eat(Rule::kw_else);
                 nodes.eat(Rule::kw_if);
@@ -108,7 +118,10 @@ impl Reader<'_> {
                     end = end.to(self.span(&rest));
                 }
                 let all = first.span.to(end);
-                self.push(Problem::new(op_span, Syntax::ComparisonChain { first: first.span.to(last) }));
+                self.push(Problem::new(
+                    op_span,
+                    Syntax::ComparisonChain { first: first.span.to(last) },
+                ));
                 return broken(all);
             }
             let built = self.comparison_tail(rule, &op, &first, nodes, within);
@@ -136,7 +149,10 @@ impl Reader<'_> {
             Rule::kw_changes => {
                 let to = nodes.eat(Rule::kw_to).then(|| self.union(nodes, within));
                 let end = to.as_ref().map_or(op_span, |to| to.span);
-                Expr { span: first.span.to(end), kind: ExprKind::Changes(Box::new(first.clone()), to.map(Box::new)) }
+                Expr {
+                    span: first.span.to(end),
+                    kind: ExprKind::Changes(Box::new(first.clone()), to.map(Box::new)),
+                }
             }
             _ => {
                 let operator = match op.as_str() {
@@ -186,7 +202,10 @@ impl Reader<'_> {
 
     fn binary(&self, operator: InfixOp, op: &CstNode<'_>, left: Expr, right: Expr) -> Expr {
         let op = Spanned { node: operator, span: self.span(op) };
-        Expr { span: left.span.to(right.span), kind: ExprKind::Binary(op, Box::new(left), Box::new(right)) }
+        Expr {
+            span: left.span.to(right.span),
+            kind: ExprKind::Binary(op, Box::new(left), Box::new(right)),
+        }
     }
 
     /// `-x.y.z`: the members bind first.
@@ -209,7 +228,10 @@ impl Reader<'_> {
         while nodes.eat(Rule::dot) {
             let Some(member) = nodes.want(Rule::word) else { break };
             let member = self.ident(&member);
-            expr = Expr { span: expr.span.to(member.span), kind: ExprKind::Member(Box::new(expr), member) };
+            expr = Expr {
+                span: expr.span.to(member.span),
+                kind: ExprKind::Member(Box::new(expr), member),
+            };
         }
         for (op, sign) in signs.into_iter().rev() {
             expr = Expr { span: sign.to(expr.span), kind: ExprKind::Unary(op, Box::new(expr)) };
@@ -235,8 +257,13 @@ impl Reader<'_> {
             Rule::own => self.own(node, span),
             Rule::call => {
                 let mut nodes = CstNodes::of(node);
-                let Some(name) = nodes.want(Rule::callee).map(|name| self.ident(&name)) else { return broken(span) };
-                ExprKind::Call { name, args: nodes.want(Rule::args).map(|args| self.args(args)).unwrap_or_default() }
+                let Some(name) = nodes.want(Rule::callee).map(|name| self.ident(&name)) else {
+                    return broken(span);
+                };
+                ExprKind::Call {
+                    name,
+                    args: nodes.want(Rule::args).map(|args| self.args(args)).unwrap_or_default(),
+                }
             }
             Rule::event | Rule::end_event => match self.event(node) {
                 Some(event) => ExprKind::Event(Box::new(event)),
@@ -244,11 +271,19 @@ impl Reader<'_> {
             },
             Rule::over_time => {
                 let mut nodes = CstNodes::of(node);
-                let Some(kind) = nodes.want(Rule::over_kind).map(|kind| self.ident(&kind)) else { return broken(span) };
+                let Some(kind) = nodes.want(Rule::over_kind).map(|kind| self.ident(&kind)) else {
+                    return broken(span);
+                };
                 nodes.eat(Rule::kw_of);
                 let of = nodes.next().map_or_else(
                     || broken(span),
-                    |of| if of.as_rule() == Rule::over_what { self.expr(of) } else { self.primary(of) },
+                    |of| {
+                        if of.as_rule() == Rule::over_what {
+                            self.expr(of)
+                        } else {
+                            self.primary(of)
+                        }
+                    },
                 );
                 ExprKind::OverTime { kind, of: Box::new(of) }
             }
@@ -302,9 +337,10 @@ impl Reader<'_> {
                     let word = self.ident(&child);
                     path = Some(match path {
                         None => Expr { span: word.span, kind: ExprKind::Name(word.node) },
-                        Some(left) => {
-                            Expr { span: left.span.to(word.span), kind: ExprKind::Member(Box::new(left), word) }
-                        }
+                        Some(left) => Expr {
+                            span: left.span.to(word.span),
+                            kind: ExprKind::Member(Box::new(left), word),
+                        },
                     });
                 }
                 _ => {}
@@ -327,7 +363,8 @@ impl Reader<'_> {
             let kind = match word.as_str() {
                 "true" | "on" => ExprKind::Bool(true),
                 "false" | "off" => ExprKind::Bool(false),
-                name => Role::from_name(name).map_or_else(|| ExprKind::Name(name.to_owned()), ExprKind::Role),
+                name => Role::from_name(name)
+                    .map_or_else(|| ExprKind::Name(name.to_owned()), ExprKind::Role),
             };
             let key = Expr { span: self.span(&word), kind };
             let value = nodes.next().map(|value| self.expr(value))?;

@@ -11,13 +11,23 @@ use setpiece_grammar::Rule;
 impl Reader<'_> {
     /// The fields between braces.
     pub(super) fn fields(&mut self, node: CstNode<'_>) -> Vec<Field> {
-        let fields = self.list(node, Context::Fields, |reader, field, _, _| reader.field(field), |_, _| None);
+        let fields = self.list(
+            node,
+            Context::Fields,
+            |reader, field, _, _| reader.field(field),
+            |_, _| None,
+        );
         let fields: Vec<Field> = fields.into_iter().flatten().collect();
         for (index, field) in fields.iter().enumerate() {
-            if let Some(first) = fields.iter().take(index).find(|first| first.key.node == field.key.node) {
+            if let Some(first) =
+                fields.iter().take(index).find(|first| first.key.node == field.key.node)
+            {
                 self.push(Problem::new(
                     field.key.span,
-                    Names::GivenTwice { what: format!("`{}`", field.key.node), first: first.key.span },
+                    Names::GivenTwice {
+                        what: format!("`{}`", field.key.node),
+                        first: first.key.span,
+                    },
                 ));
             }
         }

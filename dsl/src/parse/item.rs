@@ -3,8 +3,8 @@
 use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
-    BehaviorBody, BehaviorItem, Binding, Domain, FnItem, FormationItem, Ident, Item, ItemKind, ParamDecl, Ref,
-    RewardItem, ScenarioItem,
+    BehaviorBody, BehaviorItem, Binding, Domain, FnItem, FormationItem, Ident, Item, ItemKind,
+    ParamDecl, Ref, RewardItem, ScenarioItem,
 };
 use crate::source::Span;
 use pest::iterators::Pairs;
@@ -14,11 +14,19 @@ impl Reader<'_> {
     /// The items of a file.
     pub(super) fn file(&mut self, mut pairs: Pairs<'_, Rule>) -> Vec<Item> {
         let Some(file) = pairs.next() else { return Vec::new() };
-        self.list(file, Context::File, Self::item, |span, doc| Item { doc, span, kind: ItemKind::Broken })
+        self.list(file, Context::File, Self::item, |span, doc| Item {
+            doc,
+            span,
+            kind: ItemKind::Broken,
+        })
     }
 
     fn item(&mut self, node: CstNode<'_>, span: Span, doc: String) -> Item {
-        let kind = node.into_inner().next().and_then(|node| self.item_kind(node)).unwrap_or(ItemKind::Broken);
+        let kind = node
+            .into_inner()
+            .next()
+            .and_then(|node| self.item_kind(node))
+            .unwrap_or(ItemKind::Broken);
         Item { doc, span, kind }
     }
 
@@ -36,14 +44,23 @@ impl Reader<'_> {
             Rule::import => {
                 let path = nodes.seek(Rule::string)?;
                 let path = self.string(&path);
-                ItemKind::Import { path, alias: nodes.seek(Rule::ident).map(|name| self.value_name(&name)) }
+                ItemKind::Import {
+                    path,
+                    alias: nodes.seek(Rule::ident).map(|name| self.value_name(&name)),
+                }
             }
             Rule::scenario => {
                 let is_abstract = nodes.eat(Rule::kw_abstract);
                 let name = nodes.seek(Rule::free_name).map(|name| self.ident(&name))?;
                 let (params, extends) = self.head(&mut nodes);
                 let body = nodes.want(Rule::scenario_body)?;
-                ItemKind::Scenario(ScenarioItem { is_abstract, name, params, extends, body: self.scenario_body(body) })
+                ItemKind::Scenario(ScenarioItem {
+                    is_abstract,
+                    name,
+                    params,
+                    extends,
+                    body: self.scenario_body(body),
+                })
             }
             Rule::reward_item => {
                 let name = nodes.seek(Rule::ident).map(|name| self.ident(&name))?;
@@ -56,11 +73,17 @@ impl Reader<'_> {
                 let name = self.value_name(&name);
                 let (params, extends) = self.head(&mut nodes);
                 let body = nodes.want(Rule::team_body)?;
-                ItemKind::Formation(FormationItem { name, params, extends, body: self.team_body(body) })
+                ItemKind::Formation(FormationItem {
+                    name,
+                    params,
+                    extends,
+                    body: self.team_body(body),
+                })
             }
             Rule::behavior => {
                 let name = nodes.seek(Rule::ident).map(|name| self.ident(&name))?;
-                let params = nodes.want(Rule::params).map(|params| self.params(params)).unwrap_or_default();
+                let params =
+                    nodes.want(Rule::params).map(|params| self.params(params)).unwrap_or_default();
                 let body = nodes.next()?;
                 let body = if body.as_rule() == Rule::script {
                     BehaviorBody::Script(self.script(body)?)
@@ -76,7 +99,9 @@ impl Reader<'_> {
     /// `(params) extends parent`
     fn head(&mut self, nodes: &mut CstNodes<'_>) -> (Vec<ParamDecl>, Option<Ref>) {
         let params = nodes.want(Rule::params).map(|params| self.params(params)).unwrap_or_default();
-        let extends = nodes.want(Rule::extends).and_then(|extends| CstNodes::of(extends).seek(Rule::reference));
+        let extends = nodes
+            .want(Rule::extends)
+            .and_then(|extends| CstNodes::of(extends).seek(Rule::reference));
         (params, extends.and_then(|parent| self.reference(parent)))
     }
 
@@ -98,7 +123,10 @@ impl Reader<'_> {
         let name = nodes.seek(Rule::ident)?;
         let name = if ending { self.ident(&name) } else { self.callable_name(&name) };
         let params = nodes.want(Rule::params).map(|params| self.params(params)).unwrap_or_default();
-        let ty = nodes.eat(Rule::arrow).then(|| nodes.want(Rule::type_name).map(|ty| self.ident(&ty))).flatten();
+        let ty = nodes
+            .eat(Rule::arrow)
+            .then(|| nodes.want(Rule::type_name).map(|ty| self.ident(&ty)))
+            .flatten();
         nodes.eat(Rule::equals);
         let body = nodes.next().map(|body| self.expr(body))?;
         Some(FnItem { name, params, ty, body })
@@ -113,7 +141,8 @@ impl Reader<'_> {
     fn params(&mut self, node: CstNode<'_>) -> Vec<ParamDecl> {
         let mut params = Vec::new();
         let mut doc = String::new();
-        let nodes = node.into_inner().filter(|child| matches!(child.as_rule(), Rule::doc | Rule::param));
+        let nodes =
+            node.into_inner().filter(|child| matches!(child.as_rule(), Rule::doc | Rule::param));
         for child in self.bounded(nodes, "parameters") {
             match child.as_rule() {
                 Rule::doc => add_doc(&mut doc, &child),
@@ -141,8 +170,10 @@ impl Reader<'_> {
         let domain = node.into_inner().next()?;
         let span = self.span(&domain);
         let is_list = domain.as_rule() == Rule::list;
-        let parts = domain.into_inner().filter(|part| matches!(part.as_rule(), Rule::expr | Rule::sum));
-        let parts: Vec<_> = self.bounded(parts, "values").into_iter().map(|part| self.expr(part)).collect();
+        let parts =
+            domain.into_inner().filter(|part| matches!(part.as_rule(), Rule::expr | Rule::sum));
+        let parts: Vec<_> =
+            self.bounded(parts, "values").into_iter().map(|part| self.expr(part)).collect();
         if is_list {
             return Some(Domain::List(parts, span));
         }

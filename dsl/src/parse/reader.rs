@@ -125,7 +125,9 @@ impl<'t> Reader<'t> {
     /// Whether nothing that stands in a range would be reported.
     pub(super) fn is_reported(&self, range: &Range<usize>) -> bool {
         let index = self.reported.partition_point(|reported| reported.end <= range.start);
-        self.reported.get(index).is_some_and(|reported| reported.start <= range.start && range.end <= reported.end)
+        self.reported
+            .get(index)
+            .is_some_and(|reported| reported.start <= range.start && range.end <= reported.end)
     }
 
     /// Whether more problems can be reported.
@@ -141,7 +143,8 @@ impl<'t> Reader<'t> {
         left.is_some()
     }
 
-    /// A node's range in the text, without the blanks and comments that its last optional parts swallowed.
+    /// A node's range in the text, without the blanks and comments that its last optional parts
+    /// swallowed.
     pub(super) fn range(&self, node: &CstNode<'_>) -> Range<usize> {
         let (start, end) = (node.as_span().start() + self.base, node.as_span().end() + self.base);
         start..self.trimmed_end(start, end)
@@ -151,10 +154,13 @@ impl<'t> Reader<'t> {
     pub(super) fn trimmed_end(&self, start: usize, mut end: usize) -> usize {
         loop {
             let text = self.text.get(start..end).unwrap_or_default();
-            let trimmed = start + text.trim_end_matches([' ', '\t', '\r', '\n', ';', '\u{FEFF}', '\u{A0}']).len();
+            let trimmed = start
+                + text.trim_end_matches([' ', '\t', '\r', '\n', ';', '\u{FEFF}', '\u{A0}']).len();
             let index = self.comments.partition_point(|comment| comment.end < trimmed);
             match self.comments.get(index) {
-                Some(comment) if comment.end == trimmed && comment.start > start => end = comment.start,
+                Some(comment) if comment.end == trimmed && comment.start > start => {
+                    end = comment.start
+                }
                 _ => return trimmed,
             }
         }
@@ -200,13 +206,20 @@ impl<'t> Reader<'t> {
     /// Whether a list may take one more; reports the first that it may not.
     pub(super) fn has_room(&mut self, taken: usize, more: Span, what: &str) -> bool {
         if taken == MAX_LIST {
-            self.push(Problem::new(more, Syntax::TooLongList { what: what.to_owned(), most: MAX_LIST }));
+            self.push(Problem::new(
+                more,
+                Syntax::TooLongList { what: what.to_owned(), most: MAX_LIST },
+            ));
         }
         taken < MAX_LIST
     }
 
     /// The nodes of a list, as many as it may have; reports the first that is too many.
-    pub(super) fn bounded<'i>(&mut self, nodes: impl Iterator<Item = CstNode<'i>>, what: &str) -> Vec<CstNode<'i>> {
+    pub(super) fn bounded<'i>(
+        &mut self,
+        nodes: impl Iterator<Item = CstNode<'i>>,
+        what: &str,
+    ) -> Vec<CstNode<'i>> {
         let mut list: Vec<CstNode<'i>> = nodes.take(MAX_LIST + 1).collect();
         if let Some(more) = list.get(MAX_LIST).map(|more| self.span(more)) {
             self.has_room(MAX_LIST, more, what);
@@ -305,8 +318,10 @@ pub(super) fn reserved(name: &str, span: Span, whose: &str) -> Problem {
 }
 
 /// Signs of two characters, the language's and others'.
-const SIGNS: &[&str] =
-    &["==", "!=", "<=", ">=", "..", "->", "//", "&&", "||", "**", "++", "--", "+=", "-=", "*=", "/=", ":="];
+const SIGNS: &[&str] = &[
+    "==", "!=", "<=", ">=", "..", "->", "//", "&&", "||", "**", "++", "--", "+=", "-=", "*=", "/=",
+    ":=",
+];
 
 /// The word, number or sign at the start of a text.
 pub(super) fn token(text: &str) -> &str {

@@ -100,13 +100,17 @@ impl Reader<'_> {
                     before.as_ref().is_some_and(|before| self.belongs(before, &range))
                 } else if reported.as_ref().is_none_or(|reported| indent <= reported.indent) {
                     reported = Some(Reported {
-                        indent: before.as_ref().map_or(indent, |before| indent.min(self.indent(before.start))),
+                        indent: before
+                            .as_ref()
+                            .map_or(indent, |before| indent.min(self.indent(before.start))),
                     });
                     self.recover(context, &range, before.as_ref())
                 } else {
                     false
                 };
-                if let (true, Some(before), Some(last)) = (condemned, &before, statements.last_mut()) {
+                if let (true, Some(before), Some(last)) =
+                    (condemned, &before, statements.last_mut())
+                {
                     self.lose(before.clone());
                     *last = broken(self.between(before.start, before.end), String::new());
                 }
@@ -122,11 +126,12 @@ impl Reader<'_> {
         statements
     }
 
-    /// Whether junk goes on with the statement before it: on its line, or with a word or sign that begins no statement.
+    /// Whether junk goes on with the statement before it: on its line, or with a word or sign that
+    /// begins no statement.
     fn belongs(&self, before: &Range<usize>, junk: &Range<usize>) -> bool {
         let first = token(text(self.text, junk.clone()));
-        let unit =
-            first.starts_with("step") && text(self.text, before.clone()).ends_with(|char: char| char.is_ascii_digit());
+        let unit = first.starts_with("step")
+            && text(self.text, before.clone()).ends_with(|char: char| char.is_ascii_digit());
         !text(self.text, before.end..junk.start).contains('\n')
             || unit
             || first.starts_with(|char: char| "=.,:*/+-<>!?&|%^([{".contains(char))
@@ -135,8 +140,14 @@ impl Reader<'_> {
 
     /// Re-reads junk to say what was expected, and reads the blocks in it for further problems.
     ///
-    /// - `before`: the statement in front of it, which may be the one that goes wrong here; `true` if it means nothing.
-    fn recover(&mut self, context: Context, junk: &Range<usize>, before: Option<&Range<usize>>) -> bool {
+    /// - `before`: the statement in front of it, which may be the one that goes wrong here; `true`
+    ///   if it means nothing.
+    fn recover(
+        &mut self,
+        context: Context,
+        junk: &Range<usize>,
+        before: Option<&Range<usize>>,
+    ) -> bool {
         let whole = before.filter(|before| !text(self.text, 0..before.end).ends_with('}'));
         let start = whole.map_or(junk.start, |before| before.start);
         let slice = text(self.text, start..junk.end);
@@ -151,8 +162,16 @@ impl Reader<'_> {
         let belonging = before.filter(|before| self.belongs(before, junk));
         let tokens = self.tokens(belonging.map_or(junk.start, |before| before.start)..junk.end);
         let first = tokens.partition_point(|(from, _)| *from < junk.start);
-        let wrong =
-            Wrong { context, junk: junk.clone(), before: whole.cloned(), at, positives, tokens, first, inside: false };
+        let wrong = Wrong {
+            context,
+            junk: junk.clone(),
+            before: whole.cloned(),
+            at,
+            positives,
+            tokens,
+            first,
+            inside: false,
+        };
         let Finding { problem, fresh, goes_on } = self.explain(wrong);
         let condemned = belonging.is_some() && !fresh && (whole.is_some() || goes_on);
         self.push(problem);
@@ -163,7 +182,9 @@ impl Reader<'_> {
     /// Reads the block behind a head that went wrong, for the problems in it.
     fn read_block(&mut self, context: Context, junk: &Range<usize>, at: usize) {
         let text = self.text;
-        let Some(brace) = text.get(at..junk.end).and_then(|rest| rest.find('{')).map(|brace| at + brace) else {
+        let Some(brace) =
+            text.get(at..junk.end).and_then(|rest| rest.find('{')).map(|brace| at + brace)
+        else {
             return;
         };
         let first = token(text.get(junk.start..).unwrap_or_default());
@@ -172,9 +193,13 @@ impl Reader<'_> {
         if !self.spend(junk.end - brace) {
             return;
         }
-        let Ok(mut pairs) = PitchParser::parse(rule, text.get(brace..junk.end).unwrap_or_default()) else { return };
+        let Ok(mut pairs) = PitchParser::parse(rule, text.get(brace..junk.end).unwrap_or_default())
+        else {
+            return;
+        };
         let Some(node) = pairs.next() else { return };
-        let (base, operators) = (std::mem::replace(&mut self.base, brace), std::mem::take(&mut self.operators));
+        let (base, operators) =
+            (std::mem::replace(&mut self.base, brace), std::mem::take(&mut self.operators));
         match rule {
             Rule::scenario_body => drop(self.scenario_body(node)),
             Rule::team_body => drop(self.team_body(node)),
@@ -187,14 +212,23 @@ impl Reader<'_> {
     }
 
     /// A problem of a word at the start of a statement, or nothing if the word may be right.
-    fn misplaced(&self, context: Context, word: &str, at: usize, habit: Option<&str>) -> Option<Problem> {
+    fn misplaced(
+        &self,
+        context: Context,
+        word: &str,
+        at: usize,
+        habit: Option<&str>,
+    ) -> Option<Problem> {
         let span = self.at(at);
         let owner = Context::ALL.iter().find(|other| other.keywords().contains(&word))?;
         if context.keywords().contains(&word) {
             return None;
         }
         let (word, habit) = (word.to_owned(), habit.map(str::to_owned));
-        Some(Problem::new(span, Syntax::Misplaced { word, place: context.name(), owner: owner.name(), habit }))
+        Some(Problem::new(
+            span,
+            Syntax::Misplaced { word, place: context.name(), owner: owner.name(), habit },
+        ))
     }
 }
 

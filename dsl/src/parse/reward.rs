@@ -23,7 +23,8 @@ impl Reader<'_> {
         body
     }
 
-    /// `give 1 on goal by us { … }` reads as a `give` of every step and a block: surely not what was meant.
+    /// `give 1 on goal by us { … }` reads as a `give` of every step and a block: surely not what
+    /// was meant.
     fn find_blocks_after_give(&mut self, body: &[RewardStmt]) {
         for pair in body.windows(2) {
             let [give, block] = pair else { continue };
@@ -32,9 +33,14 @@ impl Reader<'_> {
                 RewardStmtKind::When { .. } => "when …",
                 _ => continue,
             };
-            let between = self.original().get(give.span.end as usize..block.span.start as usize).unwrap_or_default();
+            let between = self
+                .original()
+                .get(give.span.end as usize..block.span.start as usize)
+                .unwrap_or_default();
             // A label ends its `give`.
-            let RewardStmtKind::Give(GiveStmt { on, when, label, .. }) = &give.kind else { continue };
+            let RewardStmtKind::Give(GiveStmt { on, when, label, .. }) = &give.kind else {
+                continue;
+            };
             let ended = label.as_ref().is_some_and(|label| label.span.end == give.span.end);
             if !(ended && (!on.is_empty() || when.is_some())) && !between.contains(['\n', ';']) {
                 let moved = (!self.when_begins_a_line(block)).then_some(head);
@@ -44,7 +50,8 @@ impl Reader<'_> {
         }
     }
 
-    /// `on goal by us` and a `when … {` on the next line: two statements for the author, one for the grammar.
+    /// `on goal by us` and a `when … {` on the next line: two statements for the author, one for
+    /// the grammar.
     fn when_begins_a_line(&self, block: &RewardStmt) -> bool {
         let RewardStmtKind::On { events, when: Some(when), .. } = &block.kind else { return false };
         let from = events.last().map_or(block.span.start, |event| event.span.end);
@@ -69,7 +76,9 @@ impl Reader<'_> {
         Some(match rule {
             Rule::on_block => {
                 let events = nodes.seek(Rule::events).map(|events| self.events(events))?;
-                let when = nodes.want(Rule::block_when).and_then(|when| CstNodes::of(when).seek(Rule::condition));
+                let when = nodes
+                    .want(Rule::block_when)
+                    .and_then(|when| CstNodes::of(when).seek(Rule::condition));
                 let when = when.map(|when| self.expr(when));
                 let body = nodes.want(Rule::reward_body)?;
                 RewardStmtKind::On { events, when, body: self.reward_body(body) }
@@ -92,9 +101,12 @@ impl Reader<'_> {
             Some(Rule::else_when) => {
                 let first = nodes.peek_range()?;
                 let span = self.between(first.start + self.base, first.end + self.base);
-                self.nested(span, |reader| reader.else_when(nodes)).map(|inner| inner.into_iter().collect())
+                self.nested(span, |reader| reader.else_when(nodes))
+                    .map(|inner| inner.into_iter().collect())
             }
-            Some(_) => CstNodes::of(nodes.next()?).seek(Rule::reward_body).map(|body| self.reward_body(body)),
+            Some(_) => CstNodes::of(nodes.next()?)
+                .seek(Rule::reward_body)
+                .map(|body| self.reward_body(body)),
             None => None,
         };
         Some(RewardStmtKind::When { condition, then, otherwise })
@@ -119,7 +131,8 @@ impl Reader<'_> {
             Some(_) => {
                 let last = nodes.next()?;
                 span = span.to(self.span(&last));
-                otherwise = CstNodes::of(last).seek(Rule::reward_body).map(|body| self.reward_body(body));
+                otherwise =
+                    CstNodes::of(last).seek(Rule::reward_body).map(|body| self.reward_body(body));
             }
             None => {}
         }
@@ -137,7 +150,14 @@ impl Reader<'_> {
         };
         let per_second = nodes.eat(Rule::per_second);
         let once = nodes.want(Rule::kw_once).map(|once| self.span(&once));
-        let mut give = GiveStmt { value, per_second, once, on: Vec::new(), when: None, label: self.label(&mut nodes) };
+        let mut give = GiveStmt {
+            value,
+            per_second,
+            once,
+            on: Vec::new(),
+            when: None,
+            label: self.label(&mut nodes),
+        };
         while let Some(rule) = nodes.peek() {
             match rule {
                 Rule::label => give.label = self.label(&mut nodes),
@@ -146,7 +166,8 @@ impl Reader<'_> {
                     give.on = events.map(|events| self.events(events)).unwrap_or_default();
                 }
                 _ => {
-                    let condition = nodes.next().and_then(|when| CstNodes::of(when).seek(Rule::condition));
+                    let condition =
+                        nodes.next().and_then(|when| CstNodes::of(when).seek(Rule::condition));
                     give.when = condition.map(|condition| self.expr(condition));
                 }
             }

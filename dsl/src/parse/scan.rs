@@ -18,11 +18,13 @@ use chain::Chain;
 
 /// What the first look finds.
 pub(super) struct Scan<'t> {
-    /// The text with its brackets and strings mended. Offsets agree with the author's text as far as that goes.
+    /// The text with its brackets and strings mended. Offsets agree with the author's text as far
+    /// as that goes.
     pub(super) text: Cow<'t, str>,
     /// Comments, in order.
     pub(super) comments: Vec<Range<usize>>,
-    /// Where a problem has been reported already, so that what follows from it is not reported again.
+    /// Where a problem has been reported already, so that what follows from it is not reported
+    /// again.
     pub(super) reported: Vec<Range<usize>>,
     /// What is wrong.
     pub(super) problems: Vec<Problem>,
@@ -70,7 +72,12 @@ fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
         tokens: 0,
         too_much: None,
         effort: LEAST_EFFORT + 2 * text.len(),
-        scan: Scan { text: Cow::Borrowed(text), comments: Vec::new(), reported: Vec::new(), problems: Vec::new() },
+        scan: Scan {
+            text: Cow::Borrowed(text),
+            comments: Vec::new(),
+            reported: Vec::new(),
+            problems: Vec::new(),
+        },
     };
     scanner.run(text);
     scanner
@@ -79,7 +86,12 @@ fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
 /// What is said of a text with too many words: it is not read.
 fn too_much<'t>(at: usize, file: FileId) -> Scan<'t> {
     let problem = Problem::new(span(file, at, at + 1), Syntax::TooManyWords { most: MAX_TOKENS });
-    Scan { text: Cow::Borrowed(""), comments: Vec::new(), reported: everything(), problems: vec![problem] }
+    Scan {
+        text: Cow::Borrowed(""),
+        comments: Vec::new(),
+        reported: everything(),
+        problems: vec![problem],
+    }
 }
 
 /// The range of a text of which nothing more is reported.
@@ -197,7 +209,8 @@ impl Scanner<'_> {
                     if self.line_start && self.indent == 0 {
                         self.left_edge(at, rest);
                     }
-                    let word = rest.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_').next();
+                    let word =
+                        rest.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_').next();
                     self.word(at, word.unwrap_or_default())
                 }
                 _ => self.sign(at, byte, rest),
@@ -300,7 +313,11 @@ impl Scanner<'_> {
         }
         self.skips.push(Skip { range: at..end, line: true });
         self.scan.reported.push(self.line_from..end + 1);
-        if self.bytes.get(at..end).is_some_and(|text| text.iter().any(|byte| b"(){}[]".contains(byte))) {
+        if self
+            .bytes
+            .get(at..end)
+            .is_some_and(|text| text.iter().any(|byte| b"(){}[]".contains(byte)))
+        {
             // The quote that is missing stands further left: this swallows brackets.
             self.lost.push(self.chunk);
         }
@@ -314,7 +331,8 @@ impl Scanner<'_> {
         end + 1
     }
 
-    /// Where the closing brackets at the end of a string that is not closed begin, if they close what is open.
+    /// Where the closing brackets at the end of a string that is not closed begin, if they close
+    /// what is open.
     fn closers_at_end(&self, string: Range<usize>) -> Option<usize> {
         let text = self.bytes.get(string.clone())?;
         let words = text.iter().rposition(|byte| !b")]} \t\r,;".contains(byte))? + 1;
@@ -357,8 +375,11 @@ impl Scanner<'_> {
         // A `}` that stands further left than the line of the `{` on top closes one further out.
         let dedented = self.by_indent && byte == b'}' && self.line_start;
         let fits = |open: &Open| open.closer() == byte && !(dedented && open.indent > self.indent);
-        let matching =
-            self.open.iter().rposition(fits).or_else(|| self.open.iter().rposition(|open| open.closer() == byte));
+        let matching = self
+            .open
+            .iter()
+            .rposition(fits)
+            .or_else(|| self.open.iter().rposition(|open| open.closer() == byte));
         // A round bracket does not close anything beyond a block.
         let block = self.open.iter().rposition(|open| open.byte == b'{');
         match matching {

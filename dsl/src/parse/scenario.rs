@@ -3,7 +3,8 @@
 use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
-    BallStmt, EndCondition, EndStmt, Expr, RewardUse, RewardUseKind, ScenarioStmt, ScenarioStmtKind, Spanned,
+    BallStmt, EndCondition, EndStmt, Expr, RewardUse, RewardUseKind, ScenarioStmt,
+    ScenarioStmtKind, Spanned,
 };
 use crate::source::Span;
 use setpiece_grammar::Rule;
@@ -49,7 +50,10 @@ impl Reader<'_> {
                 }
                 let names = self.bounded(names.into_iter(), "names");
                 let names = names.iter().map(|name| self.value_name(name)).collect();
-                ScenarioStmtKind::LetTuple { names, value: nodes.seek(Rule::expr).map(|value| self.expr(value))? }
+                ScenarioStmtKind::LetTuple {
+                    names,
+                    value: nodes.seek(Rule::expr).map(|value| self.expr(value))?,
+                }
             }
             Rule::rules => ScenarioStmtKind::Rules(self.take_fields(&mut nodes)),
             Rule::agents => ScenarioStmtKind::Agents(self.take_fields(&mut nodes)),
@@ -57,7 +61,11 @@ impl Reader<'_> {
                 let place = nodes.want(Rule::place)?;
                 let place = self.place(place)?;
                 let jitter = self.jitter(&mut nodes);
-                ScenarioStmtKind::Ball(BallStmt { place, jitter, fields: self.take_fields(&mut nodes) })
+                ScenarioStmtKind::Ball(BallStmt {
+                    place,
+                    jitter,
+                    fields: self.take_fields(&mut nodes),
+                })
             }
             Rule::team => {
                 let team = nodes.next().map(|team| self.ident(&team))?;
@@ -70,16 +78,27 @@ impl Reader<'_> {
             },
             Rule::start => {
                 let kind = nodes.want(Rule::ident).map(|kind| self.ident(&kind))?;
-                let team = if nodes.eat(Rule::kw_for) { self.take_expr(&mut nodes, Rule::actor) } else { None };
-                let at = if nodes.eat(Rule::kw_at) { self.take_expr(&mut nodes, Rule::point) } else { None };
+                let team = if nodes.eat(Rule::kw_for) {
+                    self.take_expr(&mut nodes, Rule::actor)
+                } else {
+                    None
+                };
+                let at = if nodes.eat(Rule::kw_at) {
+                    self.take_expr(&mut nodes, Rule::point)
+                } else {
+                    None
+                };
                 ScenarioStmtKind::Start { kind, team, at, fields: self.take_fields(&mut nodes) }
             }
             Rule::reward_use => self.reward_use(&mut nodes)?,
             Rule::end => ScenarioStmtKind::End(self.end(nodes.next()?)?),
             Rule::require => {
                 let condition = self.take_expr(&mut nodes, Rule::condition)?;
-                let probability =
-                    if nodes.eat(Rule::kw_with) { self.take_expr(&mut nodes, Rule::factor) } else { None };
+                let probability = if nodes.eat(Rule::kw_with) {
+                    self.take_expr(&mut nodes, Rule::factor)
+                } else {
+                    None
+                };
                 ScenarioStmtKind::Require { condition, probability, label: self.label(&mut nodes) }
             }
             Rule::remove => {
@@ -90,7 +109,9 @@ impl Reader<'_> {
                 };
                 ScenarioStmtKind::Remove { what, name }
             }
-            Rule::mirror => ScenarioStmtKind::Mirror(nodes.seek(Rule::ident).map(|what| self.ident(&what))?),
+            Rule::mirror => {
+                ScenarioStmtKind::Mirror(nodes.seek(Rule::ident).map(|what| self.ident(&what))?)
+            }
             Rule::observe => {
                 debug_assert_eq!(keyword.as_rule(), Rule::kw_observe, "the keyword stands first");
                 let observed = nodes.filter(|node| node.as_rule() == Rule::observed);
@@ -134,8 +155,13 @@ impl Reader<'_> {
             }
         };
         let label = self.label(nodes);
-        let weight = nodes.want(Rule::weight).and_then(|weight| CstNodes::of(weight).seek(Rule::factor));
-        Some(ScenarioStmtKind::Reward(RewardUse { what, label, weight: weight.map(|weight| self.expr(weight)) }))
+        let weight =
+            nodes.want(Rule::weight).and_then(|weight| CstNodes::of(weight).seek(Rule::factor));
+        Some(ScenarioStmtKind::Reward(RewardUse {
+            what,
+            label,
+            weight: weight.map(|weight| self.expr(weight)),
+        }))
     }
 
     fn end(&mut self, node: CstNode<'_>) -> Option<EndStmt> {
@@ -146,11 +172,14 @@ impl Reader<'_> {
         }
         let verdict = nodes.want(Rule::verdict).map(|verdict| self.ident(&verdict));
         let label = nodes.want(Rule::reference).and_then(|label| self.reference(label));
-        let condition = match nodes.want(Rule::trigger).and_then(|trigger| CstNodes::of(trigger).last()) {
-            Some(script) if script.as_rule() == Rule::script => Some(EndCondition::Script(self.script(script)?)),
-            Some(condition) => Some(EndCondition::Expr(self.expr(condition))),
-            None => None,
-        };
+        let condition =
+            match nodes.want(Rule::trigger).and_then(|trigger| CstNodes::of(trigger).last()) {
+                Some(script) if script.as_rule() == Rule::script => {
+                    Some(EndCondition::Script(self.script(script)?))
+                }
+                Some(condition) => Some(EndCondition::Expr(self.expr(condition))),
+                None => None,
+            };
         Some(EndStmt::When { verdict, label, condition })
     }
 }

@@ -12,7 +12,10 @@ use setpiece_scenario::vocabulary::Role;
 impl Reader<'_> {
     /// The statements between a team's or formation's braces.
     pub(super) fn team_body(&mut self, node: CstNode<'_>) -> Vec<TeamStmt> {
-        self.list(node, Context::Team, Self::team_stmt, |span, _| TeamStmt { span, kind: TeamStmtKind::Broken })
+        self.list(node, Context::Team, Self::team_stmt, |span, _| TeamStmt {
+            span,
+            kind: TeamStmtKind::Broken,
+        })
     }
 
     fn team_stmt(&mut self, node: CstNode<'_>, span: Span, _doc: String) -> TeamStmt {
@@ -74,9 +77,19 @@ impl Reader<'_> {
         let jitter = self.jitter(nodes);
         let facing = nodes.want(Rule::facing).and_then(|facing| self.facing(facing));
         let jitter = jitter.or_else(|| self.jitter(nodes));
-        let when = nodes.want(Rule::player_when).and_then(|when| CstNodes::of(when).seek(Rule::condition));
+        let when =
+            nodes.want(Rule::player_when).and_then(|when| CstNodes::of(when).seek(Rule::condition));
         let when = when.map(|when| self.expr(when));
-        PlayerStmt { name: None, count: None, role, place, facing, jitter, when, fields: self.take_fields(nodes) }
+        PlayerStmt {
+            name: None,
+            count: None,
+            role,
+            place,
+            facing,
+            jitter,
+            when,
+            fields: self.take_fields(nodes),
+        }
     }
 
     /// `jitter 1m`
@@ -100,18 +113,34 @@ impl Reader<'_> {
         let rule = form.as_rule();
         let first = form.clone().into_inner().next()?;
         let operands = form.into_inner().filter(|part| {
-            matches!(part.as_rule(), Rule::point | Rule::area | Rule::length | Rule::direction | Rule::share)
+            matches!(
+                part.as_rule(),
+                Rule::point | Rule::area | Rule::length | Rule::direction | Rule::share
+            )
         });
-        let mut operands = operands.map(|operand| self.expr(operand)).collect::<Vec<_>>().into_iter();
+        let mut operands =
+            operands.map(|operand| self.expr(operand)).collect::<Vec<_>>().into_iter();
         let kind = match rule {
             Rule::place_at => PlaceKind::At(operands.next()?),
             Rule::place_in => PlaceKind::In(operands.next()?),
-            Rule::relative => {
-                PlaceKind::Relative { direction: self.ident(&first), of: operands.next()?, by: operands.next()? }
+            Rule::relative => PlaceKind::Relative {
+                direction: self.ident(&first),
+                of: operands.next()?,
+                by: operands.next()?,
+            },
+            Rule::between => {
+                PlaceKind::Between { a: operands.next()?, b: operands.next()?, at: operands.next() }
             }
-            Rule::between => PlaceKind::Between { a: operands.next()?, b: operands.next()?, at: operands.next() },
-            Rule::beyond => PlaceKind::Beyond { of: operands.next()?, by: operands.next()?, from: operands.next()? },
-            _ => PlaceKind::Offset { from: operands.next()?, along: operands.next()?, by: operands.next()? },
+            Rule::beyond => PlaceKind::Beyond {
+                of: operands.next()?,
+                by: operands.next()?,
+                from: operands.next()?,
+            },
+            _ => PlaceKind::Offset {
+                from: operands.next()?,
+                along: operands.next()?,
+                by: operands.next()?,
+            },
         };
         Some(Place { span, kind })
     }

@@ -160,7 +160,8 @@ impl Code {
         }
     }
 
-    /// Whether what it is about is left out of the scenario, so that the rest may lack it: see [`Code::may_be_echo`].
+    /// Whether what it is about is left out of the scenario, so that the rest may lack it: see
+    /// [`Code::may_be_echo`].
     pub const fn leaves_gap(self) -> bool {
         match self.stage() {
             Stage::Load => true,
@@ -168,13 +169,20 @@ impl Code {
             Stage::Syntax => !matches!(self, Code::NotYet),
             Stage::Names => matches!(
                 self,
-                Code::UnknownRole | Code::UnknownEvent | Code::UnknownParent | Code::ImportCycle | Code::ExtendsCycle
+                Code::UnknownRole
+                    | Code::UnknownEvent
+                    | Code::UnknownParent
+                    | Code::ImportCycle
+                    | Code::ExtendsCycle
             ),
-            Stage::Types | Stage::Football | Stage::Scripts | Stage::DryRun | Stage::Episode => false,
+            Stage::Types | Stage::Football | Stage::Scripts | Stage::DryRun | Stage::Episode => {
+                false
+            }
         }
     }
 
-    /// Whether it may be nothing but the echo of a statement that was left out: it tells of what is not there.
+    /// Whether it may be nothing but the echo of a statement that was left out: it tells of what is
+    /// not there.
     pub const fn may_be_echo(self) -> bool {
         matches!(
             self,
@@ -194,7 +202,8 @@ impl Code {
             Some(head) if head.eq_ignore_ascii_case("sp") => text.get(2..)?,
             _ => text,
         };
-        let number: u16 = digits.parse().ok().filter(|_| digits.bytes().all(|byte| byte.is_ascii_digit()))?;
+        let number: u16 =
+            digits.parse().ok().filter(|_| digits.bytes().all(|byte| byte.is_ascii_digit()))?;
         Code::ALL.iter().copied().find(|code| code.number() == number)
     }
 }

@@ -1,11 +1,12 @@
 //! The facts that stages find, by subject, each beside its words.
 //!
-//! A stage reports a fact with its data. Only this folder turns it into words, and only when a report is rendered: to
-//! change a report, change the entry of its fact. An entry is
+//! A stage reports a fact with its data. Only this folder turns it into words, and only when a
+//! report is rendered: to change a report, change the entry of its fact. An entry is
 //!
 //! ```text
 //! /// When it is reported.
-//! Name { data: Type, … } = its code => say(message, what the marked text is).help(what to write instead),
+//! Name { data: Type, … } = its code =>
+//!     say(message, what the marked text is).help(what to write instead),
 //! ```
 //!
 //! The words read the data by reference.
@@ -52,7 +53,8 @@ macro_rules! facts {
     ($(#[$about:meta])* $vis:vis $group:ident {
         $(
             $(#[$doc:meta])*
-            $name:ident $({ $($(#[$of:meta])* $field:ident: $ty:ty),+ $(,)? })? = $code:expr => $words:expr,
+            $name:ident $({ $($(#[$of:meta])* $field:ident: $ty:ty),+ $(,)? })?
+                = $code:expr => $words:expr,
         )+
     }) => {
         $(#[$about])*

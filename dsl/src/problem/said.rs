@@ -38,7 +38,13 @@ pub(super) struct Said {
 
 /// Says what is wrong, and what the marked text is.
 pub(super) fn say(message: impl Into<String>, label: impl Into<String>) -> Said {
-    Said { message: message.into(), label: label.into(), also: Vec::new(), help: None, names: Vec::new() }
+    Said {
+        message: message.into(),
+        label: label.into(),
+        also: Vec::new(),
+        help: None,
+        names: Vec::new(),
+    }
 }
 
 impl Said {

@@ -5,8 +5,8 @@ use crate::source::Source;
 
 /// Checks scripts against the engine's hook API, which the compiler does not know.
 pub trait ScriptApi {
-    /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done` or `act`) and finds
-    /// these names in `ctx.params`.
+    /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done`
+    /// or `act`) and finds these names in `ctx.params`.
     fn check(&self, script: &Source, hook: &str, params: &[&str]) -> Vec<ScriptProblem>;
 }
 

@@ -2,10 +2,11 @@
 
 use crate::habit;
 
-/// A similar name is looked for if the name is at most this long, bytes: comparing costs the product of both lengths.
+/// A similar name is looked for if the name is at most this long, bytes: comparing costs the
+/// product of both lengths.
 const SIMILAR_BYTES_MAX: usize = 64;
-/// A similar name is looked for among this many candidates at most. More names than that are no longer a typo's
-/// neighbours, and a text may hold as many wrong names as right ones.
+/// A similar name is looked for among this many candidates at most. More names than that are no
+/// longer a typo's neighbours, and a text may hold as many wrong names as right ones.
 const CANDIDATES_MAX: usize = 1_000;
 /// How alike two names must be, from 0 to 1.
 const LIKENESS_MIN: f64 = 0.6;
@@ -30,7 +31,8 @@ pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -
     best.1
 }
 
-/// A bound of the likeness of two names that is quick to compute: letters that only one of them has must be edited.
+/// A bound of the likeness of two names that is quick to compute: letters that only one of them has
+/// must be edited.
 fn likeness_at_most(a: &str, b: &str) -> f64 {
     let (long, short) = if a.chars().count() < b.chars().count() { (b, a) } else { (a, b) };
     let mut counts = [0_u8; 64];
@@ -51,7 +53,8 @@ fn likeness_at_most(a: &str, b: &str) -> f64 {
     if length == 0 { 1.0 } else { f64::from(common) / f64::from(length) }
 }
 
-/// What an author may have meant by a name that nothing has, and what they could have written instead.
+/// What an author may have meant by a name that nothing has, and what they could have written
+/// instead.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Guess {
     /// What was probably meant.
@@ -84,7 +87,8 @@ impl Guess {
         }
     }
 
-    /// The same, but where nothing is similar it lists all that there is even for a word of another language.
+    /// The same, but where nothing is similar it lists all that there is even for a word of another
+    /// language.
     pub(crate) fn similar_or_all(found: &str, known: &[&str]) -> Guess {
         if known.is_empty() { Guess::of(found, []) } else { Guess::similar_or(found, known, known) }
     }

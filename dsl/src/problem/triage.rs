@@ -9,7 +9,11 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The problems to report, by file, place and code.
 ///
 /// - `lost`: names whose declarations could not be read.
-pub(crate) fn triage(problems: Vec<Problem>, sources: &Sources, lost: &BTreeSet<&str>) -> Vec<Problem> {
+pub(crate) fn triage(
+    problems: Vec<Problem>,
+    sources: &Sources,
+    lost: &BTreeSet<&str>,
+) -> Vec<Problem> {
     let mut problems = one_of_each(problems);
     drop_lost_names(&mut problems, sources, lost);
     if problems.iter().any(|problem| problem.code().leaves_gap()) {
@@ -23,7 +27,8 @@ pub(crate) fn triage(problems: Vec<Problem>, sources: &Sources, lost: &BTreeSet<
     problems
 }
 
-/// Problems in order, and one of those that a reader can't tell apart: they differ in help or further labels alone.
+/// Problems in order, and one of those that a reader can't tell apart: they differ in help or
+/// further labels alone.
 fn one_of_each(problems: Vec<Problem>) -> Vec<Problem> {
     let headline = |problem: Problem| {
         let (said, span) = (problem.fact().words(), problem.place());
@@ -45,15 +50,16 @@ fn drop_lost_names(problems: &mut Vec<Problem>, sources: &Sources, lost: &BTreeS
 
 /// The library is sound: what breaks in it follows from what the author wrote.
 fn drop_library(problems: &mut Vec<Problem>, sources: &Sources) {
-    let is_library =
-        |problem: &Problem| sources.get(problem.place().file).is_some_and(|file| file.name.starts_with("std/"));
+    let is_library = |problem: &Problem| {
+        sources.get(problem.place().file).is_some_and(|file| file.name.starts_with("std/"))
+    };
     if problems.iter().any(|problem| problem.is_error() && !is_library(problem)) {
         problems.retain(|problem| !is_library(problem));
     }
 }
 
-/// Beside errors, what is named a second time is taken as used, as is what an error says was meant: the part that uses
-/// it may be the one that is wrong.
+/// Beside errors, what is named a second time is taken as used, as is what an error says was meant:
+/// the part that uses it may be the one that is wrong.
 fn drop_likely_used(problems: &mut Vec<Problem>, sources: &Sources) {
     let words = |text: &str| -> BTreeMap<String, u32> {
         let mut times = BTreeMap::new();
@@ -82,7 +88,8 @@ fn drop_likely_used(problems: &mut Vec<Problem>, sources: &Sources) {
 /// What holds a part that could not be read is not what the author wrote.
 fn drop_around_unread(problems: &mut Vec<Problem>) {
     let is_syntax = |problem: &Problem| problem.code().stage() == Stage::Syntax;
-    let unread: Vec<Span> = problems.iter().filter(|problem| is_syntax(problem)).map(Problem::place).collect();
+    let unread: Vec<Span> =
+        problems.iter().filter(|problem| is_syntax(problem)).map(Problem::place).collect();
     problems.retain(|problem| {
         let is_around = |span: Span| unread.iter().any(|part| span.holds(*part) && span != *part);
         is_syntax(problem) || !is_around(problem.place())

@@ -4,8 +4,8 @@ use super::{MAX_SHOWN, count, is_control, printable};
 use crate::problem::{Label, Problem, Severity};
 use crate::source::{FileId, Sources};
 use miette::{
-    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
-    SourceSpan, SpanContents, ThemeCharacters, ThemeStyles,
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError,
+    MietteSpanContents, SourceCode, SourceSpan, SpanContents, ThemeCharacters, ThemeStyles,
 };
 use std::fmt;
 use std::ops::Range;
@@ -17,11 +17,18 @@ const LINE_MAX: usize = 240;
 const AROUND: usize = 60;
 
 /// Draws the first problems and counts all.
-pub(super) fn render(problems: &[&Problem], sources: &Sources, color: bool, width: usize) -> String {
+pub(super) fn render(
+    problems: &[&Problem],
+    sources: &Sources,
+    color: bool,
+    width: usize,
+) -> String {
     let styles = if color { ThemeStyles::ansi() } else { ThemeStyles::none() };
     let theme = GraphicalTheme { characters: ThemeCharacters::unicode(), styles };
-    let handler =
-        GraphicalReportHandler::new_themed(theme).with_width(width.max(40)).with_context_lines(1).with_links(false);
+    let handler = GraphicalReportHandler::new_themed(theme)
+        .with_width(width.max(40))
+        .with_context_lines(1)
+        .with_links(false);
     let mut text = String::new();
     for problem in problems.iter().take(MAX_SHOWN) {
         let drawn = handler.render_report(&mut text, &Picture::of(problem, sources));
@@ -51,11 +58,13 @@ impl Picture {
         let (words, place) = (problem.words(), problem.place());
         let source = ShownSource::of(place.file, sources);
         // Only labels that fit into one drawing share it.
-        let primary_is_long = source.as_ref().is_some_and(|source| source.is_long_at(place.start as usize));
+        let primary_is_long =
+            source.as_ref().is_some_and(|source| source.is_long_at(place.start as usize));
         let mut here = Vec::new();
         let mut elsewhere = Vec::new();
         for (i, label) in words.labels.iter().enumerate() {
-            let long = source.as_ref().is_some_and(|source| source.is_long_at(label.span.start as usize));
+            let long =
+                source.as_ref().is_some_and(|source| source.is_long_at(label.span.start as usize));
             let apart = i > 0 && (label.span.file != place.file || primary_is_long || long);
             if apart {
                 elsewhere.push(Picture::note(label, sources));
@@ -79,8 +88,10 @@ impl Picture {
 
     /// A label that has a drawing of its own.
     fn note(label: &Label, sources: &Sources) -> Picture {
-        let (message, bare) =
-            (printable(&label.text, false).into_owned(), Label { span: label.span, text: String::new() });
+        let (message, bare) = (
+            printable(&label.text, false).into_owned(),
+            Label { span: label.span, text: String::new() },
+        );
         let source = ShownSource::of(label.span.file, sources);
         let labels = vec![span(&bare, source.as_ref(), true)];
         Picture {
@@ -95,10 +106,12 @@ impl Picture {
     }
 }
 
-/// A source without characters that steer a terminal: each becomes one as long, so that every offset holds.
+/// A source without characters that steer a terminal: each becomes one as long, so that every
+/// offset holds.
 fn steady(text: &Arc<str>) -> Arc<str> {
     let steers = |(at, char): (usize, char)| {
-        let ends_line = char == '\r' && text.get(at + 1..).is_some_and(|rest| rest.starts_with('\n'));
+        let ends_line =
+            char == '\r' && text.get(at + 1..).is_some_and(|rest| rest.starts_with('\n'));
         is_control(char) && !ends_line
     };
     if !text.char_indices().any(steers) {
@@ -122,16 +135,21 @@ struct ShownSource {
 
 impl ShownSource {
     fn of(file: FileId, sources: &Sources) -> Option<ShownSource> {
-        sources
-            .get(file)
-            .map(|source| ShownSource { name: printable(&source.name, false).into(), text: steady(&source.text) })
+        sources.get(file).map(|source| ShownSource {
+            name: printable(&source.name, false).into(),
+            text: steady(&source.text),
+        })
     }
 
     /// The line around an offset, without its end.
     fn line(&self, at: usize) -> Range<usize> {
         let at = self.boundary(at);
         let start = self.text.get(..at).and_then(|text| text.rfind('\n')).map_or(0, |at| at + 1);
-        let end = self.text.get(at..).and_then(|text| text.find('\n')).map_or(self.text.len(), |length| at + length);
+        let end = self
+            .text
+            .get(at..)
+            .and_then(|text| text.find('\n'))
+            .map_or(self.text.len(), |length| at + length);
         start..end
     }
 
@@ -167,9 +185,17 @@ impl SourceCode for ShownSource {
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let whole = self.text.as_ref().read_span(span, before, after)?;
         let named = |data: &'a [u8], at: SourceSpan, line: usize, column: usize, lines: usize| {
-            Ok(Box::new(MietteSpanContents::new_named(self.name.clone(), data, at, line, column, lines)) as Box<_>)
+            Ok(Box::new(MietteSpanContents::new_named(
+                self.name.clone(),
+                data,
+                at,
+                line,
+                column,
+                lines,
+            )) as Box<_>)
         };
-        let longest = whole.data().split(|byte| *byte == b'\n').map(<[u8]>::len).max().unwrap_or_default();
+        let longest =
+            whole.data().split(|byte| *byte == b'\n').map(<[u8]>::len).max().unwrap_or_default();
         if longest <= LINE_MAX {
             let (start, length) = (whole.span().offset(), whole.span().len());
             let data = self.text.as_bytes().get(start..start + length).unwrap_or_default();
@@ -177,7 +203,8 @@ impl SourceCode for ShownSource {
         }
         let line = self.line(span.offset());
         let start = self.boundary(span.offset().saturating_sub(AROUND).max(line.start));
-        let end = self.boundary((span.offset() + 2 * AROUND).max(span.offset() + span.len()).min(line.end));
+        let end = self
+            .boundary((span.offset() + 2 * AROUND).max(span.offset() + span.len()).min(line.end));
         let number = self.text.get(..line.start).map_or(0, |text| text.matches('\n').count());
         let column = self.text.get(line.start..start).map_or(0, |text| text.chars().count());
         let data = self.text.as_bytes().get(start..end).unwrap_or_default();
@@ -189,7 +216,11 @@ fn span(label: &Label, source: Option<&ShownSource>, primary: bool) -> LabeledSp
     let text = (!label.text.is_empty()).then(|| printable(&label.text, false).into_owned());
     let range = label.span.start as usize..label.span.end as usize;
     let range = source.map_or(range.clone(), |source| source.mark(range));
-    if primary { LabeledSpan::new_primary_with_span(text, range) } else { LabeledSpan::new_with_span(text, range) }
+    if primary {
+        LabeledSpan::new_primary_with_span(text, range)
+    } else {
+        LabeledSpan::new_with_span(text, range)
+    }
 }
 
 impl fmt::Display for Picture {
@@ -223,6 +254,7 @@ impl Diagnostic for Picture {
 
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
         let notes = self.notes.iter().map(|note| note as &dyn Diagnostic);
-        (!self.notes.is_empty()).then(|| Box::new(notes) as Box<dyn Iterator<Item = &'a dyn Diagnostic>>)
+        (!self.notes.is_empty())
+            .then(|| Box::new(notes) as Box<dyn Iterator<Item = &'a dyn Diagnostic>>)
     }
 }

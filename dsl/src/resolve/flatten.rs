@@ -1,15 +1,17 @@
 //! A scenario with everything it inherits, as one list of parts.
 //!
-//! Root first. A child's `ball`, `limit`, player list, and whatever bears the same name replace the parent's; fields
-//! merge key by key; unnamed endings, requirements and new rewards are added; `remove` acts on the parents' result.
+//! Root first. A child's `ball`, `limit`, player list, and whatever bears the same name replace the
+//! parent's; fields merge key by key; unnamed endings, requirements and new rewards are added;
+//! `remove` acts on the parents' result.
 
 mod remove;
 
 use super::load::{Library, distinct_params};
 use super::parts::chain;
 use crate::ast::{
-    Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt, Ref, RewardUse,
-    RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned, TeamStmt, TeamStmtKind,
+    Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt,
+    Ref, RewardUse, RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned,
+    TeamStmt, TeamStmtKind,
 };
 use crate::problem::facts::{Calls, Kind, Names, Players, Types};
 use crate::problem::{Guess, Problem};
@@ -86,13 +88,17 @@ impl<'a> Flat<'a> {
 
     /// Notes where every name stands.
     fn index(&mut self) {
-        let params = self.params.iter().enumerate().map(|(at, param)| (&param.decl.name, Named::Param(at)));
-        let lets = self.lets.iter().enumerate().map(|(at, binding)| (&binding.name, Named::Let(at)));
+        let params =
+            self.params.iter().enumerate().map(|(at, param)| (&param.decl.name, Named::Param(at)));
+        let lets =
+            self.lets.iter().enumerate().map(|(at, binding)| (&binding.name, Named::Let(at)));
         let tuples = self.tuples.iter().enumerate().flat_map(|(at, (names, _))| {
             names.iter().enumerate().map(move |(index, name)| (name, Named::Tuple(at, index)))
         });
-        let consts = self.consts.iter().enumerate().map(|(at, binding)| (&binding.name, Named::Const(at)));
-        let regions = self.regions.iter().enumerate().map(|(at, region)| (&region.name, Named::Region(at)));
+        let consts =
+            self.consts.iter().enumerate().map(|(at, binding)| (&binding.name, Named::Const(at)));
+        let regions =
+            self.regions.iter().enumerate().map(|(at, region)| (&region.name, Named::Region(at)));
         let mut names: BTreeMap<&'a str, Named> = BTreeMap::new();
         for (name, at) in params.chain(lets).chain(tuples).chain(consts).chain(regions) {
             names.entry(&name.node).or_insert(at);
@@ -118,13 +124,18 @@ impl<'a> Flat<'a> {
 }
 
 fn holds(item: &ScenarioItem, part: Span) -> bool {
-    item.body.iter().map(|stmt| stmt.span).chain(item.params.iter().map(|param| param.span)).any(|own| own.holds(part))
+    item.body
+        .iter()
+        .map(|stmt| stmt.span)
+        .chain(item.params.iter().map(|param| param.span))
+        .any(|own| own.holds(part))
 }
 
 /// A line of `observe vector { … }`: a value and its label.
 pub(crate) type Observed = (Expr, Option<Spanned<String>>);
 
-/// A parameter: its declaration, and the argument or newer default that stands for the declared one.
+/// A parameter: its declaration, and the argument or newer default that stands for the declared
+/// one.
 #[derive(Clone, Copy)]
 pub(crate) struct FlatParam<'a> {
     /// Where it was first declared.
@@ -165,7 +176,11 @@ pub(crate) struct FlatEnding<'a> {
 }
 
 /// Collects what a scenario says and inherits.
-pub(crate) fn flatten<'a>(library: &'a Library, item: &'a ScenarioItem, problems: &mut Vec<Problem>) -> Flat<'a> {
+pub(crate) fn flatten<'a>(
+    library: &'a Library,
+    item: &'a ScenarioItem,
+    problems: &mut Vec<Problem>,
+) -> Flat<'a> {
     let links = chain(
         library,
         item,
@@ -198,12 +213,17 @@ pub(crate) fn flatten<'a>(library: &'a Library, item: &'a ScenarioItem, problems
         tuples: Vec::new(),
         mirror: None,
         names: BTreeMap::new(),
-        parents: links.iter().map(|(parent, _)| *parent).filter(|parent| !std::ptr::eq(*parent, item)).collect(),
+        parents: links
+            .iter()
+            .map(|(parent, _)| *parent)
+            .filter(|parent| !std::ptr::eq(*parent, item))
+            .collect(),
     };
     let mut known = BTreeSet::new();
     for (level, (scenario, _)) in links.iter().enumerate() {
         let own = BTreeMap::new();
-        let mut adding = Adding { flat: &mut flat, problems, is_child: level > 0, own, known: &mut known };
+        let mut adding =
+            Adding { flat: &mut flat, problems, is_child: level > 0, own, known: &mut known };
         adding.removals(&scenario.body);
         adding.begin_teams(&scenario.body);
         for param in &scenario.params {
@@ -213,7 +233,9 @@ pub(crate) fn flatten<'a>(library: &'a Library, item: &'a ScenarioItem, problems
             adding.stmt(stmt);
         }
         // The reference by which the next child names this one carries its arguments.
-        if let Some((_, Some(reference))) = links.get(level).filter(|(_, reference)| reference.is_some()) {
+        if let Some((_, Some(reference))) =
+            links.get(level).filter(|(_, reference)| reference.is_some())
+        {
             adding.arguments(reference);
         }
     }
@@ -290,7 +312,9 @@ impl<'a> Adding<'a, '_> {
                     self.declare(name);
                     self.flat.lets.retain(|known| known.name.node != name.node);
                 }
-                let redeclared = |known: &[Ident]| known.iter().any(|one| names.iter().any(|n| n.node == one.node));
+                let redeclared = |known: &[Ident]| {
+                    known.iter().any(|one| names.iter().any(|n| n.node == one.node))
+                };
                 self.flat.tuples.retain(|(known, _)| !redeclared(known));
                 self.flat.tuples.push((names, value));
             }
@@ -313,7 +337,10 @@ impl<'a> Adding<'a, '_> {
         if let Some(first) = self.earlier("record", &name.node, name.span) {
             self.problems.push(Problem::new(
                 name.span,
-                Names::DeclaredTwice { what: format!("record `{}`", name.node), first: Some(first) },
+                Names::DeclaredTwice {
+                    what: format!("record `{}`", name.node),
+                    first: Some(first),
+                },
             ));
             return;
         }
@@ -344,14 +371,18 @@ impl<'a> Adding<'a, '_> {
 
     fn only_once(&mut self, what: &'static str, span: Span) {
         if let Some(first) = self.earlier(what, "", span) {
-            self.problems.push(Problem::new(span, Names::GivenTwice { what: what.to_owned(), first }));
+            self.problems
+                .push(Problem::new(span, Names::GivenTwice { what: what.to_owned(), first }));
         }
     }
 
     /// A key of a group that may be written in several pairs of braces.
     fn key_once(&mut self, group: &'static str, key: &Ident) {
         if let Some(first) = self.earlier(group, &key.node, key.span) {
-            self.problems.push(Problem::new(key.span, Names::GivenTwice { what: format!("`{}`", key.node), first }));
+            self.problems.push(Problem::new(
+                key.span,
+                Names::GivenTwice { what: format!("`{}`", key.node), first },
+            ));
         }
     }
 
@@ -375,7 +406,10 @@ impl<'a> Adding<'a, '_> {
                 } else if let Some(ty) = &param.ty {
                     self.problems.push(Problem::new(
                         ty.span,
-                        Types::OtherTypeInParent { name: param.name.node.clone(), parent: known.decl.span },
+                        Types::OtherTypeInParent {
+                            name: param.name.node.clone(),
+                            parent: known.decl.span,
+                        },
                     ));
                 }
             }
@@ -396,12 +430,17 @@ impl<'a> Adding<'a, '_> {
             params.rev().map(|(at, param)| (param.decl.name.node.as_str(), at)).collect();
         for arg in &reference.args {
             let Some(name) = arg_name(arg) else {
-                self.problems.push(Problem::new(arg.span, Calls::ByName { callee: reference.name.node.clone() }));
+                self.problems.push(Problem::new(
+                    arg.span,
+                    Calls::ByName { callee: reference.name.node.clone() },
+                ));
                 continue;
             };
             if let Some(first) = given.get(name) {
-                self.problems
-                    .push(Problem::new(arg.span, Calls::GivenTwice { parameter: name.to_owned(), first: *first }));
+                self.problems.push(Problem::new(
+                    arg.span,
+                    Calls::GivenTwice { parameter: name.to_owned(), first: *first },
+                ));
                 continue;
             }
             given.insert(name, arg.span);
@@ -413,7 +452,10 @@ impl<'a> Adding<'a, '_> {
             let known = places.keys().copied();
             let span = arg.key.as_ref().map_or(arg.span, |key| key.span);
             let (parent, guess) = (reference.name.node.clone(), Guess::of(name, known));
-            self.problems.push(Problem::new(span, Names::NoParentParameter { parent, name: name.to_owned(), guess }));
+            self.problems.push(Problem::new(
+                span,
+                Names::NoParentParameter { parent, name: name.to_owned(), guess },
+            ));
         }
     }
 
@@ -443,15 +485,20 @@ impl<'a> Adding<'a, '_> {
         let Some(index) = Team::from_name(&team.node).map(Team::index) else {
             self.problems.push(Problem::new(
                 team.span,
-                Names::Unknown { kind: Kind::Team, name: team.node.clone(), guess: Guess::default() },
+                Names::Unknown {
+                    kind: Kind::Team,
+                    name: team.node.clone(),
+                    guess: Guess::default(),
+                },
             ));
             return;
         };
         for stmt in body {
             let TeamStmtKind::Absent(role) = &stmt.kind else { continue };
-            let placed = body
-                .iter()
-                .find(|other| matches!(&other.kind, TeamStmtKind::Player(player) if player.role.node == role.node));
+            let placed = body.iter().find(|other| match &other.kind {
+                TeamStmtKind::Player(player) => player.role.node == role.node,
+                _ => false,
+            });
             if let Some(placed) = placed {
                 self.problems.push(Problem::new(
                     role.span,
@@ -472,7 +519,9 @@ impl<'a> Adding<'a, '_> {
                 }
                 TeamStmtKind::Each { who, fields } => flat.each.push((who, fields)),
                 TeamStmtKind::Absent(role) => flat.absent.push(role.clone()),
-                TeamStmtKind::Field(field) => replace(&mut flat.fields, field, false, |field| &field.key.node),
+                TeamStmtKind::Field(field) => {
+                    replace(&mut flat.fields, field, false, |field| &field.key.node)
+                }
                 TeamStmtKind::Broken => {}
             }
         }
@@ -487,8 +536,10 @@ impl<'a> Adding<'a, '_> {
                 RewardUseKind::Inline { name, .. } => name.node.as_str(),
                 RewardUseKind::Script(_) => "script …",
             };
-            self.problems
-                .push(Problem::new(stmt.span, Names::RewardTwice { name: name.clone(), what: what.to_owned(), first }));
+            self.problems.push(Problem::new(
+                stmt.span,
+                Names::RewardTwice { name: name.clone(), what: what.to_owned(), first },
+            ));
             return;
         }
         match known.and_then(|at| self.flat.rewards.get_mut(at)) {
@@ -506,18 +557,29 @@ impl<'a> Adding<'a, '_> {
             }
             EndStmt::When { verdict, label, condition } => (verdict, label, condition),
         };
-        let ending =
-            FlatEnding { verdict: verdict.as_ref(), label: label.as_ref(), condition: condition.as_ref(), span };
+        let ending = FlatEnding {
+            verdict: verdict.as_ref(),
+            label: label.as_ref(),
+            condition: condition.as_ref(),
+            span,
+        };
         let Some(label) = label else {
             self.flat.ends.push(ending);
             return;
         };
         let name = label.bare();
         if let Some(first) = self.earlier("end", name, span) {
-            self.problems.push(Problem::new(label.name.span, Names::EndingTwice { name: name.to_owned(), first }));
+            self.problems.push(Problem::new(
+                label.name.span,
+                Names::EndingTwice { name: name.to_owned(), first },
+            ));
             return;
         }
-        let known = self.flat.ends.iter_mut().find(|known| known.label.is_some_and(|known| known.bare() == name));
+        let known = self
+            .flat
+            .ends
+            .iter_mut()
+            .find(|known| known.label.is_some_and(|known| known.bare() == name));
         match known {
             Some(slot) => *slot = ending,
             None => self.flat.ends.push(ending),

@@ -56,7 +56,8 @@ pub(crate) struct NamedItem<'a> {
     pub(crate) name: &'a Ident,
 }
 
-/// The files that every other one sees without an import, read once: parsing them is most of a compilation.
+/// The files that every other one sees without an import, read once: parsing them is most of a
+/// compilation.
 pub struct Prelude {
     library: Library,
     problems: Vec<Problem>,
@@ -83,7 +84,8 @@ impl Prelude {
     }
 }
 
-/// Loads a root and everything it imports; `guests` are texts that see what the root sees, and are seen by nobody.
+/// Loads a root and everything it imports; `guests` are texts that see what the root sees, and are
+/// seen by nobody.
 pub(crate) fn load(
     root: &Source,
     loader: &dyn SourceLoader,
@@ -119,7 +121,11 @@ struct Loading<'a> {
 }
 
 impl<'a> Loading<'a> {
-    fn new(library: &'a mut Library, loader: &'a dyn SourceLoader, problems: &'a mut Vec<Problem>) -> Loading<'a> {
+    fn new(
+        library: &'a mut Library,
+        loader: &'a dyn SourceLoader,
+        problems: &'a mut Vec<Problem>,
+    ) -> Loading<'a> {
         Loading { library, loader, problems, stack: Vec::new(), files: 0, bytes: 0, missing: 0 }
     }
 }
@@ -130,7 +136,8 @@ impl Loading<'_> {
         let mut next = 0;
         while let Some(file) = self.library.files.get(next) {
             next += 1;
-            let parents: Vec<String> = file.items.iter().filter_map(parent).map(str::to_owned).collect();
+            let parents: Vec<String> =
+                file.items.iter().filter_map(parent).map(str::to_owned).collect();
             for name in parents {
                 let of_library = self.library.scenarios.iter().find(|(known, _)| *known == name);
                 let Some(path) = of_library.map(|(_, path)| path.clone()) else { continue };
@@ -139,8 +146,9 @@ impl Loading<'_> {
                 }
                 let items = self.library.files.iter().flat_map(|file| &file.items);
                 let declared = items.filter_map(item_name).any(|known| known.node == name);
-                let Some(source) =
-                    Some(path).filter(|_| !declared).and_then(|path| self.loader.load(&path, &path).ok())
+                let Some(source) = Some(path)
+                    .filter(|_| !declared)
+                    .and_then(|path| self.loader.load(&path, &path).ok())
                 else {
                     continue;
                 };
@@ -157,7 +165,9 @@ impl Loading<'_> {
     /// Takes the files of the prelude behind the root.
     fn adopt(&mut self, prelude: &Prelude) {
         let read = &prelude.library;
-        for ((_, source), (file, imports)) in read.sources.iter().zip(read.files.iter().zip(&read.imports)).skip(1) {
+        for ((_, source), (file, imports)) in
+            read.sources.iter().zip(read.files.iter().zip(&read.imports)).skip(1)
+        {
             self.library.sources.add(source.clone());
             self.library.files.push(file.clone());
             self.library.imports.push(imports.clone());
@@ -235,7 +245,10 @@ impl Loading<'_> {
                     self.missing += 1;
                     self.library.inputs.extend(error.awaited);
                     let (why, similar) = (error.message, error.similar.into_iter().next());
-                    self.problems.push(Problem::new(path.span, Files::Missing { why, similar, is_script: false }));
+                    self.problems.push(Problem::new(
+                        path.span,
+                        Files::Missing { why, similar, is_script: false },
+                    ));
                     continue;
                 }
             };
@@ -251,7 +264,10 @@ impl Loading<'_> {
             }
             let imported = match known {
                 Some(known) if self.stack.contains(&known) => {
-                    self.problems.push(Problem::new(path.span, Files::ImportsItself { path: path.node.clone() }));
+                    self.problems.push(Problem::new(
+                        path.span,
+                        Files::ImportsItself { path: path.node.clone() },
+                    ));
                     continue;
                 }
                 Some(known) => known,
@@ -290,10 +306,15 @@ impl Library {
     pub(crate) fn ambiguous(&self, file: FileId, name: &str, span: Span) -> Option<Problem> {
         let places = self.seen.get(file.0 as usize)?.get(name)?;
         let (first, second) = (self.item(*places.first()?)?, self.item(*places.get(1)?)?);
-        let of = |item: &NamedItem<'_>| self.sources.get(item.name.span.file).map_or("", |file| file.name.as_str());
+        let of = |item: &NamedItem<'_>| {
+            self.sources.get(item.name.span.file).map_or("", |file| file.name.as_str())
+        };
         Some(Problem::new(
             span,
-            Names::Ambiguous { name: name.to_owned(), files: (of(&first).to_owned(), of(&second).to_owned()) },
+            Names::Ambiguous {
+                name: name.to_owned(),
+                files: (of(&first).to_owned(), of(&second).to_owned()),
+            },
         ))
     }
 
@@ -307,7 +328,9 @@ impl Library {
     /// Every name a file sees with its item, in the order of names.
     pub(crate) fn visible(&self, file: FileId) -> impl Iterator<Item = (&str, NamedItem<'_>)> {
         let seen = self.seen.get(file.0 as usize);
-        seen.into_iter().flatten().filter_map(|(name, places)| Some((name.as_str(), self.item(*places.first()?)?)))
+        seen.into_iter()
+            .flatten()
+            .filter_map(|(name, places)| Some((name.as_str(), self.item(*places.first()?)?)))
     }
 
     fn item(&self, at: ItemAt) -> Option<NamedItem<'_>> {
@@ -317,10 +340,9 @@ impl Library {
 
     fn collect_names(&mut self, guests: &[FileId], problems: &mut Vec<Problem>) {
         // A guest declares nothing: what it is made of would hide a name of the root's.
-        let own = self
-            .files
-            .iter()
-            .map(|file| if guests.contains(&file.id) { BTreeMap::new() } else { own_names(file, problems) });
+        let own = self.files.iter().map(|file| {
+            if guests.contains(&file.id) { BTreeMap::new() } else { own_names(file, problems) }
+        });
         let own: Vec<_> = own.collect();
         let mut seen = Vec::with_capacity(self.files.len());
         for id in 0..self.files.len() {
@@ -412,7 +434,9 @@ fn own_names(file: &File, problems: &mut Vec<Problem>) -> BTreeMap<String, Vec<I
 /// The name of the scenario that an item extends.
 fn parent(item: &Item) -> Option<&str> {
     match &item.kind {
-        ItemKind::Scenario(scenario) => scenario.extends.as_ref().map(|parent| parent.name.node.as_str()),
+        ItemKind::Scenario(scenario) => {
+            scenario.extends.as_ref().map(|parent| parent.name.node.as_str())
+        }
         _ => None,
     }
 }

@@ -5,7 +5,8 @@ use crate::ast::{FormationItem, ItemKind, Ref, RewardItem};
 use crate::problem::facts::Names;
 use crate::problem::{Guess, Problem};
 
-/// Most parents of a scenario, reward or formation: a base, its variants and their levels are a handful.
+/// Most parents of a scenario, reward or formation: a base, its variants and their levels are a
+/// handful.
 pub(crate) const MAX_PARENTS: usize = 32;
 
 /// A link of a chain: the item, and the reference by which its child names it.
@@ -62,15 +63,25 @@ pub(super) fn chain<'a, T>(
     let mut at = from;
     while let Some(parent_ref) = extends(at) {
         let name = &parent_ref.name;
-        let Some(parent) = library.find(name.span.file, &name.node).and_then(|found| pick(&found.item.kind)) else {
-            let given = library.scenarios.iter().filter(|_| kind == "scenario").map(|(name, _)| name.as_str());
+        let Some(parent) =
+            library.find(name.span.file, &name.node).and_then(|found| pick(&found.item.kind))
+        else {
+            let given = library
+                .scenarios
+                .iter()
+                .filter(|_| kind == "scenario")
+                .map(|(name, _)| name.as_str());
             let candidates = library
                 .visible(name.span.file)
-                .filter(|(_, found)| pick(&found.item.kind).is_some_and(|other| !std::ptr::eq(other, at)))
+                .filter(|(_, found)| {
+                    pick(&found.item.kind).is_some_and(|other| !std::ptr::eq(other, at))
+                })
                 .map(|(name, _)| name)
                 .chain(given);
-            let other = library.find(name.span.file, &name.node).map(|other| other.item.kind.noun());
-            let guess = if other.is_none() { Guess::of(&name.node, candidates) } else { Guess::default() };
+            let other =
+                library.find(name.span.file, &name.node).map(|other| other.item.kind.noun());
+            let guess =
+                if other.is_none() { Guess::of(&name.node, candidates) } else { Guess::default() };
             let fact = Names::NoParent { kind, name: name.node.clone(), other, guess };
             problems.push(Problem::new(name.span, fact));
             break;
@@ -78,9 +89,11 @@ pub(super) fn chain<'a, T>(
         if let Some(begin) = chain.iter().position(|(known, _)| std::ptr::eq(*known, parent)) {
             // Whoever meets the circle tells of it at the same place.
             let circle = chain.iter().skip(begin + 1).filter_map(|(_, reference)| *reference);
-            let first = circle.map(|reference| &reference.name).chain([name]).min_by_key(|name| name.span);
+            let first =
+                circle.map(|reference| &reference.name).chain([name]).min_by_key(|name| name.span);
             let name = first.unwrap_or(name);
-            problems.push(Problem::new(name.span, Names::ExtendsItself { name: name.node.clone() }));
+            problems
+                .push(Problem::new(name.span, Names::ExtendsItself { name: name.node.clone() }));
             break;
         }
         if chain.len() > MAX_PARENTS {

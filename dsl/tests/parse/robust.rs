@@ -11,7 +11,10 @@ fn check(text: &str) {
         .map(|label| label.span)
         .chain(file.items.iter().map(|item| item.span))
     {
-        assert!(text.get(span.start as usize..span.end as usize).is_some(), "{span:?} is no span of {text:?}");
+        assert!(
+            text.get(span.start as usize..span.end as usize).is_some(),
+            "{span:?} is no span of {text:?}"
+        );
     }
 }
 
@@ -19,7 +22,11 @@ fn check(text: &str) {
 fn what_nests_without_brackets_is_bounded_too() {
     for n in [50, 200, 250, 300, 1000] {
         check(&format!("scenario s {{ let x = {} 1 }}", "if a then b else ".repeat(n)));
-        check(&format!("scenario s {{ let x = {} a {} }}", "if ".repeat(n), "then b else c ".repeat(n)));
+        check(&format!(
+            "scenario s {{ let x = {} a {} }}",
+            "if ".repeat(n),
+            "then b else c ".repeat(n)
+        ));
         check(&format!("scenario s {{ let x = {} a }}", "count of 1 + ".repeat(n)));
         check(&format!("reward r {{ {} {} }}", "when a { ".repeat(n), "} ".repeat(n)));
     }
@@ -46,7 +53,10 @@ fn chains_of_any_length_end_in_a_problem() {
             assert!(!problems.is_empty() && problems.len() < 5, "{link}: {problems:?}");
         }
     }
-    assert!(!reported(&format!("reward r {{ when a {{ }} {} }}", "else when b { } ".repeat(20_000))).is_empty());
+    assert!(
+        !reported(&format!("reward r {{ when a {{ }} {} }}", "else when b { } ".repeat(20_000)))
+            .is_empty()
+    );
 }
 
 #[test]
@@ -95,7 +105,11 @@ fn nothing_that_nests_is_tried_twice() {
     ] {
         let deep = 60 / open.matches('(').count();
         for inner in ["1", "1 1", ""] {
-            check(&format!("scenario s {{ let x = {}{inner}{} }}", open.repeat(deep), close.repeat(deep)));
+            check(&format!(
+                "scenario s {{ let x = {}{inner}{} }}",
+                open.repeat(deep),
+                close.repeat(deep)
+            ));
         }
     }
     check(&format!("scenario s {{ let x = {} }}", "if a then b else if ".repeat(60)));
@@ -137,7 +151,9 @@ proptest! {
     }
 
     #[test]
-    fn a_spoilt_sample_is_parsed(edits in prop::collection::vec((0usize..2000, 0usize..2000, 0u8..4), 1..6)) {
+    fn a_spoilt_sample_is_parsed(
+        edits in prop::collection::vec((0usize..2000, 0usize..2000, 0u8..4), 1..6),
+    ) {
         let mut tokens = tokens();
         for (at, other, what) in edits {
             let (at, other) = (at % tokens.len(), other % tokens.len());

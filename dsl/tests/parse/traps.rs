@@ -2,8 +2,8 @@
 
 use super::{player, read, reported, reward, scenario, team};
 use setpiece_dsl::ast::{
-    Domain, Expr, ExprKind, GiveStmt, GiveValue, InfixOp, ItemKind, RewardStmtKind, RewardUseKind, ScenarioStmtKind,
-    TeamStmtKind,
+    Domain, Expr, ExprKind, GiveStmt, GiveValue, InfixOp, ItemKind, RewardStmtKind, RewardUseKind,
+    ScenarioStmtKind, TeamStmtKind,
 };
 use setpiece_dsl::parse::MAX_BRACKETS;
 use setpiece_scenario::vocabulary::{Role, Unit};
@@ -33,14 +33,17 @@ fn p2_a_blocks_head_is_not_a_gives_clause() {
     let body = reward(
         "give 0.1 * x\n on goal by us { x = 1 }\n give 0.01\n when c { x = 2 }\n give 1\n on goal when c { x = 3 }",
     );
-    let kinds: Vec<_> = body.iter().map(|statement| matches!(statement.kind, RewardStmtKind::Give(_))).collect();
+    let kinds: Vec<_> =
+        body.iter().map(|statement| matches!(statement.kind, RewardStmtKind::Give(_))).collect();
     assert_eq!(kinds, [true, false, true, false, true, false]);
     match body.first().map(|statement| &statement.kind) {
         Some(RewardStmtKind::Give(give)) => assert!(give.on.is_empty() && give.when.is_none()),
         other => panic!("{other:?}"),
     }
     match reward("give 1 on goal by us when c as \"x\"").first().map(|statement| &statement.kind) {
-        Some(RewardStmtKind::Give(give)) => assert!(give.on.len() == 1 && give.when.is_some() && give.label.is_some()),
+        Some(RewardStmtKind::Give(give)) => {
+            assert!(give.on.len() == 1 && give.when.is_some() && give.label.is_some())
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -56,7 +59,11 @@ fn p3_a_block_behind_a_give_is_told() {
 
 #[test]
 fn p4_a_default_leaves_its_range() {
-    match scenario("param d: number = 0.6 in 0..1").into_iter().next().map(|statement| statement.kind) {
+    match scenario("param d: number = 0.6 in 0..1")
+        .into_iter()
+        .next()
+        .map(|statement| statement.kind)
+    {
         Some(ScenarioStmtKind::Param(param)) => {
             assert!(matches!(param.default.map(|value| value.kind), Some(ExprKind::Number { .. })));
             assert!(matches!(param.domain, Some(Domain::Range(..))));
@@ -71,7 +78,11 @@ fn p5_in_is_told_by_its_place() {
     match value("count(p in them where p.x > 0)").kind {
         ExprKind::Call { args, .. } => {
             let arg = args.first().expect("one argument");
-            assert!(operator(&arg.value) == Some(InfixOp::In) && arg.filter.is_some() && arg.binder.is_none());
+            assert!(
+                operator(&arg.value) == Some(InfixOp::In)
+                    && arg.filter.is_some()
+                    && arg.binder.is_none()
+            );
         }
         other => panic!("{other:?}"),
     }
@@ -109,10 +120,27 @@ fn p7_a_sign_on_the_next_line_goes_on() {
 fn p8_words_are_read_whole() {
     let ratio = value("5m/sigma");
     assert_eq!(operator(&ratio), Some(InfixOp::Div));
-    assert!(matches!(value("5m/s").kind, ExprKind::Number { unit: Some(Unit::MetrePerSecond), .. }));
+    assert!(matches!(
+        value("5m/s").kind,
+        ExprKind::Number { unit: Some(Unit::MetrePerSecond), .. }
+    ));
     assert!(matches!(value("5ms").kind, ExprKind::Number { unit: Some(Unit::Millisecond), .. }));
-    assert!(matches!(value("5km/h").kind, ExprKind::Number { unit: Some(Unit::KilometrePerHour), .. }));
-    for name in ["onward", "once_more", "inner", "ended", "order", "offside_", "goals", "passed", "CBs", "trues"] {
+    assert!(matches!(
+        value("5km/h").kind,
+        ExprKind::Number { unit: Some(Unit::KilometrePerHour), .. }
+    ));
+    for name in [
+        "onward",
+        "once_more",
+        "inner",
+        "ended",
+        "order",
+        "offside_",
+        "goals",
+        "passed",
+        "CBs",
+        "trues",
+    ] {
         assert!(matches!(value(name).kind, ExprKind::Name(_)), "{name}");
     }
 }
@@ -125,7 +153,12 @@ fn p9_nesting_costs_no_exponential_time() {
         value(&text);
         // Wrong ones are read twice, not once per level.
         assert!(
-            !reported(&format!("scenario s {{ let x = {}1 1{} }}", open.repeat(deep), close.repeat(deep))).is_empty()
+            !reported(&format!(
+                "scenario s {{ let x = {}1 1{} }}",
+                open.repeat(deep),
+                close.repeat(deep)
+            ))
+            .is_empty()
         );
     }
 }
@@ -142,15 +175,22 @@ fn p10_brackets_are_counted_before_parsing() {
 
 #[test]
 fn p11_spans_are_trimmed() {
-    let text =
-        "scenario s {\n    team left { CB at (0.5, 0) // behind\n /* more */ }\n  // end\n}\n\nconst A = 1 ; // one\n";
+    let text = "scenario s {\n    team left { CB at (0.5, 0) // behind\n /* more */ }\n  // end\n}\n\nconst A = 1 ; // one\n";
     let (file, problems) = read(text);
     assert_eq!(problems, []);
-    let texts: Vec<_> = file.items.iter().map(|item| &text[item.span.start as usize..item.span.end as usize]).collect();
+    let texts: Vec<_> = file
+        .items
+        .iter()
+        .map(|item| &text[item.span.start as usize..item.span.end as usize])
+        .collect();
     assert!(texts.first().is_some_and(|text| text.ends_with("// end\n}")), "{texts:?}");
     assert_eq!(texts.last(), Some(&"const A = 1"));
-    let Some(ItemKind::Scenario(scenario)) = file.items.first().map(|item| &item.kind) else { panic!("no scenario") };
-    let Some(ScenarioStmtKind::Team { body, .. }) = scenario.body.first().map(|statement| &statement.kind) else {
+    let Some(ItemKind::Scenario(scenario)) = file.items.first().map(|item| &item.kind) else {
+        panic!("no scenario")
+    };
+    let Some(ScenarioStmtKind::Team { body, .. }) =
+        scenario.body.first().map(|statement| &statement.kind)
+    else {
         panic!("no team")
     };
     let span = body.first().expect("a player").span;
@@ -160,7 +200,9 @@ fn p11_spans_are_trimmed() {
 #[test]
 fn p12_keys_may_be_weights() {
     match value("choice(a: 3, 0.5: 1, (0, 1): 2, for: 2s, on: off)").kind {
-        ExprKind::Call { args, .. } => assert!(args.len() == 5 && args.iter().all(|arg| arg.key.is_some())),
+        ExprKind::Call { args, .. } => {
+            assert!(args.len() == 5 && args.iter().all(|arg| arg.key.is_some()))
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -178,8 +220,14 @@ fn p14_event_names_are_reserved_as_values_only() {
     assert!(matches!(value("goal").kind, ExprKind::Event(_)));
     assert!(matches!(value("left.goal").kind, ExprKind::Member(..)));
     assert!(matches!(value("f(goal: 1)").kind, ExprKind::Call { .. }));
-    for text in ["let corner = 1", "param pass = 1", "let in = 1", "let CB = 3", "const when = 1", "let (a, shot) = b"]
-    {
+    for text in [
+        "let corner = 1",
+        "param pass = 1",
+        "let in = 1",
+        "let CB = 3",
+        "const when = 1",
+        "let (a, shot) = b",
+    ] {
         let problems = reported(&format!("scenario s {{ {text} }}"));
         assert!(
             problems.len() == 1 && problems.iter().all(|problem| problem.starts_with("SP0107")),
@@ -198,7 +246,10 @@ fn p15_left_is_a_team_a_direction_and_a_value() {
 
 #[test]
 fn p16_a_named_player_is_no_option() {
-    assert_eq!(player("striker: CF at (0.5, 0)").name.map(|name| name.node).as_deref(), Some("striker"));
+    assert_eq!(
+        player("striker: CF at (0.5, 0)").name.map(|name| name.node).as_deref(),
+        Some("striker")
+    );
     let body = team("difficulty: 0.9");
     assert!(matches!(body.first().map(|statement| &statement.kind), Some(TeamStmtKind::Field(_))));
 }
@@ -208,7 +259,9 @@ fn p17_a_count_stands_before_a_role() {
     let body = team("difficulty: 1\n2 CB in left.box\nlate: 3\nsteps: 4");
     assert_eq!(body.len(), 4);
     match body.get(1).map(|statement| &statement.kind) {
-        Some(TeamStmtKind::Player(player)) => assert_eq!(player.count.as_ref().map(|count| count.node), Some(2)),
+        Some(TeamStmtKind::Player(player)) => {
+            assert_eq!(player.count.as_ref().map(|count| count.node), Some(2))
+        }
         other => panic!("{other:?}"),
     }
     assert_eq!(player("3 CM").role.node, Role::CM);
@@ -229,10 +282,16 @@ fn p18_an_inline_reward_has_braces() {
 
 #[test]
 fn p19_not_binds_below_comparison_and_comparisons_do_not_chain() {
-    assert!(matches!(value("not p in q").kind, ExprKind::Unary(_, inner) if operator(&inner) == Some(InfixOp::In)));
+    assert!(
+        matches!(value("not p in q").kind, ExprKind::Unary(_, inner) if operator(&inner) == Some(InfixOp::In))
+    );
     assert_eq!(operator(&value("-x in q")), Some(InfixOp::In));
     for text in ["a < b < c", "a == b in c", "a < b + 1 < c and d"] {
-        assert_eq!(reported(&format!("scenario s {{ let x = {text} }}")), ["SP0106 comparisons don't chain"], "{text}");
+        assert_eq!(
+            reported(&format!("scenario s {{ let x = {text} }}")),
+            ["SP0106 comparisons don't chain"],
+            "{text}"
+        );
     }
 }
 
@@ -244,5 +303,8 @@ fn p20_an_if_has_then_and_else() {
 
 #[test]
 fn indentation_means_nothing_where_brackets_agree() {
-    assert_eq!(reported("scenario s {\n        team left { CB at (0, 0)\n  }\n    }"), Vec::<String>::new());
+    assert_eq!(
+        reported("scenario s {\n        team left { CB at (0, 0)\n  }\n    }"),
+        Vec::<String>::new()
+    );
 }

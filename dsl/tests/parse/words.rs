@@ -42,7 +42,8 @@ words! {
 
 #[test]
 fn json_and_short_forms() {
-    let text = "scenario s {\n    team left {\n        CBB at (0.5, 0)\n    }\n    rewrd scoring\n}";
+    let text =
+        "scenario s {\n    team left {\n        CBB at (0.5, 0)\n    }\n    rewrd scoring\n}";
     let (_, problems) = read(text);
     insta::assert_snapshot!("json", render(&problems, &sources(text), Format::Json));
     insta::assert_snapshot!("short", render(&problems, &sources(text), Format::Short));
@@ -65,7 +66,11 @@ fn labels_of_two_files_are_two_pictures() {
             let text = "// Shared.\nabstract scenario parent(width: length = 2m) { }\n";
             match path {
                 "lib.pitch" => Ok(Source { name: path.to_owned(), text: text.into() }),
-                _ => Err(LoadError { message: format!("no file `{path}`"), similar: Vec::new(), awaited: None }),
+                _ => Err(LoadError {
+                    message: format!("no file `{path}`"),
+                    similar: Vec::new(),
+                    awaited: None,
+                }),
             }
         }
 
@@ -75,8 +80,14 @@ fn labels_of_two_files_are_two_pictures() {
     }
     let text = "import \"lib.pitch\"\nscenario child(width: number = 2) extends parent {\n    ball at (0, 0)\n    \
                 end limit 10 steps\n}\n";
-    let outcome = compile(Source { name: "test.pitch".into(), text: text.into() }, &Parent, &CompileOptions::default());
-    let problem = outcome.problems.iter().find(|problem| problem.code() == Code::WrongType).cloned();
-    let report = render(problem.as_slice(), &outcome.sources, Format::Human { color: false, width: 100 });
+    let outcome = compile(
+        Source { name: "test.pitch".into(), text: text.into() },
+        &Parent,
+        &CompileOptions::default(),
+    );
+    let problem =
+        outcome.problems.iter().find(|problem| problem.code() == Code::WrongType).cloned();
+    let report =
+        render(problem.as_slice(), &outcome.sources, Format::Human { color: false, width: 100 });
     insta::assert_snapshot!("two_files", report);
 }

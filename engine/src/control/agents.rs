@@ -40,8 +40,12 @@ pub enum Agent {
 
 impl Agent {
     /// Every agent with its name on the command line.
-    pub const NAMED: &'static [(&'static str, Agent)] =
-        &[("random", Agent::Random), ("idle", Agent::Idle), ("run_and_shoot", Agent::RunAndShoot), ("bot", Agent::Bot)];
+    pub const NAMED: &'static [(&'static str, Agent)] = &[
+        ("random", Agent::Random),
+        ("idle", Agent::Idle),
+        ("run_and_shoot", Agent::RunAndShoot),
+        ("bot", Agent::Bot),
+    ];
 
     /// Finds an agent by its name.
     pub fn from_name(name: &str) -> Option<Agent> {
@@ -52,9 +56,8 @@ impl Agent {
     pub fn act(self, game: &Match, slot: usize, stream: &mut Stream) -> Action {
         match self {
             Agent::Idle => Action::Idle,
-            Agent::Random => {
-                Action::from_index(stream.below(Action::DEFAULT_SET as u32) as usize).unwrap_or(Action::Idle)
-            }
+            Agent::Random => Action::from_index(stream.below(Action::DEFAULT_SET as u32) as usize)
+                .unwrap_or(Action::Idle),
             Agent::RunAndShoot => run_and_shoot(game, slot),
             Agent::Bot => Action::BuiltinAi,
         }
@@ -74,7 +77,8 @@ pub fn run_and_shoot(game: &Match, slot: usize) -> Action {
     if has_ball && to_goal.length() < SHOOT_M {
         return Action::Shot;
     }
-    let loose_ahead = game.last_touch == Some(id) && player.pos.distance_squared(game.ball.pos.truncate()) < 9.0;
+    let loose_ahead =
+        game.last_touch == Some(id) && player.pos.distance_squared(game.ball.pos.truncate()) < 9.0;
     let way = if has_ball || loose_ahead { to_goal } else { game.ball.pos.truncate() * side - own };
     let wanted = direction_action(way);
     let held = agent.sticky;

@@ -34,7 +34,11 @@ const PACE: f32 = 0.94;
 /// reaches it much sooner.
 pub fn ball_is_theirs(game: &Match, id: PlayerId) -> bool {
     let controlled = game.agents.iter().any(|slot| slot.player == Some(id));
-    if !controlled || !game.rule(Rule::Assist) || game.play.set_piece.is_some() || game.play.hands.is_some() {
+    if !controlled
+        || !game.rule(Rule::Assist)
+        || game.play.set_piece.is_some()
+        || game.play.hands.is_some()
+    {
         return false;
     }
     let team = id.team();
@@ -45,7 +49,8 @@ pub fn ball_is_theirs(game: &Match, id: PlayerId) -> bool {
     if game.controller().is_some_and(|owner| owner != id) {
         return false;
     }
-    let rival = game.play.chaser[team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
+    let rival =
+        game.play.chaser[team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
     receiver || game.player(id).body.meet_s < rival + 0.2
 }
 
@@ -56,7 +61,8 @@ pub fn ball_is_theirs(game: &Match, id: PlayerId) -> bool {
 /// one nearest to the ball's path.
 pub fn meeting(game: &Match, id: PlayerId, wish: Vec2) -> Option<(Vec2, f32)> {
     let player = game.player(id);
-    let rival = game.play.chaser[id.team().other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
+    let rival = game.play.chaser[id.team().other().index()]
+        .map_or(9.0, |rival| game.player(rival).body.meet_s);
     let soonest_s = player.body.meet_s;
     if soonest_s < TOUCH_S || (rival + ADDED_S) < HASTE * (soonest_s + ADDED_S) {
         return None;
@@ -68,13 +74,16 @@ pub fn meeting(game: &Match, id: PlayerId, wish: Vec2) -> Option<(Vec2, f32)> {
     let along = (player.pos - ball).dot(way);
     let nearest = ball + way * along;
     let comes = {
-        let at = |seconds: f32| game.play.forecast.at(game.tick + (100.0 * seconds) as u32).truncate();
+        let at =
+            |seconds: f32| game.play.forecast.at(game.tick + (100.0 * seconds) as u32).truncate();
         (at(soonest_s + 0.1) - at(soonest_s)).normalize_or(ahead)
     };
     let top = PACE * player.body.speed_top_mps;
     let from = player.pos + player.vel * CARRIED_S;
     let mut best: Option<(f32, Vec2, f32)> = None;
-    for (time_s, point) in game.play.forecast.from(game.tick).filter(|(time_s, _)| *time_s >= soonest_s) {
+    for (time_s, point) in
+        game.play.forecast.from(game.tick).filter(|(time_s, _)| *time_s >= soonest_s)
+    {
         let place = point.truncate();
         let out = crate::physics::left_pitch(point).is_some();
         if !out && point.z >= HIGH_M {
@@ -95,7 +104,11 @@ pub fn meeting(game: &Match, id: PlayerId, wish: Vec2) -> Option<(Vec2, f32)> {
         let near = 1.0 - (nearest.distance(place) / (2.0 * SPRINT_MPS)).min(1.0);
         let rating = 0.4 * alike + 0.6 * straight + 0.1 * near;
         if best.is_none_or(|(least, ..)| rating > least) {
-            best = Some((rating, place, (needs_s / time_s.max(0.05)).min(1.0) * player.body.speed_top_mps));
+            best = Some((
+                rating,
+                place,
+                (needs_s / time_s.max(0.05)).min(1.0) * player.body.speed_top_mps,
+            ));
         }
         // Later meetings run after the ball, or keep it waiting.
         if to.dot(comes) > 0.0 || soonest_s < SOONEST * time_s {

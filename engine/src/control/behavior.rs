@@ -52,7 +52,10 @@ impl Actors {
                 if !roster.present.get(id).copied().unwrap_or_default() {
                     continue;
                 }
-                scripted |= plan.nodes.iter().any(|node| matches!(node, Node::Do(Do { act: Act::Script { .. }, .. })));
+                scripted |= plan
+                    .nodes
+                    .iter()
+                    .any(|node| matches!(node, Node::Do(Do { act: Act::Script { .. }, .. })));
                 list.push(Actor::new(PlayerId(id as u8), which as usize, plan));
             }
         }
@@ -95,7 +98,11 @@ impl Actors {
     }
 
     /// Writes or reads what they remember; on the way in [`Self::reset`] has come before.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+    pub(crate) fn archive(
+        &mut self,
+        archive: &mut Archive<'_>,
+        shelf: &mut Shelf,
+    ) -> Result<(), SnapshotError> {
         if self.list.is_empty() {
             return Ok(());
         }
@@ -113,7 +120,12 @@ impl Actors {
     ///
     /// # Errors
     /// An `act` hook that failed; the episode can't continue.
-    pub fn choose(&mut self, game: &mut Match, events: &[Event], actions: &[Action]) -> Result<(), ScriptError> {
+    pub fn choose(
+        &mut self,
+        game: &mut Match,
+        events: &[Event],
+        actions: &[Action],
+    ) -> Result<(), ScriptError> {
         if self.list.is_empty() {
             return Ok(());
         }
@@ -130,7 +142,10 @@ impl Actors {
             let plan = &plans[actor.plan];
             let (program, regs) = self.regs[actor.plan].parts();
             let machine = Machine {
-                input: Input { events, ..self.known.input(Sight::Kept(&now), &self.prev, id.team()) },
+                input: Input {
+                    events,
+                    ..self.known.input(Sight::Kept(&now), &self.prev, id.team())
+                },
                 crew: Crew::one(Some(id)),
                 plan: program,
                 regs,

@@ -16,8 +16,14 @@ pub const LOW: [f32; WIDTH] = [-1.0, -1.0, -1.0, 0.0];
 /// Greatest values.
 pub const HIGH: [f32; WIDTH] = [1.0; WIDTH];
 /// The meanings of `kind`, in equal parts from -1 to 1.
-pub const KINDS: [Action; 6] =
-    [Action::Idle, Action::ShortPass, Action::LongPass, Action::HighPass, Action::Shot, Action::Sliding];
+pub const KINDS: [Action; 6] = [
+    Action::Idle,
+    Action::ShortPass,
+    Action::LongPass,
+    Action::HighPass,
+    Action::Shot,
+    Action::Sliding,
+];
 
 /// Rounding may leave a direction that was cut to length 1 this much too long. Cutting it again
 /// would change it, but a recorded direction must stay the same.

@@ -1,7 +1,9 @@
 //! Turns an agent's actions into what its player wants.
 
 use crate::control::{assist, sticky};
-use crate::football::pace::{DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS};
+use crate::football::pace::{
+    DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS,
+};
 use crate::football::{kick, reach, slide};
 use crate::state::event::Events;
 use crate::state::player::{Intent, KickKind, KickPlan};
@@ -52,14 +54,21 @@ impl Held {
 
 /// Sets the intent and the planned kick of an agent's player. Returns the kick whose key is down
 /// and has been processed.
-pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, action: Action) -> Option<KickKind> {
+pub fn drive(
+    game: &mut Match,
+    events: &mut Events,
+    id: PlayerId,
+    held: Held,
+    action: Action,
+) -> Option<KickKind> {
     let has_ball = game.owner == Some(id) || game.controller() == Some(id);
     let (direction, gait) = held.run(id.team().side() as f32, has_ball);
     let power = held.steer.map_or(0.0, |steer| steer.power);
     // In the first step of a start only a keeper reacts to a kick. (Measured: it goes to the
     // keeper, whoever is controlled.)
-    let starts = game.step == 0 && game.play.set_piece.is_none() && game.player(id).role != Role::GK;
-    let kind = kick_of(action).filter(|_| !starts);
+    let starts =
+        game.step == 0 && game.play.set_piece.is_none() && game.player(id).role != Role::GK;
+    let kind = KickKind::of(action).filter(|_| !starts);
     let key = match kind {
         Some(kind) if held.key == Some(kind) => held.key,
         Some(kind) => press(game, id, kind, direction, power).then_some(kind),
@@ -98,8 +107,10 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     }
     // A player without a held direction lets a pass come; one who holds the pass's direction goes
     // to meet it.
-    let meets = direction.is_some_and(|ahead| ahead.dot(game.ball.pos.truncate() - player.pos) > 0.0);
-    let stands = !has_ball && !meets && player.body.kick.is_none() && reach::comes_to(game, &player);
+    let meets =
+        direction.is_some_and(|ahead| ahead.dot(game.ball.pos.truncate() - player.pos) > 0.0);
+    let stands =
+        !has_ball && !meets && player.body.kick.is_none() && reach::comes_to(game, &player);
     let spare = fetch && !has_ball && player.body.kick.is_none();
     let meeting = if spare { assist::meeting(game, id, wish) } else { None };
     let body = &mut game.players[id.index()].body;
@@ -114,7 +125,11 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     } else if fetch && stands {
         Intent::Stand
     } else if fetch {
-        Intent::Ball(if has_ball { gait.max(if direction.is_some() { 0.0 } else { RUN_MPS }) } else { SPRINT_MPS })
+        Intent::Ball(if has_ball {
+            gait.max(if direction.is_some() { 0.0 } else { RUN_MPS })
+        } else {
+            SPRINT_MPS
+        })
     } else if chases {
         Intent::Ball(SPRINT_MPS)
     } else {
@@ -123,23 +138,13 @@ pub fn drive(game: &mut Match, events: &mut Events, id: PlayerId, held: Held, ac
     key
 }
 
-/// The kick that an action requests.
-fn kick_of(action: Action) -> Option<KickKind> {
-    match action {
-        Action::ShortPass => Some(KickKind::Short),
-        Action::LongPass => Some(KickKind::Long),
-        Action::HighPass => Some(KickKind::High),
-        Action::Shot => Some(KickKind::Shot),
-        _ => None,
-    }
-}
-
 /// The velocity of a player on the ball while a kick is requested. They keep their line and brake,
 /// most if another direction is held. (GRF's.)
 fn braked(player: &Player, direction: Option<Vec2>) -> Vec2 {
     let speed = player.vel.length();
     let ahead = if speed > 1.0 { player.vel / speed } else { player.body.facing };
-    let along = direction.map_or(1.0, |direction| 0.5 + 0.5 * ahead.dot(direction).clamp(-1.0, 1.0));
+    let along =
+        direction.map_or(1.0, |direction| 0.5 + 0.5 * ahead.dot(direction).clamp(-1.0, 1.0));
     ahead * (speed * libm::powf(BRAKED * (0.2 + 0.8 * libm::powf(along, 1.5)), STRIDES))
 }
 
@@ -159,8 +164,11 @@ fn press(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, powe
         return true;
     }
     let from = game.player(id).pos;
-    let point = dir.filter(|_| power > 0.0 && kind != KickKind::Shot).map(|dir| from + dir * (power * reach_m(kind)));
-    game.players[id.index()].body.kick = Some(KickPlan { dir, point, power, ..kick::pressed(kind, game.tick) });
+    let point = dir
+        .filter(|_| power > 0.0 && kind != KickKind::Shot)
+        .map(|dir| from + dir * (power * reach_m(kind)));
+    game.players[id.index()].body.kick =
+        Some(KickPlan { dir, point, power, ..kick::pressed(kind, game.tick) });
     true
 }
 
@@ -202,6 +210,7 @@ pub fn may_play(game: &Match, id: PlayerId) -> bool {
     if let Some(owner) = game.controller() {
         return owner == id;
     }
-    let rival = game.play.chaser[team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
+    let rival =
+        game.play.chaser[team.other().index()].map_or(9.0, |rival| game.player(rival).body.meet_s);
     game.player(id).body.meet_s <= rival + 0.1 && game.play.hands.is_none()
 }

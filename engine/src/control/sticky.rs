@@ -21,7 +21,9 @@ pub fn next(sticky: u16, action: Action) -> u16 {
         | Action::Right
         | Action::BottomRight
         | Action::Bottom
-        | Action::BottomLeft => (sticky & !DIRECTIONS) | (1 << (action.index() - Action::Left.index())),
+        | Action::BottomLeft => {
+            (sticky & !DIRECTIONS) | (1 << (action.index() - Action::Left.index()))
+        }
         Action::Sprint => sticky | SPRINT,
         Action::ReleaseSprint => sticky & !SPRINT,
         Action::Dribble => sticky | DRIBBLE,
@@ -67,7 +69,8 @@ pub fn direction(sticky: u16) -> Option<Vec2> {
 
 /// Whether a direction action is held; false for any other action.
 pub fn holds(sticky: u16, direction: Action) -> bool {
-    direction.direction().is_some() && sticky & (1 << (direction.index() - Action::Left.index())) != 0
+    direction.direction().is_some()
+        && sticky & (1 << (direction.index() - Action::Left.index())) != 0
 }
 
 /// Whether sprint is held.

@@ -123,7 +123,11 @@ fn wish(game: &Match, id: PlayerId) -> (Vec2, f32) {
         Intent::Go(to, speed) => {
             let way = to - player.pos;
             let distance = way.length();
-            if distance < THERE_M { (Vec2::ZERO, 0.0) } else { (way, speed.min(distance * pace::ARRIVAL_PER_S)) }
+            if distance < THERE_M {
+                (Vec2::ZERO, 0.0)
+            } else {
+                (way, speed.min(distance * pace::ARRIVAL_PER_S))
+            }
         }
         Intent::Ball(speed) => for_ball(game, id, speed),
     }
@@ -184,9 +188,9 @@ fn turn_for(game: &Match, id: PlayerId, plan: &KickPlan, held: u16) -> Option<Ac
             }
             let nearest = toward(point.unwrap_or(game.player(mate).pos) - from);
             let others = agents::WAYS.iter().map(|(direction, _)| *direction);
-            let found = std::iter::once(nearest)
-                .chain(others)
-                .find(|direction| finds(direction.direction().map(|(x, y)| world(Vec2::new(x as f32, y as f32)))));
+            let found = std::iter::once(nearest).chain(others).find(|direction| {
+                finds(direction.direction().map(|(x, y)| world(Vec2::new(x as f32, y as f32))))
+            });
             unless_held(found.unwrap_or(nearest))
         }
         (_, None, Some(point)) => unless_held(toward(point - from)),

@@ -5,7 +5,8 @@ use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::Scenario;
 use setpiece_scenario::pitch::{
-    BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, PLAYER_SPEED_MAX_MPS, PLAYERS_MAX, RIM_X_M, RIM_Y_M, START_HEIGHT_MAX_M,
+    BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, PLAYER_SPEED_MAX_MPS, PLAYERS_MAX, RIM_X_M, RIM_Y_M,
+    START_HEIGHT_MAX_M,
 };
 use setpiece_scenario::vocabulary::Team;
 
@@ -33,8 +34,13 @@ pub(super) enum PlaceFault {
 }
 
 impl PlaceFault {
-    pub(super) const ALL: [PlaceFault; 5] =
-        [PlaceFault::Number, PlaceFault::Ball, PlaceFault::Player, PlaceFault::Gap, PlaceFault::Bounds];
+    pub(super) const ALL: [PlaceFault; 5] = [
+        PlaceFault::Number,
+        PlaceFault::Ball,
+        PlaceFault::Player,
+        PlaceFault::Gap,
+        PlaceFault::Bounds,
+    ];
 
     /// The requirement in words.
     pub(super) const fn words(self) -> &'static str {
@@ -42,7 +48,9 @@ impl PlaceFault {
             PlaceFault::Number => "every place, velocity and heading is a number",
             PlaceFault::Ball => "the ball lies on the pitch",
             PlaceFault::Player => "every player stands on the pitch",
-            PlaceFault::Gap => "players placed at random keep 0.6 m from others, but for who may overlap",
+            PlaceFault::Gap => {
+                "players placed at random keep 0.6 m from others, but for who may overlap"
+            }
             PlaceFault::Bounds => {
                 "the ball's height, speed and spin, and players' speeds and headings are within their bounds"
             }
@@ -56,7 +64,8 @@ impl Drawer {
         let start = &scenario.start;
         let ball = self.point((start.ball.x, start.ball.y));
         let number = |reg| self.optional(reg).is_finite();
-        let ball_moves = [start.ball.velocity, start.ball.spin].map(|vector| self.vector(vector).is_finite());
+        let ball_moves =
+            [start.ball.velocity, start.ball.spin].map(|vector| self.vector(vector).is_finite());
         if !ball.is_finite() || !number(start.ball.height) || ball_moves.contains(&false) {
             return Some(PlaceFault::Number);
         }
@@ -74,7 +83,9 @@ impl Drawer {
         // stand there too.
         let mut placed: ArrayVec<(Vec2, bool, bool), PLAYERS_MAX> = ArrayVec::new();
         for team in Team::ALL {
-            for (_, slot) in scenario.team(*team).filter(|&(id, _)| roster.present.get(id) == Some(&true)) {
+            for (_, slot) in
+                scenario.team(*team).filter(|&(id, _)| roster.present.get(id) == Some(&true))
+            {
                 let own = &slot.start;
                 let at = self.point((own.x, own.y));
                 let velocity = own.velocity.map_or(Vec2::ZERO, |velocity| self.point(velocity));
@@ -85,13 +96,17 @@ impl Drawer {
                     return Some(PlaceFault::Player);
                 }
                 let speed = f64::from(velocity.length());
-                if speed > PLAYER_SPEED_MAX_MPS + SLACK || self.optional(own.heading).abs() > HEADING_MAX_RAD {
+                if speed > PLAYER_SPEED_MAX_MPS + SLACK
+                    || self.optional(own.heading).abs() > HEADING_MAX_RAD
+                {
                     return Some(PlaceFault::Bounds);
                 }
                 let random = self.is_random(own.x) || self.is_random(own.y);
                 // Two fixed places may coincide, because the author wrote them.
                 let crowded = placed.iter().any(|&(other, other_random, other_overlap)| {
-                    (random || other_random) && !(slot.overlap || other_overlap) && at.distance(other) < MIN_GAP_M
+                    (random || other_random)
+                        && !(slot.overlap || other_overlap)
+                        && at.distance(other) < MIN_GAP_M
                 });
                 if crowded {
                     return Some(PlaceFault::Gap);
@@ -105,7 +120,8 @@ impl Drawer {
     /// Whether the ball's height, speed and spin are allowed in a start.
     fn is_ball_bounded(&self, scenario: &Scenario) -> bool {
         let ball = &scenario.start.ball;
-        let [speed, spin] = [self.vector(ball.velocity).length(), self.vector(ball.spin).abs().max_element()];
+        let [speed, spin] =
+            [self.vector(ball.velocity).length(), self.vector(ball.spin).abs().max_element()];
         self.optional(ball.height) <= START_HEIGHT_MAX_M + SLACK
             && f64::from(speed) <= BALL_SPEED_MAX_MPS + SLACK
             && f64::from(spin) <= BALL_SPIN_MAX + SLACK

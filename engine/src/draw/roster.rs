@@ -81,7 +81,11 @@ impl Roster {
     /// # Errors
     /// [`RosterError`] if the requested agents are more than the controllable players, or other
     /// players.
-    pub fn new(scenario: &Scenario, bindings: &Bindings, choice: Option<&AgentsChoice>) -> Result<Roster, RosterError> {
+    pub fn new(
+        scenario: &Scenario,
+        bindings: &Bindings,
+        choice: Option<&AgentsChoice>,
+    ) -> Result<Roster, RosterError> {
         let mut drawer = Drawer::new(scenario);
         // Presence and counts don't depend on draws, so any seed gives them.
         let draws = DrawKey { seed: 0, index: 0, attempt: 0 };
@@ -90,7 +94,8 @@ impl Roster {
         let mut roster = Roster { present: [false; PLAYERS_MAX], agents: Vec::new() };
         for team in Team::ALL {
             for (id, slot) in scenario.team(*team).filter(|&(id, _)| id < PLAYERS_MAX) {
-                roster.present[id] = slot.start.present.is_none_or(|present| truth(drawer.value(present)));
+                roster.present[id] =
+                    slot.start.present.is_none_or(|present| truth(drawer.value(present)));
             }
         }
         for team in Team::ALL {
@@ -101,7 +106,9 @@ impl Roster {
             let agents = match (side, &scenario.agents.sides[team.index()]) {
                 (SideChoice::Count(n), _) => count(*n)?,
                 (SideChoice::Players(names), _) => roster.named(scenario, *team, names)?,
-                (SideChoice::Scenario, SideAgents::Count(n)) => count(libm::round(drawer.value(*n)) as u32)?,
+                (SideChoice::Scenario, SideAgents::Count(n)) => {
+                    count(libm::round(drawer.value(*n)) as u32)?
+                }
                 (SideChoice::All, _) | (SideChoice::Scenario, SideAgents::All) => {
                     roster.controllable(scenario, *team).map(Some).collect()
                 }
@@ -118,7 +125,11 @@ impl Roster {
     }
 
     /// The players of a team that an agent may control, in source order.
-    fn controllable<'a>(&'a self, scenario: &'a Scenario, team: Team) -> impl Iterator<Item = PlayerId> + 'a {
+    fn controllable<'a>(
+        &'a self,
+        scenario: &'a Scenario,
+        team: Team,
+    ) -> impl Iterator<Item = PlayerId> + 'a {
         scenario
             .team(team)
             .filter(|(id, slot)| slot.controllable && self.present.get(*id) == Some(&true))
@@ -126,9 +137,16 @@ impl Roster {
     }
 
     /// The players of these names.
-    fn named(&self, scenario: &Scenario, team: Team, names: &[String]) -> Result<Vec<Option<PlayerId>>, RosterError> {
-        let known: Vec<(String, PlayerId)> =
-            self.controllable(scenario, team).map(|id| (player_name(scenario, team, id), id)).collect();
+    fn named(
+        &self,
+        scenario: &Scenario,
+        team: Team,
+        names: &[String],
+    ) -> Result<Vec<Option<PlayerId>>, RosterError> {
+        let known: Vec<(String, PlayerId)> = self
+            .controllable(scenario, team)
+            .map(|id| (player_name(scenario, team, id), id))
+            .collect();
         let mut players = Vec::new();
         for name in names {
             let Some((_, id)) = known.iter().find(|(other, _)| other == name) else {
@@ -161,8 +179,9 @@ impl Roster {
         if !fixed {
             return Ok(vec![None; asked as usize]);
         }
-        let keeper =
-            |id: &PlayerId| scenario.team(team).any(|(other, slot)| other == id.index() && slot.role == Role::GK);
+        let keeper = |id: &PlayerId| {
+            scenario.team(team).any(|(other, slot)| other == id.index() && slot.role == Role::GK)
+        };
         let (keepers, outfield): (Vec<_>, Vec<_>) = all.into_iter().partition(keeper);
         Ok(outfield.into_iter().chain(keepers).take(asked as usize).map(Some).collect())
     }
@@ -174,7 +193,9 @@ pub(crate) fn player_name(scenario: &Scenario, team: Team, player: PlayerId) -> 
         return format!("{team}_{}", player.in_team());
     };
     slot.name.clone().unwrap_or_else(|| {
-        let before = scenario.team(team).filter(|(id, other)| *id <= player.index() && other.role == slot.role);
+        let before = scenario
+            .team(team)
+            .filter(|(id, other)| *id <= player.index() && other.role == slot.role);
         format!("{team}_{}_{}", slot.role, before.count())
     })
 }

@@ -64,7 +64,11 @@ fn what_is_required_holds() {
     let at = scenario.players[0].start.x;
     let least = push(&mut scenario, Instr::Const(15.0));
     let condition = push(&mut scenario, Instr::Binary(BinaryOp::Gt, at, least));
-    scenario.start.requires.push(Require { condition, probability: None, label: "far up".to_owned() });
+    scenario.start.requires.push(Require {
+        condition,
+        probability: None,
+        label: "far up".to_owned(),
+    });
     for index in 0..50 {
         assert!(x(&draw(&scenario, 1, index).unwrap()) > 15.0);
     }
@@ -89,9 +93,17 @@ fn the_requirement_that_fails_most_is_named() {
     let at = scenario.players[0].start.x;
     let far = push(&mut scenario, Instr::Const(10.0));
     let up = push(&mut scenario, Instr::Binary(BinaryOp::Gt, at, far));
-    scenario.start.requires.push(Require { condition: up, probability: None, label: "up".to_owned() });
+    scenario.start.requires.push(Require {
+        condition: up,
+        probability: None,
+        label: "up".to_owned(),
+    });
     let down = push(&mut scenario, Instr::Binary(BinaryOp::Lt, at, far));
-    scenario.start.requires.push(Require { condition: down, probability: None, label: "down".to_owned() });
+    scenario.start.requires.push(Require {
+        condition: down,
+        probability: None,
+        label: "down".to_owned(),
+    });
     let error = draw(&scenario, 1, 0).unwrap_err();
     assert_eq!(error.attempts, ATTEMPTS_MAX);
     assert_eq!(error.requirement, "up");
@@ -99,7 +111,10 @@ fn the_requirement_that_fails_most_is_named() {
 
     // A requirement that no draw can change is tried once.
     let never = push(&mut scenario, Instr::Const(0.0));
-    scenario.start.requires.insert(0, Require { condition: never, probability: None, label: "impossible".to_owned() });
+    scenario
+        .start
+        .requires
+        .insert(0, Require { condition: never, probability: None, label: "impossible".to_owned() });
     let error = draw(&scenario, 1, 0).unwrap_err();
     assert_eq!((error.attempts, error.requirement.as_str()), (1, "impossible"));
 }
@@ -156,7 +171,8 @@ fn numbers_that_play_cannot_go_on_from_are_no_start() {
 fn a_start_that_costs_much_is_looked_for_less_long() {
     let mut scenario = striker(-20.0, 20.0);
     for key in 0..1_000 {
-        let (mean, sd) = (push(&mut scenario, Instr::Const(0.0)), push(&mut scenario, Instr::Const(1.0)));
+        let (mean, sd) =
+            (push(&mut scenario, Instr::Const(0.0)), push(&mut scenario, Instr::Const(1.0)));
         let from = Box::new(Distribution::TruncatedNormal(mean, sd, mean, sd));
         push(&mut scenario, Instr::Random { key: 100 + key, from });
     }
@@ -173,7 +189,10 @@ fn without_a_draw_one_attempt_is_enough() {
     assert_eq!(draw(&scenario, 1, 0).unwrap_err().attempts, 1);
     scenario.players[0].start.x = push(&mut scenario, Instr::Const(3.0));
     let drawn = draw(&scenario, 1, 0).unwrap();
-    assert_eq!((x(&drawn), drawn.limit_steps, drawn.ball_pos.z), (3.0, Some(50), BALL_RADIUS_M as f32));
+    assert_eq!(
+        (x(&drawn), drawn.limit_steps, drawn.ball_pos.z),
+        (3.0, Some(50), BALL_RADIUS_M as f32)
+    );
 }
 
 #[test]
@@ -186,11 +205,15 @@ fn agents_are_given_players() {
     ]);
     scenario.players[0].controllable = true;
     let bindings = Bindings::default();
-    let roster =
-        |scenario: &Scenario, choice: Option<&AgentsChoice>| Roster::new(scenario, &bindings, choice).unwrap().agents;
+    let roster = |scenario: &Scenario, choice: Option<&AgentsChoice>| {
+        Roster::new(scenario, &bindings, choice).unwrap().agents
+    };
     let left = |id: u8| (Team::Left, Some(PlayerId(id)));
     assert_eq!(roster(&scenario, None), [(Team::Left, None)]);
-    let count = |n, fixed| AgentsChoice { sides: [SideChoice::Count(n), SideChoice::Scenario], fixed: Some(fixed) };
+    let count = |n, fixed| AgentsChoice {
+        sides: [SideChoice::Count(n), SideChoice::Scenario],
+        fixed: Some(fixed),
+    };
     // The keeper comes last.
     assert_eq!(roster(&scenario, Some(&count(2, true))), [left(1), left(2)]);
     // Everybody, in source order, whether or not agents switch.
@@ -200,12 +223,20 @@ fn agents_are_given_players() {
     let error = Roster::new(&scenario, &bindings, Some(&count(4, true))).unwrap_err();
     assert_eq!(error.to_string(), "4 agents on the left side, which has 3 controllable players");
     let named = |names: &[&str]| AgentsChoice {
-        sides: [SideChoice::Players(names.iter().map(|name| (*name).to_owned()).collect()), SideChoice::Scenario],
+        sides: [
+            SideChoice::Players(names.iter().map(|name| (*name).to_owned()).collect()),
+            SideChoice::Scenario,
+        ],
         fixed: None,
     };
     assert_eq!(roster(&scenario, Some(&named(&["left_CF_1", "left_GK_1"]))), [left(2), left(0)]);
-    let refused = |names: &[&str]| Roster::new(&scenario, &bindings, Some(&named(names))).unwrap_err().to_string();
+    let refused = |names: &[&str]| {
+        Roster::new(&scenario, &bindings, Some(&named(names))).unwrap_err().to_string()
+    };
     let known = "its controllable players are `left_GK_1`, `left_CM_1`, `left_CF_1`";
-    assert_eq!(refused(&["left_CB_1"]), format!("no agent can play `left_CB_1` of the left side: {known}"));
+    assert_eq!(
+        refused(&["left_CB_1"]),
+        format!("no agent can play `left_CB_1` of the left side: {known}")
+    );
     assert_eq!(refused(&["left_CM_1", "left_CM_1"]), "`left_CM_1` is requested twice");
 }

@@ -13,7 +13,9 @@ use std::ops::Range;
 /// [`SnapshotError::Roster`].
 pub(super) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
     let there = std::array::from_fn::<bool, PLAYERS_MAX, _>(|i| game.squad.has(PlayerId(i as u8)));
-    if let Some(team) = Team::ALL.iter().find(|team| there[places(**team)] != roster.present[places(**team)]) {
+    if let Some(team) =
+        Team::ALL.iter().find(|team| there[places(**team)] != roster.present[places(**team)])
+    {
         let (found, expected) = (players(&there, *team), players(&roster.present, *team));
         return Err(SnapshotError::Roster { what: format!("{team} players"), found, expected });
     }
@@ -22,11 +24,19 @@ pub(super) fn fits(game: &Match, roster: &Roster) -> Result<(), SnapshotError> {
     let ghost = |id: PlayerId| !there[id.index()];
     for (at, slot) in game.agents.iter().enumerate() {
         if slot.player.is_some_and(|id| ghost(id) || id.team() != slot.team) {
-            return Err(SnapshotError::damaged(format!("match.agents[{at}].player"), "is nobody of its team"));
+            return Err(SnapshotError::damaged(
+                format!("match.agents[{at}].player"),
+                "is nobody of its team",
+            ));
         }
     }
-    if let Some(at) = game.players.iter().zip(there).position(|(player, there)| player.active && !there) {
-        return Err(SnapshotError::damaged(format!("match.players[{at}].active"), "is true of nobody"));
+    if let Some(at) =
+        game.players.iter().zip(there).position(|(player, there)| player.active && !there)
+    {
+        return Err(SnapshotError::damaged(
+            format!("match.players[{at}].active"),
+            "is true of nobody",
+        ));
     }
     if game.owner.is_some_and(ghost) {
         return Err(SnapshotError::damaged("match.owner", "is nobody"));
@@ -47,11 +57,16 @@ fn places(team: Team) -> Range<usize> {
 
 /// The occupied places of a team: `1, 2, 4`.
 fn players(present: &[bool], team: Team) -> String {
-    let taken = (1..).zip(&present[places(team)]).filter(|(_, there)| **there).map(|(number, _)| number.to_string());
+    let taken = (1..)
+        .zip(&present[places(team)])
+        .filter(|(_, there)| **there)
+        .map(|(number, _)| number.to_string());
     let taken: Vec<String> = taken.collect();
     match taken.as_slice() {
         [] => "none".to_owned(),
-        all if all.last().is_some_and(|last| *last == all.len().to_string()) => all.len().to_string(),
+        all if all.last().is_some_and(|last| *last == all.len().to_string()) => {
+            all.len().to_string()
+        }
         some => format!("numbers {}", some.join(", ")),
     }
 }

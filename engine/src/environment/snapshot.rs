@@ -61,7 +61,12 @@ impl Environment {
     /// # Errors
     /// [`ResetError`] for bytes that aren't a snapshot, or one with other players or agents
     /// (nothing has changed then), and as [`reset`](Self::reset).
-    pub fn reset_from(&mut self, snapshot: &[u8], seed: Option<u64>, index: Option<u64>) -> Result<(), ResetError> {
+    pub fn reset_from(
+        &mut self,
+        snapshot: &[u8],
+        seed: Option<u64>,
+        index: Option<u64>,
+    ) -> Result<(), ResetError> {
         let past = self.past(snapshot)?;
         Ok(self.begin(seed, index, Some(&past))?)
     }
@@ -96,7 +101,8 @@ impl Environment {
     fn idle(&mut self, opened: &Opened<'_>) {
         self.game.clone_from(&opened.game);
         let about = &opened.about;
-        (self.started, self.begun, self.seed, self.index) = (about.started, about.begun, about.seed, about.index);
+        (self.started, self.begun, self.seed, self.index) =
+            (about.started, about.begun, about.seed, about.index);
         if self.bindings.0 != about.bindings {
             self.bindings = Arc::new(Bindings(about.bindings.clone()));
         }
@@ -107,7 +113,8 @@ impl Environment {
         self.judged = 0;
     }
 
-    /// Writes or reads the episode around the match: the scenes that scripts have kept, then what leads to them.
+    /// Writes or reads the episode around the match: the scenes that scripts have kept, then what
+    /// leads to them.
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         let mut shelf = Shelf::default();
         archive.in_order(
@@ -118,7 +125,11 @@ impl Environment {
     }
 
     /// Writes or reads all but the scenes.
-    fn archive_episode(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+    fn archive_episode(
+        &mut self,
+        archive: &mut Archive<'_>,
+        shelf: &mut Shelf,
+    ) -> Result<(), SnapshotError> {
         // The key is not the environment's where a later reset found no start.
         let Given { mut seed, mut index, params, lets } = self.judge.given();
         let (mut params, mut lets) = (params.to_vec(), lets.to_vec());
@@ -146,10 +157,15 @@ impl Environment {
         if let Some(stopped) = self.stopped.get() {
             fits(stopped, &self.roster)?;
         }
-        let said = |outcome: &Outcome| (outcome.label.to_string(), outcome.verdict, outcome.truncated);
+        let said =
+            |outcome: &Outcome| (outcome.label.to_string(), outcome.verdict, outcome.truncated);
         let mut outcome: Option<(String, Option<Verdict>, bool)> = self.outcome.as_ref().map(said);
         archive.value("outcome", &mut outcome)?;
-        self.outcome = outcome.map(|(label, verdict, truncated)| Outcome { label: label.into(), verdict, truncated });
+        self.outcome = outcome.map(|(label, verdict, truncated)| Outcome {
+            label: label.into(),
+            verdict,
+            truncated,
+        });
         Ok(())
     }
 
@@ -160,7 +176,8 @@ impl Environment {
             return Ok(());
         }
         let wrong = |why: String| SnapshotError::damaged(name, format!("can't be bound: {why}"));
-        let bindings = bound(&self.scenario, Some(&Bindings(values.to_vec()))).map_err(|why| wrong(why.to_string()))?;
+        let bindings = bound(&self.scenario, Some(&Bindings(values.to_vec())))
+            .map_err(|why| wrong(why.to_string()))?;
         match Roster::new(&self.scenario, &bindings, self.options.agents.as_ref()) {
             Ok(roster) if roster == self.roster => Ok(()),
             _ => Err(wrong("other players or agents would take part".to_owned())),

@@ -27,7 +27,11 @@ fn ending(scenario: &mut Scenario, label: &str, verdict: Option<Verdict>, when: 
 
 fn script_reward(source: &str) -> Scenario {
     let mut scenario = basic();
-    scenario.scripts.push(Script { name: "own.rhai".to_owned(), at: (1, 1), source: source.to_owned() });
+    scenario.scripts.push(Script {
+        name: "own.rhai".to_owned(),
+        at: (1, 1),
+        source: source.to_owned(),
+    });
     scenario.rewards = vec![Reward {
         name: "own".to_owned(),
         doc: String::new(),
@@ -118,10 +122,16 @@ fn rewards_are_chosen_by_name() {
     scenario.library.push(other);
     let with = |names: &[&str]| {
         let rewards = Some(names.iter().map(ToString::to_string).collect());
-        Environment::new(Arc::new(scenario.clone()), EnvironmentOptions { rewards, ..Default::default() })
+        Environment::new(
+            Arc::new(scenario.clone()),
+            EnvironmentOptions { rewards, ..Default::default() },
+        )
     };
     assert_eq!(with(&["other"]).unwrap().term_names(), ["other/1", "other/2"]);
-    assert_eq!(with(&["othr"]).unwrap_err().to_string(), "no reward `othr`; there is `other`, `scoring`");
+    assert_eq!(
+        with(&["othr"]).unwrap_err().to_string(),
+        "no reward `othr`; there is `other`, `scoring`"
+    );
 }
 
 #[test]
@@ -152,7 +162,8 @@ fn a_failing_script_ends_its_episode_and_no_more() {
     for _ in 0..2 {
         environment.reset(Some(4), Some(7)).unwrap();
         environment.step(&[Action::Idle], &mut scratch).unwrap();
-        let StepError::Script(error) = environment.step(&[Action::Idle], &mut scratch).unwrap_err() else {
+        let StepError::Script(error) = environment.step(&[Action::Idle], &mut scratch).unwrap_err()
+        else {
             panic!("expected the script's error");
         };
         assert_eq!((error.script.as_str(), error.hook.as_str()), ("own.rhai", "reward"));
@@ -184,8 +195,13 @@ fn scripts_draw_from_the_episodes_seed() {
 #[test]
 fn a_done_hook_ends_with_its_label() {
     let mut scenario = basic();
-    let source = "fn done(ctx, now, prev, events) { if ctx.step == 3 { \"tired\" } else { false } }";
-    scenario.scripts.push(Script { name: "own.rhai".to_owned(), at: (1, 1), source: source.to_owned() });
+    let source =
+        "fn done(ctx, now, prev, events) { if ctx.step == 3 { \"tired\" } else { false } }";
+    scenario.scripts.push(Script {
+        name: "own.rhai".to_owned(),
+        at: (1, 1),
+        source: source.to_owned(),
+    });
     let (verdict, label) = (Some(Verdict::Failure), "script".to_owned());
     scenario.endings.list.push(Ending { verdict, label, when: None, script: Some(0) });
     let mut environment = environment(scenario);
@@ -200,7 +216,8 @@ fn a_done_hook_ends_with_its_label() {
 
 #[test]
 fn a_clone_goes_its_own_way() {
-    let source = "fn reward(ctx, now, prev, events) { this.n = (this.n ?? 0) + 1; this.n + ctx.random() }";
+    let source =
+        "fn reward(ctx, now, prev, events) { this.n = (this.n ?? 0) + 1; this.n + ctx.random() }";
     let mut first = environment(script_reward(source));
     let mut scratch = Scratch::default();
     first.reset(Some(1), None).unwrap();
@@ -216,7 +233,9 @@ fn a_clone_goes_its_own_way() {
 #[test]
 fn scripts_are_swapped_within_an_episode_and_nothing_else_is() {
     let counting = |add: &str| {
-        script_reward(&format!("fn reward(ctx, now, prev, events) {{ this.n = (this.n ?? 0) + 1; this.n + {add} }}"))
+        script_reward(&format!(
+            "fn reward(ctx, now, prev, events) {{ this.n = (this.n ?? 0) + 1; this.n + {add} }}"
+        ))
     };
     let mut environment = environment(counting("0"));
     let mut scratch = Scratch::default();

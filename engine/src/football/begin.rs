@@ -1,6 +1,8 @@
 //! The first state of a match.
 
-use crate::football::{forecast, lineup, noise, reach, recent, restart, set_piece, stats, switching};
+use crate::football::{
+    forecast, lineup, noise, reach, recent, restart, set_piece, stats, switching,
+};
 use crate::physics::Ball;
 use crate::random::Purpose;
 use crate::start::{Drawn, DrawnPlayer};
@@ -9,7 +11,9 @@ use crate::state::player::Body;
 use crate::state::{AgentSlot, Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
-use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX};
+use setpiece_scenario::pitch::{
+    GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX,
+};
 use setpiece_scenario::vocabulary::{GameMode, Role, Rule, StartKind, Stat, Team};
 
 /// Ticks before the ball of a start can be touched; the stream of chance picks one. Measured.
@@ -86,7 +90,11 @@ pub(crate) fn blank(drawn: &Drawn) -> Match {
         limit_steps: drawn.limit_steps,
         score: drawn.score,
         ball: Ball { pos: drawn.ball_pos, vel: drawn.ball_vel, spin: drawn.ball_spin },
-        squad: (0..).zip(&drawn.players).filter(|(_, slot)| slot.is_some()).map(|(id, _)| PlayerId(id)).collect(),
+        squad: (0..)
+            .zip(&drawn.players)
+            .filter(|(_, slot)| slot.is_some())
+            .map(|(id, _)| PlayerId(id))
+            .collect(),
         players: std::array::from_fn(|i| player(&drawn.players[i])),
         owner: drawn.owner,
         possession: drawn.owner.map(PlayerId::team),
@@ -121,7 +129,8 @@ fn set_off(game: &mut Match) {
     let first = reach::first(game);
     for id in game.order() {
         let waits = (noise::roll(game) * SET_OFF_TICKS) as i8;
-        let far = game.player(id).pos.distance_squared(game.ball.pos.truncate()) > AT_BALL_M * AT_BALL_M;
+        let far =
+            game.player(id).pos.distance_squared(game.ball.pos.truncate()) > AT_BALL_M * AT_BALL_M;
         let goes = game.play.chaser[id.team().index()] == Some(id);
         if far && (!goes || first == Some(id)) {
             game.players[id.index()].body.lag_ticks = -waits;
@@ -141,7 +150,11 @@ fn place_kickoffs(game: &mut Match, drawn: &Drawn) {
         let team = id.team();
         let twin = drawn.players[PlayerId::new(team.other(), id.in_team()).index()].as_ref();
         let swapped = twin.filter(|_| sizes[0] == sizes[1]).map_or(start.pos, |twin| -twin.pos);
-        let places = if team == game.play.first_kickoff { [start.pos, swapped] } else { [swapped, start.pos] };
+        let places = if team == game.play.first_kickoff {
+            [start.pos, swapped]
+        } else {
+            [swapped, start.pos]
+        };
         game.players[id.index()].body.kickoff = start.kickoff.unwrap_or(places);
     }
 }
@@ -159,10 +172,15 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
         StartKind::Corner => (GameMode::Corner, Vec2::new(half_x * side, half_y * top)),
         StartKind::FreeKick => (GameMode::FreeKick, ball),
         StartKind::ThrowIn => (GameMode::ThrowIn, Vec2::new(ball.x, half_y * top)),
-        StartKind::GoalKick => (GameMode::GoalKick, Vec2::new((GOAL_KICK_SPOT_M as f32 - half_x) * side, 0.0)),
-        StartKind::Penalty => (GameMode::Penalty, Vec2::new((half_x - PENALTY_SPOT_M as f32) * side, 0.0)),
+        StartKind::GoalKick => {
+            (GameMode::GoalKick, Vec2::new((GOAL_KICK_SPOT_M as f32 - half_x) * side, 0.0))
+        }
+        StartKind::Penalty => {
+            (GameMode::Penalty, Vec2::new((half_x - PENALTY_SPOT_M as f32) * side, 0.0))
+        }
     };
-    let placed: [(Vec2, Vec2); PLAYERS_MAX] = std::array::from_fn(|i| (game.players[i].pos, game.players[i].vel));
+    let placed: [(Vec2, Vec2); PLAYERS_MAX] =
+        std::array::from_fn(|i| (game.players[i].pos, game.players[i].vel));
     restart::place(game, Restart { mode, team, spot });
     // The scenario's places and velocities stay in force, except for the taker.
     if mode != GameMode::KickOff {
@@ -189,8 +207,10 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
 /// The team whose nearest player is nearer to the ball; chance breaks a tie.
 fn nearest_team(game: &mut Match) -> Team {
     let ball = game.ball.pos.truncate();
-    let least =
-        |team| game.team(team).fold(f32::MAX, |least, (_, player)| least.min(player.pos.distance_squared(ball)));
+    let least = |team| {
+        game.team(team)
+            .fold(f32::MAX, |least, (_, player)| least.min(player.pos.distance_squared(ball)))
+    };
     let (left, right) = (least(Team::Left), least(Team::Right));
     let drawn = left == right && game.rule(Rule::Stochastic) && noise::happens(game, 0.5);
     if right < left || drawn { Team::Right } else { Team::Left }

@@ -40,7 +40,10 @@ impl TeamBlock {
         let [back, front] = self.depth;
         let middle = (1.0 - 1.2 * slot.x.abs()).max(0.0);
         let moved = math::mix(slot.x, self.midfield.0, math::ease(middle) * self.midfield.1);
-        let plain = Vec2::new(back + (0.5 * moved + 0.5) * (front - back), self.middle_y + slot.y * self.half_width);
+        let plain = Vec2::new(
+            back + (0.5 * moved + 0.5) * (front - back),
+            self.middle_y + slot.y * self.half_width,
+        );
         let (x, keen) = self.towards_x;
         let place_x = if keen > 0.0 {
             let near = 1.0 - ((x - plain.x) / (front - back)).abs().min(1.0);

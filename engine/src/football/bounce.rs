@@ -20,7 +20,10 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     let Some(last) = game.last_touch else { return };
     let since = ticks_since(game.tick, game.player(last).body.touched_at);
     let ball = game.ball.pos;
-    if since >= UNSEEN_TICKS || ball.z > LEGS_M || ticks_since(game.tick, game.play.bounced_at) <= BOUNCE_TICKS {
+    if since >= UNSEEN_TICKS
+        || ball.z > LEGS_M
+        || ticks_since(game.tick, game.play.bounced_at) <= BOUNCE_TICKS
+    {
         return;
     }
     let hit = game.order_of(near).find(|&id| {
@@ -35,7 +38,8 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     let player = *game.player(id);
     let from = ball.truncate() - player.pos;
     let recent = 0.2 + 0.8 * (1.0 - since as f32 / UNSEEN_TICKS as f32);
-    let away = (from.normalize_or(player.body.facing) * recent + player.vel * (1.0 - recent)).normalize_or_zero();
+    let away = (from.normalize_or(player.body.facing) * recent + player.vel * (1.0 - recent))
+        .normalize_or_zero();
     let velocity = game.ball.vel;
     let speed = velocity.length();
     let full = away.extend(0.0) * (6.0 + 0.6 * speed) - velocity * 0.2;

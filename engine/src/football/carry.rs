@@ -27,8 +27,8 @@ const FRONT_S: f32 = 0.08;
 const AGAIN_S: [f32; 2] = [0.25, 0.6];
 const STEP_S: f32 = 0.12;
 const TOUCH_S: f32 = 0.2;
-/// How fast whoever stands comes out of the step of a touch, and how much less faster one does for each m/s of their run
-/// below that; by how much a runner speeds up in it, m/s. (GRF's gaits.)
+/// How fast whoever stands comes out of the step of a touch, and how much less faster one does for
+/// each m/s of their run below that; by how much a runner speeds up in it, m/s. (GRF's gaits.)
 const OFF_MPS: f32 = DRIBBLE_MPS;
 const GETS_OFF: f32 = 0.5;
 const SPEEDS_UP_MPS: f32 = 1.0;
@@ -51,7 +51,8 @@ pub(super) fn as_skilled(game: &Match, id: PlayerId, velocity: Vec2, speed: f32)
 pub(super) fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
     let wanted = speed.min(player.body.speed_top_mps);
-    let end = (own + if own < OFF_MPS { OFF_MPS - GETS_OFF * own } else { SPEEDS_UP_MPS }).min(wanted);
+    let end =
+        (own + if own < OFF_MPS { OFF_MPS - GETS_OFF * own } else { SPEEDS_UP_MPS }).min(wanted);
     let over = if speed > SPRINTS_FROM_MPS {
         HASTE_MPS[1]
     } else if speed > WALKS_FROM_MPS {
@@ -62,9 +63,12 @@ pub(super) fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f3
     let pace = wanted.clamp(end, end + over);
     let share = (pace / SPRINT_MPS).min(1.0);
     let until_s = AGAIN_S[0] + AGAIN_S[1] * share * share;
-    let way = ahead * (0.5 * (own + end) * STEP_S + pace * until_s + FRONT_M + FRONT_S * pace) - to_ball;
+    let way =
+        ahead * (0.5 * (own + end) * STEP_S + pace * until_s + FRONT_M + FRONT_S * pace) - to_ball;
     let fast = 1.0 + HARDER * ((pace - RUN_MPS) / (FASTEST_MPS - RUN_MPS)).clamp(0.0, 1.0);
-    way.normalize_or_zero() * libm::powf(way.length() / ((until_s + TOUCH_S) * CLOSE * 1.1), WAY_TO_PACE) * fast
+    way.normalize_or_zero()
+        * libm::powf(way.length() / ((until_s + TOUCH_S) * CLOSE * 1.1), WAY_TO_PACE)
+        * fast
 }
 
 /// Lengthens a touch so that the ball goes this much further, metres. (GRF's: the speed of a touch
@@ -84,7 +88,9 @@ pub(super) fn longer(velocity: Vec2, further_m: f32) -> Vec2 {
 fn annoyance_m(game: &Match, id: PlayerId, speed: f32) -> f32 {
     let player = game.player(id);
     let rivals = game.team(id.team().other());
-    let near = rivals.fold(f32::MAX, |near, (_, rival)| near.min(rival.pos.distance_squared(player.pos))).sqrt();
+    let near = rivals
+        .fold(f32::MAX, |near, (_, rival)| near.min(rival.pos.distance_squared(player.pos)))
+        .sqrt();
     let close = 1.0 - ((near - ANNOYS_M.start) / (ANNOYS_M.end - ANNOYS_M.start)).clamp(0.0, 1.0);
     let nervous = 1.0 - (0.5 * player.skill(Stat::Calmness) + 0.3 * player.skill(Stat::Balance));
     ANNOYED_M * close * nervous * math::smooth((speed / 8.0).min(1.0))

@@ -86,7 +86,11 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
             };
             let length = ball.distance(pass.from);
             events.push(
-                report::event(game, EventKind::Pass).by(pass.by).to(Some(by)).qualified(qualifier).length(length),
+                report::event(game, EventKind::Pass)
+                    .by(pass.by)
+                    .to(Some(by))
+                    .qualified(qualifier)
+                    .length(length),
             );
             if !mate {
                 report::did(game, events, EventKind::Interception, by, Some(pass.by));
@@ -144,11 +148,23 @@ fn team_bits(team: Team) -> u32 {
 }
 
 /// Reports that a pass was struck.
-pub fn pass_struck(game: &mut Match, events: &mut Events, by: PlayerId, to: Option<PlayerId>, from: Vec2) {
+pub fn pass_struck(
+    game: &mut Match,
+    events: &mut Events,
+    by: PlayerId,
+    to: Option<PlayerId>,
+    from: Vec2,
+) {
     let length = to.map_or(0.0, |to| game.player(to).pos.distance(from));
     game.play.pass = Some(Flight { by, to, from, tick: game.tick });
     game.play.shot = None;
-    events.push(report::event(game, EventKind::Pass).by(by).to(to).qualified(Qualifier::Attempted).length(length));
+    events.push(
+        report::event(game, EventKind::Pass)
+            .by(by)
+            .to(to)
+            .qualified(Qualifier::Attempted)
+            .length(length),
+    );
 }
 
 /// Reports that a shot was struck.

@@ -19,17 +19,17 @@ pub(super) const STOPS_MPS: f32 = 0.3;
 const WALKS_MPS: f32 = 5.1;
 const FAST_MPS: f32 = 7.5;
 const CARRIED_M: [f32; 2] = [0.36, 0.62];
-/// A ball that rolls slower than this share of the speed that is wanted is pushed on from so far away, by who walks and by
-/// who sprints, metres. Measured.
+/// A ball that rolls slower than this share of the speed that is wanted is pushed on from so far
+/// away, by who walks and by who sprints, metres. Measured.
 const SLOW: f32 = 0.5;
 const EARLY_M: [f32; 2] = [0.72, 0.56];
-/// From how far whoever comes up to a sprint pushes the ball on, metres: below so many m/s, so many ticks after their last
-/// touch. Measured.
+/// From how far whoever comes up to a sprint pushes the ball on, metres: below so many m/s, so many
+/// ticks after their last touch. Measured.
 const SPEEDING_M: f32 = 0.8;
 const SPEEDING_MPS: f32 = 6.8;
 const SPEEDING_TICKS: i32 = 45;
-/// For how many ticks a player who has pushed off the ball of a start follows it at that pace, and how many ticks later
-/// they touch it again at the soonest. Measured.
+/// For how many ticks a player who has pushed off the ball of a start follows it at that pace, and
+/// how many ticks later they touch it again at the soonest. Measured.
 const OFF_TICKS: i32 = 22;
 const OFF_AGAIN_TICKS: i32 = 31;
 /// How near to a line a dribbler will push the ball, metres.
@@ -64,7 +64,9 @@ const ROLL_MPS2: f32 = 1.75;
 /// turns it doesn't wait.
 pub(super) fn foot_m(game: &Match, player: &Player) -> f32 {
     let (ball, own, wish) = (game.ball.vel.truncate(), player.vel, player.body.dribble);
-    if wish.length_squared() < STOPS_MPS * STOPS_MPS && own.length_squared() < SPRINTS_FROM_MPS * SPRINTS_FROM_MPS {
+    if wish.length_squared() < STOPS_MPS * STOPS_MPS
+        && own.length_squared() < SPRINTS_FROM_MPS * SPRINTS_FROM_MPS
+    {
         return SOLE_M;
     }
     let along = ball.dot(own) > ALONG * ball.length() * own.length() && wish.dot(own) > 0.0;
@@ -111,7 +113,10 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
     let rolling = ball_vel.length();
     if rolling > 1.0 {
         let cos = ball_vel.dot(ahead) / rolling;
-        if cos > ALONG && to_ball.dot(ahead) > 0.15 && ball_vel.dot(ahead) > player.vel.dot(ahead) + 0.2 {
+        if cos > ALONG
+            && to_ball.dot(ahead) > 0.15
+            && ball_vel.dot(ahead) > player.vel.dot(ahead) + 0.2
+        {
             return false;
         }
         if speed > 6.0 && player.vel.length() > 5.5 && cos < 0.9 && cos > -0.6 {
@@ -130,7 +135,8 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
     true
 }
 
-/// Pushes the ball of a start off, for a player who has no agent yet: they follow it at that pace for a while.
+/// Pushes the ball of a start off, for a player who has no agent yet: they follow it at that pace
+/// for a while.
 pub(super) fn set_off(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = *game.player(id);
     let to_ball = game.ball.pos.truncate() - player.pos;
@@ -144,13 +150,15 @@ pub(super) fn set_off(game: &mut Match, events: &mut Events, id: PlayerId) {
     player.body.ready_at = now + OFF_AGAIN_TICKS;
 }
 
-/// Whether a player still follows the ball of a start that they have pushed off: nothing else rests as long.
+/// Whether a player still follows the ball of a start that they have pushed off: nothing else rests
+/// as long.
 pub(super) fn sets_off(player: &Player, now: i32) -> bool {
     let (touched, ready) = (player.body.touched_at, player.body.ready_at);
     ready == touched + OFF_AGAIN_TICKS && now < touched + OFF_TICKS
 }
 
-/// Lays the ball where the player will come to a stand, a little ahead; false where it comes to rest there anyway.
+/// Lays the ball where the player will come to a stand, a little ahead; false where it comes to
+/// rest there anyway.
 fn rest(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
     let player = *game.player(id);
     let speed = player.vel.length();

@@ -4,7 +4,9 @@
 //! ball will be if nobody touches it. If somebody does, the foot arrives beside the ball.
 
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
-use crate::football::{bounce, contact, first_touch, forecast, kick, noise, possession, reach, report, slide, touch};
+use crate::football::{
+    bounce, contact, first_touch, forecast, kick, noise, possession, reach, report, slide, touch,
+};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
@@ -33,8 +35,22 @@ struct ReachMotion {
     stops: bool,
 }
 
-const fn motion(from_mps: f32, [ticks, lasts]: [i32; 2], [ahead_m, aside_m]: [f32; 2], off: [f32; 2]) -> ReachMotion {
-    ReachMotion { from_mps, ticks, lasts, ahead_m, aside_m, along_m: off[0], across_m: off[1], stops: false }
+const fn motion(
+    from_mps: f32,
+    [ticks, lasts]: [i32; 2],
+    [ahead_m, aside_m]: [f32; 2],
+    off: [f32; 2],
+) -> ReachMotion {
+    ReachMotion {
+        from_mps,
+        ticks,
+        lasts,
+        ahead_m,
+        aside_m,
+        along_m: off[0],
+        across_m: off[1],
+        stops: false,
+    }
 }
 
 /// Pokes, fastest first.
@@ -53,8 +69,10 @@ const TAKES: [ReachMotion; 4] = [
     motion(0.0, [13, 55], [0.45, 0.0], [0.45, 0.32]),
 ];
 /// Stops a ball that rolls towards the player, long before it arrives. (GRF's.)
-const TRAP: ReachMotion = ReachMotion { stops: true, ..motion(DRIBBLES_FROM_MPS, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
-/// A carrier's ball that they have again no sooner than this is stopped like one that nobody has, seconds. (GRF's.)
+const TRAP: ReachMotion =
+    ReachMotion { stops: true, ..motion(DRIBBLES_FROM_MPS, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
+/// A carrier's ball that they have again no sooner than this is stopped like one that nobody has,
+/// seconds. (GRF's.)
 const LOOSE_S: f32 = 0.4;
 /// Kicks at a ball that a rival still dribbles. (Measured of GRF's motions.)
 const KICKS: [ReachMotion; 3] = [
@@ -103,7 +121,9 @@ pub fn contest(game: &mut Match, events: &mut Events, near: Squad) {
     let now = game.tick as i32;
     for id in game.order() {
         // A leg that comes too late, or misses the ball, is drawn back too.
-        let Some(lunge) = game.player(id).body.lunge.filter(|lunge| lunge.at <= now) else { continue };
+        let Some(lunge) = game.player(id).body.lunge.filter(|lunge| lunge.at <= now) else {
+            continue;
+        };
         game.players[id.index()].body.lunge = None;
         if lunge.at == now && near.has(id) {
             meet(game, events, id, lunge);
@@ -115,7 +135,10 @@ pub fn contest(game: &mut Match, events: &mut Events, near: Squad) {
     bounce::off_bodies(game, events, near);
     let Some(rival) = game.on_ball() else { return };
     for id in game.order_of(near) {
-        if id.team() != rival.team() && game.tick.is_multiple_of(every(game, id, rival)) && may(game, id) {
+        if id.team() != rival.team()
+            && game.tick.is_multiple_of(every(game, id, rival))
+            && may(game, id)
+        {
             begin(game, events, id, rival);
         }
     }
@@ -151,12 +174,15 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let seen = reach::has_seen(game, id);
     // A player who hasn't seen the last touch trusts the ball's earlier path, unless the touch
     // changed it much.
-    if ball_in(game, seen, AHEAD_TICKS).distance(game.play.forecast.at(game.tick + AHEAD_TICKS)) > MISJUDGED_M {
+    if ball_in(game, seen, AHEAD_TICKS).distance(game.play.forecast.at(game.tick + AHEAD_TICKS))
+        > MISJUDGED_M
+    {
         return;
     }
     let soon = |player: &Player| player.pos + player.vel * 0.1;
     let to_ball = game.play.forecast.at(game.tick + 10).truncate() - soon(&other);
-    let hidden = (soon(&other) - soon(&player)).normalize_or_zero().dot(to_ball.normalize_or_zero());
+    let hidden =
+        (soon(&other) - soon(&player)).normalize_or_zero().dot(to_ball.normalize_or_zero());
     let first = game.play.chaser[id.team().index()] == Some(id);
     let sooner = player.body.meet_s < other.body.meet_s;
     let pace = player.vel.length();
@@ -166,7 +192,8 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let rolls = game.ball.vel.truncate().length_squared() > TRAPPED_MPS * TRAPPED_MPS;
     // An agent's player takes the ball as the keys say: `first_touch`.
     let loose = other.body.meet_s > LOOSE_S && !possession::has_ball(game, rival);
-    let traps = first && (sooner || loose) && seen && rolls && pace >= TRAP.from_mps && !game.is_driven(id);
+    let traps =
+        first && (sooner || loose) && seen && rolls && pace >= TRAP.from_mps && !game.is_driven(id);
     let kicks = first && (sooner || loose) && player.body.kick.is_some() && !game.is_driven(id);
     if let Some(way) = KICKS.iter().find(|way| kicks && pace >= way.from_mps)
         && lunges(game, id, way, Aim::Kick, seen)
@@ -180,7 +207,10 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     }
     let pokes = if sooner || hidden > HIDDEN[0] { &[] } else { &POKES[..] };
     for (ways, aim) in [(ways, Aim::Take), (pokes, Aim::Poke)] {
-        let Some(gait) = ways.iter().find(|way| pace >= way.from_mps).map(|way| way.from_mps) else { continue };
+        let Some(gait) = ways.iter().find(|way| pace >= way.from_mps).map(|way| way.from_mps)
+        else {
+            continue;
+        };
         for way in ways.iter().filter(|way| way.from_mps == gait) {
             if lunges(game, id, way, aim, seen) {
                 return;
@@ -214,7 +244,8 @@ fn lunges(game: &mut Match, id: PlayerId, way: &ReachMotion, aim: Aim, seen: boo
         return false;
     }
     let now = game.tick as i32;
-    player.body.lunge = Some(Lunge { at: now + way.ticks, place: ball.truncate(), aim, stops: way.stops });
+    player.body.lunge =
+        Some(Lunge { at: now + way.ticks, place: ball.truncate(), aim, stops: way.stops });
     player.body.ready_at = now + way.lasts;
     true
 }
@@ -227,17 +258,23 @@ fn ball_in(game: &Match, seen: bool, ticks: u32) -> Vec3 {
 
 /// Where the ball would be after this many ticks without its last touch.
 fn unseen(game: &Match, ticks: u32) -> Vec3 {
-    let since = game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
+    let since =
+        game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
     let [place, velocity] = game.play.unseen;
     (place + velocity * ((since as f32 + ticks as f32) * 0.01)).extend(game.ball.pos.z)
 }
 
 /// Whether the foot's place is near enough to the ball.
 fn reaches(player: &Player, ball: Vec2, way: &ReachMotion) -> bool {
-    let run = if way.from_mps > 0.0 { player.vel.normalize_or(player.body.facing) } else { player.body.facing };
+    let run = if way.from_mps > 0.0 {
+        player.vel.normalize_or(player.body.facing)
+    } else {
+        player.body.facing
+    };
     let kept = if way.stops { STOPPING } else { 1.0 };
     let to_ball = ball - player.pos - player.vel * (kept * way.ticks as f32 * 0.01);
-    let (along, across) = (to_ball.dot(run) - way.ahead_m, to_ball.perp_dot(run).abs() - way.aside_m);
+    let (along, across) =
+        (to_ball.dot(run) - way.ahead_m, to_ball.perp_dot(run).abs() - way.aside_m);
     let (along, across) = (along / way.along_m, across / way.across_m);
     along * along + across * across <= 1.0
 }

@@ -32,8 +32,8 @@ const TAKING_TICKS: i32 = 33;
 /// How near a player must be to take the free ball, metres. If both are at rest, the reach is
 /// longer.
 pub(super) fn reach_m(game: &Match, id: PlayerId) -> f32 {
-    let rests =
-        game.player(id).vel.length_squared() + game.ball.vel.length_squared() < dribble::STOPS_MPS * dribble::STOPS_MPS;
+    let rests = game.player(id).vel.length_squared() + game.ball.vel.length_squared()
+        < dribble::STOPS_MPS * dribble::STOPS_MPS;
     if rests { dribble::SOLE_M } else { TRAP_M }
 }
 
@@ -46,7 +46,9 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     if taken_from_rival || game.play.shot.is_some() {
         // A faster ball from an opponent is harder to read.
         let reaction = player.skill(Stat::Reaction);
-        let chance = (1.25 - 0.028 * meeting) * (0.5 + 0.5 * reaction) * (1.0 - 0.95 * surprise(game, reaction));
+        let chance = (1.25 - 0.028 * meeting)
+            * (0.5 + 0.5 * reaction)
+            * (1.0 - 0.95 * surprise(game, reaction));
         if !noise::happens(game, chance) {
             game.players[id.index()].body.ready_at = game.tick as i32 + 40;
             return;
@@ -62,7 +64,9 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     let keep = if from_mate {
         0.0
     } else {
-        ((meeting - 3.0) / 30.0).clamp(0.0, 1.0) * (0.85 - 0.55 * control) * (0.15 + 0.75 * wildness)
+        ((meeting - 3.0) / 30.0).clamp(0.0, 1.0)
+            * (0.85 - 0.55 * control)
+            * (0.15 + 0.75 * wildness)
     };
     let wish = player.body.dribble;
     let to_ball = ball.pos.truncate() - player.pos;
@@ -81,9 +85,8 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
             }
         }
         // Towards the foot, to come to rest there.
-        (false, true) => {
-            ((player.body.facing * dribble::LAID_M - to_ball) * SETTLES_PER_S).clamp_length_max(SETTLED_MPS)
-        }
+        (false, true) => ((player.body.facing * dribble::LAID_M - to_ball) * SETTLES_PER_S)
+            .clamp_length_max(SETTLED_MPS),
         (false, false) => player.vel * 0.5,
     };
     let aside = noise::bell(game) * keep * 0.5;
@@ -135,7 +138,9 @@ fn hop_mps(meeting: f32) -> f32 {
 /// How much a ball just struck surprises a player, 0 to 1: GRF's recency of the rival's touch, over
 /// 1000 - 500 · reaction ms.
 fn surprise(game: &Match, reaction: f32) -> f32 {
-    let since = game.last_touch.map_or(i32::MAX, |last| ticks_since(game.tick, game.player(last).body.touched_at));
+    let since = game
+        .last_touch
+        .map_or(i32::MAX, |last| ticks_since(game.tick, game.player(last).body.touched_at));
     let window = 100.0 - 50.0 * reaction;
     libm::powf((1.0 - since as f32 / window).clamp(0.0, 1.0), 0.6)
 }
@@ -151,7 +156,10 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let aimed = match plan.map(|plan| plan.kind) {
         Some(KickKind::Shot) => Some((goal, 15.0)),
         Some(_) => plan.and_then(|plan| plan.dir).map(|dir| (player.pos + dir * 15.0, 12.0)),
-        None if own_third => Some((player.pos + Vec2::new(side * 20.0, math::sign_or(player.pos.y, side) * 8.0), 13.0)),
+        None if own_third => Some((
+            player.pos + Vec2::new(side * 20.0, math::sign_or(player.pos.y, side) * 8.0),
+            13.0,
+        )),
         None => None,
     };
     let (target, speed) = aimed.unwrap_or((player.pos + player.body.facing * 3.0, 3.5));

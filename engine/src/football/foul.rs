@@ -27,7 +27,13 @@ pub fn call(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerI
 }
 
 /// Calls a foul by a standing player, which may be let run if it isn't worth a card or a penalty.
-pub fn call_or_let_run(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) {
+pub fn call_or_let_run(
+    game: &mut Match,
+    events: &mut Events,
+    by: PlayerId,
+    victim: PlayerId,
+    severity: f32,
+) {
     match note(game, events, by, victim, severity) {
         Some(restart) if restart.mode == GameMode::FreeKick && severity <= YELLOW => {
             advantage::wait(game, by, victim, restart);
@@ -65,7 +71,13 @@ pub fn held_too_long(game: &mut Match, events: &mut Events, by: PlayerId) {
 }
 
 /// Reports a foul, shows its card, and returns the restart if it is one.
-fn note(game: &mut Match, events: &mut Events, by: PlayerId, victim: PlayerId, severity: f32) -> Option<Restart> {
+fn note(
+    game: &mut Match,
+    events: &mut Events,
+    by: PlayerId,
+    victim: PlayerId,
+    severity: f32,
+) -> Option<Restart> {
     if !game.rule(Rule::Fouls) || severity <= 1.0 || game.dead {
         return None;
     }

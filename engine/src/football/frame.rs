@@ -7,7 +7,8 @@ use setpiece_scenario::pitch::{GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 const KEEP_M: f32 = 0.36;
 /// Sides and rear of the goal at +x, the ends of each, metres.
 const WALLS: [[Vec2; 2]; 3] = {
-    let (line, rear, post) = (HALF_LENGTH_M as f32, (HALF_LENGTH_M + GOAL_DEPTH_M) as f32, GOAL_HALF_WIDTH_M as f32);
+    let (line, rear, post) =
+        (HALF_LENGTH_M as f32, (HALF_LENGTH_M + GOAL_DEPTH_M) as f32, GOAL_HALF_WIDTH_M as f32);
     [
         [Vec2::new(line, -post), Vec2::new(rear, -post)],
         [Vec2::new(line, post), Vec2::new(rear, post)],

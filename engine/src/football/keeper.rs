@@ -98,7 +98,13 @@ fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
 const PARRIED: f32 = 2.5;
 
 /// The plan of a keeper who has nothing to save.
-const IDLE: Save = Save { at_tick: u32::MAX, from_tick: u32::MAX, point: Vec2::ZERO, reaches: false, holds: false };
+const IDLE: Save = Save {
+    at_tick: u32::MAX,
+    from_tick: u32::MAX,
+    point: Vec2::ZERO,
+    reaches: false,
+    holds: false,
+};
 
 /// Judges whether the ball goes into the goal and whether the keeper reaches it. None while it is
 /// too far away to tell.
@@ -118,7 +124,8 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     let reading = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
     let panic = GOAL_HALF_WIDTH_M as f32 * (1.02 + 0.5 * (1.0 - reading));
     let reaction = 0.15 + 0.12 * (1.0 - player.skill(Stat::Reaction));
-    let since = game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
+    let since =
+        game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
     let react_s = (reaction - since as f32 * 0.01).max(0.02);
     let path = || game.play.forecast.from(game.tick);
     let past = |point: Vec3| (point.x - goal_x) * side < 0.0;
@@ -217,13 +224,18 @@ fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
     let flat = ball.truncate();
     let near = player.pos.distance_squared(flat);
     let team = id.team();
-    if near > PICK_M * PICK_M || ball.z > HANDS_M - 0.2 || player.body.pose == Pose::Down || !foul::in_box(flat, team) {
+    if near > PICK_M * PICK_M
+        || ball.z > HANDS_M - 0.2
+        || player.body.pose == Pose::Down
+        || !foul::in_box(flat, team)
+    {
         return;
     }
     if (game.tick as i32) < player.body.ready_at || game.last_touch == Some(id) {
         return;
     }
-    let back_pass = game.rule(Rule::BackPass) && game.play.kicked_by.is_some_and(|last| last.team() == team);
+    let back_pass =
+        game.rule(Rule::BackPass) && game.play.kicked_by.is_some_and(|last| last.team() == team);
     let mate = game.controller().is_some_and(|owner| owner.team() == team);
     if back_pass || mate {
         return;
@@ -234,7 +246,8 @@ fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
     let chance = (1.25 - speed / 22.0).clamp(0.1, 1.0) * brave * (0.6 + 0.4 * player.body.level);
     if noise::happens(game, chance) {
         if let Some(shot) = game.play.shot.take().filter(|shot| shot.by.team() != team) {
-            events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
+            events
+                .push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
             report::did(game, events, EventKind::Save, id, Some(shot.by));
         }
         take(game, events, id);

@@ -4,7 +4,9 @@
 
 use crate::football::pace::{RUN_MPS, SPRINT_MPS};
 use crate::football::pass::Struck;
-use crate::football::{contact, forecast, noise, offside, pass, pass_target, report, shot, switching, whistle};
+use crate::football::{
+    contact, forecast, noise, offside, pass, pass_target, report, shot, switching, whistle,
+};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
@@ -74,7 +76,8 @@ pub fn pressed(kind: KickKind, tick: u32) -> KickPlan {
 
 /// A set piece that a bot takes from now on.
 pub fn taken(kind: KickKind, mode: GameMode, tick: u32) -> KickPlan {
-    let swing = Swing { ready_at: tick as i32 + run_up_ticks(mode), way: None, mate: None, runs: true };
+    let swing =
+        Swing { ready_at: tick as i32 + run_up_ticks(mode), way: None, mate: None, runs: true };
     KickPlan { swing: Some(swing), until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
 
@@ -116,7 +119,8 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
             plan.until = now + PATIENCE_TICKS;
         }
         let meet_s = game.players[i].body.meet_s;
-        let lost = plan.swing.is_none() && meet_s > plan.meet_s + LOST_S && game.play.set_piece.is_none();
+        let lost =
+            plan.swing.is_none() && meet_s > plan.meet_s + LOST_S && game.play.set_piece.is_none();
         plan.meet_s = meet_s;
         if now > plan.until || lost || !game.players[i].active {
             game.players[i].body.kick = None;
@@ -129,7 +133,9 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
                 kicked = true;
                 continue;
             }
-            Some(swing) if now > swing.ready_at + MISSED_TICKS && swing.way.is_some() => plan.swing = None,
+            Some(swing) if now > swing.ready_at + MISSED_TICKS && swing.way.is_some() => {
+                plan.swing = None
+            }
             Some(_) => {}
             None => plan.swing = first_time(game, id, &mut plan).or_else(|| begin(game, id, &plan)),
         }
@@ -159,7 +165,12 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     };
     let reaches = apart(game, id, ticks, BEGIN_PACE).is_some_and(|apart| apart <= BEGIN_M);
     let runs = at_hand || shot::runs(player);
-    (at_hand || reaches).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs })
+    (at_hand || reaches).then_some(Swing {
+        ready_at: game.tick as i32 + ticks,
+        way: Some(way),
+        mate,
+        runs,
+    })
 }
 
 /// Whether a player must take the ball before the kick, or is still taking it: it comes fast, from
@@ -197,7 +208,12 @@ fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swi
     plan.taken = !noise::happens(game, often);
     let (way, mate) = meant(game, id, plan);
     let runs = shot::runs(game.player(id));
-    (!plan.taken).then_some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs })
+    (!plan.taken).then_some(Swing {
+        ready_at: game.tick as i32 + ticks,
+        way: Some(way),
+        mate,
+        runs,
+    })
 }
 
 /// How far a player will be from the ball after this many ticks, metres. None for a ball that will
@@ -215,7 +231,9 @@ fn soonest(game: &Match, id: PlayerId, plan: &KickPlan, longest: i32) -> Option<
     if plan.kind != KickKind::Shot || game.player(id).vel.length() < RUN_MPS {
         return None;
     }
-    (QUICK_TICKS..longest).step_by(2).find(|&ticks| apart(game, id, ticks, 1.0).is_some_and(|apart| apart < REACH_M))
+    (QUICK_TICKS..longest)
+        .step_by(2)
+        .find(|&ticks| apart(game, id, ticks, 1.0).is_some_and(|apart| apart < REACH_M))
 }
 
 /// What a kick aims at now: the way from the ball, world metres, and the teammate.
@@ -223,7 +241,9 @@ fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>
     let from = game.ball.pos.truncate();
     match plan.kind {
         KickKind::Shot => (shot::meant(game, id, plan) - from, None),
-        KickKind::Clear => (plan.dir.unwrap_or(Vec2::new(id.team().side() as f32, 0.0)) * 30.0, None),
+        KickKind::Clear => {
+            (plan.dir.unwrap_or(Vec2::new(id.team().side() as f32, 0.0)) * 30.0, None)
+        }
         _ => {
             let target = pass_target::choose(game, id, plan);
             (target.point - from, target.mate)
@@ -234,7 +254,8 @@ fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>
 /// Whether the taker of a set piece stands for as long as the key is held. A lofted pass and a
 /// throw begin earlier. (Measured.)
 fn stays(game: &Match, kind: KickKind) -> bool {
-    kind != KickKind::High && game.play.set_piece.is_some_and(|set_piece| set_piece.mode != GameMode::ThrowIn)
+    kind != KickKind::High
+        && game.play.set_piece.is_some_and(|set_piece| set_piece.mode != GameMode::ThrowIn)
 }
 
 /// Ticks from the start of a run-up to the contact at a set piece. Measured.
@@ -259,18 +280,21 @@ fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
     let speed = player.vel.length();
     let walks = (speed / RUN_MPS).min(1.0);
     let braked = (f32::from(plan.gauge_ticks) - 10.0) / 30.0;
-    let sprints = ((speed - RUN_MPS) / (SPRINT_MPS - RUN_MPS)).clamp(0.0, 1.0) * (1.0 - braked).clamp(0.0, 1.0);
+    let sprints = ((speed - RUN_MPS) / (SPRINT_MPS - RUN_MPS)).clamp(0.0, 1.0)
+        * (1.0 - braked).clamp(0.0, 1.0);
     // [standing, walking, sprinting, less for a leg that is back already]
     let [stand, walk, sprint, back] = match plan.kind {
         KickKind::Short | KickKind::Long => [34.0, 28.0, 38.0, 0.0],
         KickKind::High => [24.0, 22.0, 26.0, 5.0],
         KickKind::Shot | KickKind::Clear => [25.0, 24.0, 54.0, 10.0],
     };
-    let straight =
-        stand + (walk - stand) * walks + (sprint - walk) * sprints - if plan.held { back * walks } else { 0.0 };
+    let straight = stand + (walk - stand) * walks + (sprint - walk) * sprints
+        - if plan.held { back * walks } else { 0.0 };
     let degrees = pass::off_run(player, way);
     let turn = match plan.kind {
-        KickKind::Shot | KickKind::Clear => 15.0 * walks * ((degrees - 30.0) / 60.0).clamp(0.0, 1.0),
+        KickKind::Shot | KickKind::Clear => {
+            15.0 * walks * ((degrees - 30.0) / 60.0).clamp(0.0, 1.0)
+        }
         _ => {
             (15.0 * walks + 6.0 * sprints) * ((degrees - 40.0) / 15.0).clamp(0.0, 1.0)
                 + 2.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
@@ -292,7 +316,8 @@ fn can_kick(game: &Match, id: PlayerId) -> bool {
     }
     let player = game.player(id);
     let ball = game.ball.pos;
-    let stretched = player.body.kick.is_some_and(|plan| plan.swing.is_some_and(|swing| swing.way.is_some()));
+    let stretched =
+        player.body.kick.is_some_and(|plan| plan.swing.is_some_and(|swing| swing.way.is_some()));
     let reach_m = if stretched { STRETCH_M } else { KICK_M };
     if ball.z > VOLLEY_M || player.pos.distance_squared(ball.truncate()) > reach_m * reach_m {
         return false;
@@ -416,7 +441,11 @@ fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
         .saturating_sub(1);
     let pushed = 3.0 * player.body.push_m;
     // A shot computes the effect of a moving ball itself.
-    let moving = if kind == KickKind::Shot { 0.0 } else { ((relative - 4.0) / 25.0).clamp(0.0, 0.7) + high * 0.4 };
+    let moving = if kind == KickKind::Shot {
+        0.0
+    } else {
+        ((relative - 4.0) / 25.0).clamp(0.0, 0.7) + high * 0.4
+    };
     // About 1 for the average player of the table.
     let hurry = 1.3 - 0.4 * player.skill(Stat::Calmness);
     (moving + far * 0.5 + near as f32 * 0.16 * hurry + pushed).clamp(0.0, 1.0)

@@ -94,7 +94,11 @@ pub fn slot(number: usize, size: usize) -> Vec2 {
 /// Moves a place away from the ball to this distance, if it is nearer.
 fn keep_off(place: Vec2, ball: Vec2, least_m: f32) -> Vec2 {
     let away = place - ball;
-    if away.length_squared() < least_m * least_m { ball + away.normalize_or(Vec2::NEG_X) * least_m } else { place }
+    if away.length_squared() < least_m * least_m {
+        ball + away.normalize_or(Vec2::NEG_X) * least_m
+    } else {
+        place
+    }
 }
 
 fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> TeamBlock {
@@ -130,7 +134,8 @@ fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> TeamBlock {
         }
         GameMode::ThrowIn => {
             let half_width = 0.75 * HALF.y;
-            let near = TeamBlock { half_width, middle_y: 0.25 * ball.y, towards: (ball, 0.7), ..plain };
+            let near =
+                TeamBlock { half_width, middle_y: 0.25 * ball.y, towards: (ball, 0.7), ..plain };
             let back = x(ball.x - 30.0);
             if own {
                 let (towards_x, towards_y) = ((x(ball.x + 4.0), 0.4), (0.996 * ball.y, 0.6));

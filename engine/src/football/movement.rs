@@ -84,7 +84,9 @@ pub fn advance(game: &mut Match) -> Busy {
             Intent::Stand => (Vec2::ZERO, NO_POINT),
             Intent::Run(velocity) => (velocity, NO_POINT),
             Intent::Go(to, speed) => (to - player.pos, speed),
-            Intent::Ball(_) if starts && now < player.body.ready_at && is_at(player, ball) => (Vec2::ZERO, NO_POINT),
+            Intent::Ball(_) if starts && now < player.body.ready_at && is_at(player, ball) => {
+                (Vec2::ZERO, NO_POINT)
+            }
             Intent::Ball(speed) => (go_for_ball(player, ball, ball_vel, has_ball, speed), NO_POINT),
         };
         let (row, at) = (runners.len() / WIDTH, runners.len() % WIDTH);
@@ -164,8 +166,9 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
             to_ball * (0.4 / distance.max(0.4))
         };
         let resting = distance < 0.8 && ball_vel.length_squared() < 2.0 * 2.0;
-        let lays_it =
-            has_ball && distance < STOPPING_M && player.vel.length_squared() < SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
+        let lays_it = has_ball
+            && distance < STOPPING_M
+            && player.vel.length_squared() < SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
         if wish == Vec2::ZERO && (resting || lays_it) {
             return Vec2::ZERO;
         }
@@ -173,7 +176,8 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
         // With the ball at their feet, players run on as they want; the next touch comes before
         // they overrun it.
         let pace = wish.length().min(speed);
-        let ahead = wish.dot(to_ball) > 0.2 * pace && wish.dot(catch_up) > 0.9 * pace * catch_up.length();
+        let ahead =
+            wish.dot(to_ball) > 0.2 * pace && wish.dot(catch_up) > 0.9 * pace * catch_up.length();
         return catch_up.clamp_length(if ahead { pace } else { 0.0 }, speed);
     }
     let to_meet = player.body.meet - player.pos;
@@ -189,7 +193,11 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
 /// Brakes a body that slides or lies.
 fn slow_down(player: &mut Player, brake: f32) {
     let speed = player.vel.length();
-    player.vel = if speed > 0.05 { player.vel * ((speed - brake * DT).max(0.0) / speed) } else { Vec2::ZERO };
+    player.vel = if speed > 0.05 {
+        player.vel * ((speed - brake * DT).max(0.0) / speed)
+    } else {
+        Vec2::ZERO
+    };
 }
 
 /// Brings a stumbling body, which runs on where it faces, closer to the speed at which it regains

@@ -10,7 +10,11 @@ use setpiece_scenario::vocabulary::Rule;
 /// The stream of a purpose for a match: the episode's own, or the one shared by all matches that
 /// aren't `stochastic`.
 pub fn stream(drawn: &Drawn, purpose: Purpose) -> Stream {
-    let (seed, index) = if drawn.rules[Rule::Stochastic.index()] == 0.0 { (0, 0) } else { (drawn.seed, drawn.index) };
+    let (seed, index) = if drawn.rules[Rule::Stochastic.index()] == 0.0 {
+        (0, 0)
+    } else {
+        (drawn.seed, drawn.index)
+    };
     Stream::new(seed, index, purpose)
 }
 

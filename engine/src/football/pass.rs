@@ -53,7 +53,14 @@ pub struct Struck {
 ///
 /// GRF's: how hard a pass of a length is struck, how hard a foot can strike at most, and that
 /// missing speed becomes height.
-pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough: f32, by_hand: bool) -> Struck {
+pub fn struck(
+    game: &mut Match,
+    id: PlayerId,
+    plan: &KickPlan,
+    way: Vec2,
+    rough: f32,
+    by_hand: bool,
+) -> Struck {
     let player = *game.player(id);
     let kind = plan.kind;
     let stat = if kind == KickKind::High { Stat::HighPass } else { Stat::ShortPass };
@@ -68,8 +75,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough:
     let (level, up) = if kind == KickKind::High {
         // A pass to the side is struck a little harder.
         let rise = 0.45 - 0.15 * distance / 60.0;
-        let speed =
-            (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 }) * (1.0 + 0.05 * aside);
+        let speed = (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 })
+            * (1.0 + 0.05 * aside);
         let level = speed / libm::sqrtf(1.0 + rise * rise);
         (level, level * rise)
     } else {
@@ -89,7 +96,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, rough:
     let aside = noise::bell(game) * wild;
     let power = 1.0 + noise::bell(game) * wild * 0.8;
     let ahead = way.normalize_or(player.body.facing);
-    let lag = curl(player.body.facing, ahead, level) * if kind == KickKind::High { 0.2 } else { 1.0 };
+    let lag =
+        curl(player.body.facing, ahead, level) * if kind == KickKind::High { 0.2 } else { 1.0 };
     let ahead = math::unit(lag).rotate(ahead);
     let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * aside) * (level * power);
     let velocity = flat.extend(up * power * (1.0 + noise::bell(game) * wild));

@@ -45,7 +45,11 @@ pub fn choose(game: &Match, id: PlayerId, plan: &KickPlan) -> PassTarget {
         (None, Some(mate)) => {
             let distance = game.player(mate).pos.distance(player.pos);
             let target = lead(game.player(mate), distance);
-            if plan.kind == KickKind::Long { target + Vec2::new(0.2 * distance * side, 0.0) } else { target }
+            if plan.kind == KickKind::Long {
+                target + Vec2::new(0.2 * distance * side, 0.0)
+            } else {
+                target
+            }
         }
         (None, None) => player.pos + plan.dir.unwrap_or(player.body.facing) * 25.0,
     };

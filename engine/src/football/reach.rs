@@ -51,9 +51,15 @@ impl Way<'_> {
         let (first, offset_s) = forecast.first(tick);
         let points = forecast.on_pitch(first);
         let low = f32x4::splat(PLAYABLE_M);
-        let playable = (points.start / WIDTH..points.end.div_ceil(WIDTH))
-            .fold(0, |bits, row| bits | u64::from(forecast.heights(row).simd_le(low).to_bitmask()) << (row * WIDTH));
-        Way { forecast, playable: playable & from(points.start) & !from(points.end), points, offset_s }
+        let playable = (points.start / WIDTH..points.end.div_ceil(WIDTH)).fold(0, |bits, row| {
+            bits | u64::from(forecast.heights(row).simd_le(low).to_bitmask()) << (row * WIDTH)
+        });
+        Way {
+            forecast,
+            playable: playable & from(points.start) & !from(points.end),
+            points,
+            offset_s,
+        }
     }
 }
 
@@ -72,7 +78,8 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     let (at_x, at_y, vel_x, vel_y) = (is(foot.x), is(foot.y), is(player.vel.x), is(player.vel.y));
     let Range { start, end } = way.points;
     // From one point to the next, the ball and the player can close at most this distance.
-    let per_closing_m = 1.0 / (way.forecast.stride_m() + speed.max(player.vel.length()) * SPACING_S);
+    let per_closing_m =
+        1.0 / (way.forecast.stride_m() + speed.max(player.vel.length()) * SPACING_S);
     let mut row = start / WIDTH;
     while row * WIDTH < end {
         let [x, y] = way.forecast.row(row);
@@ -87,7 +94,8 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
         let reached = reached & (way.playable >> (row * WIDTH)) as u32;
         if reached != 0 {
             let first = row * WIDTH + reached.trailing_zeros() as usize;
-            let (point, time_s) = (way.forecast.point(first).truncate(), time_s.to_array()[first % WIDTH]);
+            let (point, time_s) =
+                (way.forecast.point(first).truncate(), time_s.to_array()[first % WIDTH]);
             return (point, if time_s < AT_ONCE_S { at_once_s(player, point) } else { time_s });
         }
         // Skips rows in which the player can't have come near enough.
@@ -116,7 +124,9 @@ fn at_once_s(player: &Player, point: Vec2) -> f32 {
 pub fn comes_to(game: &Match, player: &Player) -> bool {
     let ball = &game.ball;
     let fast = ball.vel.truncate().length_squared() > COMES_MPS * COMES_MPS;
-    let comes = |at: Vec3| at.z <= PLAYABLE_M && at.truncate().distance_squared(player.pos) < COMES_M * COMES_M;
+    let comes = |at: Vec3| {
+        at.z <= PLAYABLE_M && at.truncate().distance_squared(player.pos) < COMES_M * COMES_M
+    };
     fast && game.play.forecast.from(game.tick).any(|(_, at)| comes(at))
 }
 

@@ -29,7 +29,8 @@ fn holder(game: &Match) -> Option<Team> {
 /// Seconds until each team reaches the ball, plus [`CALM_S`].
 fn soonest(game: &Match) -> [f32; 2] {
     [Team::Left, Team::Right].map(|team| {
-        game.team(team).fold(f32::MAX, |least, (_, player)| least.min(player.body.meet_s)).min(60.0) + CALM_S
+        game.team(team).fold(f32::MAX, |least, (_, player)| least.min(player.body.meet_s)).min(60.0)
+            + CALM_S
     })
 }
 

@@ -68,14 +68,18 @@ fn out(game: &mut Match, events: &mut Events, line: Line) {
     if let Line::Goal(defenders) = line {
         if last == defenders {
             let top = if ball.y < 0.0 { -1.0 } else { 1.0 };
-            let corner = Vec2::new(HALF_LENGTH_M as f32 * ball.x.signum(), HALF_WIDTH_M as f32 * top);
+            let corner =
+                Vec2::new(HALF_LENGTH_M as f32 * ball.x.signum(), HALF_WIDTH_M as f32 * top);
             whistle::stop(game, events, GameMode::Corner, defenders.other(), corner);
         } else {
             let spot = Vec2::new((HALF_LENGTH_M - GOAL_KICK_SPOT_M) as f32 * ball.x.signum(), 0.0);
             whistle::stop(game, events, GameMode::GoalKick, defenders, spot);
         }
     } else {
-        let spot = Vec2::new(ball.x.clamp(-THROW_IN_X_M, THROW_IN_X_M), HALF_WIDTH_M as f32 * ball.y.signum());
+        let spot = Vec2::new(
+            ball.x.clamp(-THROW_IN_X_M, THROW_IN_X_M),
+            HALF_WIDTH_M as f32 * ball.y.signum(),
+        );
         whistle::stop(game, events, GameMode::ThrowIn, last.other(), spot);
     }
 }

@@ -31,8 +31,13 @@ pub fn place(game: &mut Match, restart: Restart) {
     if restart.mode == GameMode::KickOff {
         kick_off(game, restart.team, restart.spot);
     } else if let Some(taker) = set_piece::arrange(game, restart) {
-        game.play.set_piece =
-            Some(SetPiece { mode: restart.mode, team: restart.team, taker, spot: restart.spot, waited_steps: 0 });
+        game.play.set_piece = Some(SetPiece {
+            mode: restart.mode,
+            team: restart.team,
+            taker,
+            spot: restart.spot,
+            waited_steps: 0,
+        });
         game.mode = restart.mode;
         game.owner = Some(taker);
         game.possession = Some(restart.team);

@@ -65,7 +65,8 @@ pub fn separate(game: &mut Match, events: &mut Events) {
     let first = game.owner.or_else(|| reach::first(game));
     let rows = ids.len().div_ceil(WIDTH);
     for i in 0..ids.len() {
-        let (x, y) = (f32x4::splat(xs[i / WIDTH][i % WIDTH]), f32x4::splat(ys[i / WIDTH][i % WIDTH]));
+        let (x, y) =
+            (f32x4::splat(xs[i / WIDTH][i % WIDTH]), f32x4::splat(ys[i / WIDTH][i % WIDTH]));
         let mut meets = 0u32;
         for row in i / WIDTH..rows {
             let (dx, dy) = (f32x4::new(xs[row]) - x, f32x4::new(ys[row]) - y);
@@ -104,7 +105,8 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     let between = b.pos - a.pos;
     let distance = between.length();
     // Exactly on one spot: they part sideways, the first to their left.
-    let away = if distance > 1e-4 { between / distance } else { Vec2::new(0.0, i.team().side() as f32) };
+    let away =
+        if distance > 1e-4 { between / distance } else { Vec2::new(0.0, i.team().side() as f32) };
     let touching = distance < CONTACT_M;
     match (a.body.pose == Pose::Down, b.body.pose == Pose::Down) {
         (false, false) => {}
@@ -114,10 +116,13 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     }
     let back = |player: &Player, from: Vec2| 0.5 + 0.5 * player.body.facing.dot(from);
     let pace = (a.vel.length() - b.vel.length()) / SPRINT_MPS;
-    let mut stands = BACK * (back(&a, -away) - back(&b, away)) - PACE * pace.clamp(-1.0, 1.0) + a.skill(Stat::Balance)
+    let mut stands = BACK * (back(&a, -away) - back(&b, away)) - PACE * pace.clamp(-1.0, 1.0)
+        + a.skill(Stat::Balance)
         - b.skill(Stat::Balance);
     stands += tackles(&a) - tackles(&b);
-    if game.play.chaser[i.team().index()] == Some(i) && game.play.chaser[j.team().index()] == Some(j) {
+    if game.play.chaser[i.team().index()] == Some(i)
+        && game.play.chaser[j.team().index()] == Some(j)
+    {
         let ball = game.ball.pos.truncate();
         let off = |player: &Player| player.pos.distance(ball).min(2.0 * BALL_M);
         stands += (off(&b) - off(&a)).clamp(-BALL_M, BALL_M);
@@ -144,8 +149,13 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
 /// How much better a player stands whose leg is out for the ball. (GRF's.)
 fn tackles(player: &Player) -> f32 {
     let pokes = player.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke);
-    let stat = if player.body.pose == Pose::Sliding { Stat::SlidingTackle } else { Stat::StandingTackle };
-    if pokes || stat == Stat::SlidingTackle { TACKLES[0] + TACKLES[1] * player.skill(stat) } else { 0.0 }
+    let stat =
+        if player.body.pose == Pose::Sliding { Stat::SlidingTackle } else { Stat::StandingTackle };
+    if pokes || stat == Stat::SlidingTackle {
+        TACKLES[0] + TACKLES[1] * player.skill(stat)
+    } else {
+        0.0
+    }
 }
 
 /// Moves a player by this much over two ticks, metres; their own velocity takes over a part of it.

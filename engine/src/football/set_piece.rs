@@ -5,7 +5,9 @@ use crate::state::play::{Restart, SetPiece};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
-use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX, RIM_X_M, RIM_Y_M};
+use setpiece_scenario::pitch::{
+    CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX, RIM_X_M, RIM_Y_M,
+};
 use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
 
 /// How far a wall stands from the ball, metres. Laws.
@@ -28,13 +30,17 @@ const WALL_SPACING: f32 = 0.07;
 
 /// The taker of a set piece: the teammate nearest to the ball once everybody is in place. (GRF's.)
 /// A lazy player that no agent can control takes it only if nobody else is there.
-fn nearest(game: &Match, team: Team, spot: Vec2, unfit: impl Fn(&Player) -> bool) -> Option<PlayerId> {
+fn nearest(
+    game: &Match,
+    team: Team,
+    spot: Vec2,
+    unfit: impl Fn(&Player) -> bool,
+) -> Option<PlayerId> {
     let mut best: Option<(f32, PlayerId)> = None;
     for (id, player) in game.team(team) {
-        let led = game
-            .agents
-            .iter()
-            .any(|slot| slot.player == Some(id) || slot.team == team && !slot.fixed && player.controllable);
+        let led = game.agents.iter().any(|slot| {
+            slot.player == Some(id) || slot.team == team && !slot.fixed && player.controllable
+        });
         let unwilling = if player.ai == Ai::Lazy && !led { 1.0e5 } else { 0.0 };
         let misplaced = if unfit(player) { 1.0e4 } else { 0.0 };
         let distance = player.pos.distance(spot) + misplaced + unwilling;
@@ -91,7 +97,13 @@ fn line_up(game: &mut Match, restart: Restart) {
             player.pos = side
                 * match player.role {
                     Role::GK => lineup::keeper(),
-                    _ => lineup::place(restart.mode, own, side * restart.spot, id.in_team(), sizes[id.team().index()]),
+                    _ => lineup::place(
+                        restart.mode,
+                        own,
+                        side * restart.spot,
+                        id.in_team(),
+                        sizes[id.team().index()],
+                    ),
                 };
         }
     }
@@ -123,7 +135,11 @@ pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
                     continue;
                 }
                 let distance = between.length();
-                let away = if distance > 1e-3 { between / distance } else { Vec2::new(0.0, a.team().side() as f32) };
+                let away = if distance > 1e-3 {
+                    between / distance
+                } else {
+                    Vec2::new(0.0, a.team().side() as f32)
+                };
                 game.players[b.index()].pos = beside(first.pos, away * (APART_M + 0.01));
                 moved = true;
             }
@@ -179,7 +195,11 @@ fn keep_distance(game: &mut Match, restart: Restart) {
     for (i, player) in game.players.iter_mut().enumerate() {
         let own = PlayerId(i as u8).team() == restart.team;
         let away = player.pos - restart.spot;
-        if own || !player.active || player.role == Role::GK || away.length_squared() >= least * least {
+        if own
+            || !player.active
+            || player.role == Role::GK
+            || away.length_squared() >= least * least
+        {
             continue;
         }
         player.pos = restart.spot + away.normalize_or(inward) * least;

@@ -50,7 +50,9 @@ const GIVEN: f32 = 1.015;
 pub fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
     let player = game.player(id);
     let dir = plan.dir.unwrap_or(player.body.facing);
-    plan.point.unwrap_or_else(|| aim_of(player.pos + player.vel * AHEAD_S, id.team().side() as f32, Some(dir)))
+    plan.point.unwrap_or_else(|| {
+        aim_of(player.pos + player.vel * AHEAD_S, id.team().side() as f32, Some(dir))
+    })
 }
 
 /// The point that a shot aims at: fixed when the swing began, or chosen by the bot.
@@ -110,14 +112,16 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let across = libm::powf(across, 0.8);
     let pushed = (player.body.push_m / 0.1).clamp(0.0, 1.0);
     let meeting = ((player.vel.extend(0.0) - game.ball.vel).length() / 10.0).clamp(0.0, 1.0);
-    let wanted = if plan.power > 0.0 { plan.power } else { libm::powf(plan.gauge(), 0.6).max(0.01) };
+    let wanted =
+        if plan.power > 0.0 { plan.power } else { libm::powf(plan.gauge(), 0.6).max(0.01) };
 
     let foot = (0.7 + 0.3 * across)
         * (0.7 + 0.3 * libm::powf((pace / 8.0).clamp(0.0, 1.0), 0.3))
         * (1.0 - 0.6 * pushed)
         * (45.0 * (0.7 + 0.3 * wanted.sqrt()));
     let strides = (player.vel.length() / 1.2).min(1.0);
-    let most = (32.0 + 13.0 * player.skill(Stat::ShotPower)) * (STANDING + (1.0 - STANDING) * strides);
+    let most =
+        (32.0 + 13.0 * player.skill(Stat::ShotPower)) * (STANDING + (1.0 - STANDING) * strides);
     let power = foot.min(most) * (1.0 + 0.2 * meeting);
 
     let ease = (0.4 + 0.6 * across)
@@ -141,8 +145,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let (on, aside, up) = (noise::spread(game), noise::spread(game), noise::spread(game));
     let shaken = (way * on + way.perp() * aside).extend(up) * (0.5 * hard);
     let worst = (pulled.extend(0.0) + shaken).normalize_or(way.extend(0.0));
-    let worst =
-        (worst + Vec3::Z * (LIFT * libm::powf(eased(lifts, 0.7), LIFTS))).normalize() * (power * (1.0 - 0.5 * harder));
+    let worst = (worst + Vec3::Z * (LIFT * libm::powf(eased(lifts, 0.7), LIFTS))).normalize()
+        * (power * (1.0 - 0.5 * harder));
     let luck = libm::powf(noise::roll(game), 0.7 * player.skill(Stat::Shot));
     let ball = best + (worst - best) * luck;
 
@@ -167,6 +171,7 @@ pub fn over_wall(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Struck {
     let rise = (1.1 + 0.5 * FALL_MPS2 * time * time) / (speed * time);
     let wild = 0.05 * (1.5 - game.player(id).skill(Stat::Shot));
     let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * (noise::bell(game) * wild)) * speed;
-    let velocity = flat.extend(speed * (rise * (1.0 + noise::bell(game) * 2.0 * wild)).clamp(0.02, 0.7));
+    let velocity =
+        flat.extend(speed * (rise * (1.0 + noise::bell(game) * 2.0 * wild)).clamp(0.02, 0.7));
     Struck { velocity, spin: Vec3::new(ahead.y, -ahead.x, 0.0) * SHOT_BACKSPIN }
 }

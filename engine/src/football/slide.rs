@@ -52,7 +52,10 @@ pub fn begin(game: &mut Match, events: &mut Events, id: PlayerId, dir: Option<Ve
 pub fn resolve(game: &mut Match, events: &mut Events, slides: Squad) {
     for id in game.order_of(slides) {
         let player = game.player(id);
-        if !player.active || player.body.pose != Pose::Sliding || player.body.pose_ticks < SLIDE_TICKS - FORCE_TICKS {
+        if !player.active
+            || player.body.pose != Pose::Sliding
+            || player.body.pose_ticks < SLIDE_TICKS - FORCE_TICKS
+        {
             continue;
         }
         if game.dead || game.play.hands.is_some() {

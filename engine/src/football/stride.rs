@@ -114,7 +114,8 @@ impl Four {
         let (none, there) = (f32x4::ZERO, f32x4::splat(THERE_M));
         let rim_x = f32x4::splat(RIM_X_M as f32 - RIM_CARE_M);
         let rim_y = f32x4::splat(RIM_Y_M as f32 - RIM_CARE_M);
-        let (x, y, pace) = (f32x4::new(self.want_x), f32x4::new(self.want_y), f32x4::new(self.pace));
+        let (x, y, pace) =
+            (f32x4::new(self.want_x), f32x4::new(self.want_y), f32x4::new(self.pace));
         let distance = (x * x + y * y).sqrt();
         let scale = (distance * f32x4::splat(ARRIVAL_PER_S)).fast_min(pace) / distance;
         let (runs, is_there) = (pace.simd_ge(none), distance.simd_lt(there));
@@ -148,10 +149,13 @@ impl Four {
         // Setting off, for players who stand.
         let (aim_x, aim_y) = (want_x / wanted, want_y / wanted);
         let later = is(9.4) - is(1.8) * (speed - is(2.4)).fast_max(none);
-        let early = speed.simd_lt(is(2.0)).select(is(18.0), later.fast_max(is(4.4)).fast_min(is(9.4)));
-        let shoved = f32x4::new(self.shoved) * (is(10.0) - is(5.0) * f32x4::new(self.balance)) - is(0.1);
+        let early =
+            speed.simd_lt(is(2.0)).select(is(18.0), later.fast_max(is(4.4)).fast_min(is(9.4)));
+        let shoved =
+            f32x4::new(self.shoved) * (is(10.0) - is(5.0) * f32x4::new(self.balance)) - is(0.1);
         let free = one - shoved.fast_max(none).fast_min(is(0.3));
-        let push = early.fast_min(is(3.0) * (top - speed) + is(0.05)) * f32x4::new(self.burst) * free;
+        let push =
+            early.fast_min(is(3.0) * (top - speed) + is(0.05)) * f32x4::new(self.burst) * free;
         let pushed = (speed + push * is(DT)).fast_min(wish);
         let waits = lag.simd_lt(is(LAG_TICKS));
         let (off_x, off_y) = (waits.select(vx, aim_x * pushed), waits.select(vy, aim_y * pushed));
@@ -207,11 +211,14 @@ impl Four {
         let runs = (vx * vx + vy * vy).simd_gt(f32x4::ONE);
         let (mut towards_x, mut towards_y, mut at_feet) = (vx, vy, f32x4::ZERO);
         if !runs.all() {
-            let (ball_x, ball_y) =
-                (f32x4::splat(ball_x) - f32x4::new(self.x), f32x4::splat(ball_y) - f32x4::new(self.y));
+            let (ball_x, ball_y) = (
+                f32x4::splat(ball_x) - f32x4::new(self.x),
+                f32x4::splat(ball_y) - f32x4::new(self.y),
+            );
             (towards_x, towards_y) = (runs.select(vx, ball_x), runs.select(vy, ball_y));
             // With the ball at their feet players keep facing the way they went.
-            at_feet = !runs & (ball_x * ball_x + ball_y * ball_y).simd_lt(f32x4::splat(AT_FEET_M * AT_FEET_M));
+            at_feet = !runs
+                & (ball_x * ball_x + ball_y * ball_y).simd_lt(f32x4::splat(AT_FEET_M * AT_FEET_M));
         }
         let (towards_x, towards_y) = unit(towards_x, towards_y);
         let (facing_x, facing_y) = (f32x4::new(self.facing_x), f32x4::new(self.facing_y));

@@ -68,14 +68,21 @@ pub fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], contac
     let (a, b) = (*game.player(i), *game.player(j));
     let apart = (b.pos - a.pos + (b.vel - a.vel) * AHEAD_S).length() / contact_m;
     let depth = DEPTH * math::pow((1.0 - apart).clamp(0.0, 1.0), DEPTH_POWER);
-    let outcomes = [(i, &a, &b), (j, &b, &a)].map(|(id, player, other)| outcome(game, id, player, other, depth));
+    let outcomes = [(i, &a, &b), (j, &b, &a)]
+        .map(|(id, player, other)| outcome(game, id, player, other, depth));
     for ((id, by), outcome) in [(i, j), (j, i)].into_iter().zip(outcomes) {
         lose_balance(game, events, id, by, outcome);
     }
 }
 
 /// How a collision ends for a player.
-fn outcome(game: &Match, id: PlayerId, player: &Player, other: &Player, depth: f32) -> MeetingOutcome {
+fn outcome(
+    game: &Match,
+    id: PlayerId,
+    player: &Player,
+    other: &Player,
+    depth: f32,
+) -> MeetingOutcome {
     let from = (player.pos - other.pos).normalize_or_zero();
     let turned = 0.5 - 0.5 * player.body.facing.dot(from);
     let ball = game.play.forecast.at(game.tick + 1).truncate();
@@ -106,17 +113,26 @@ fn pace(mps: f32) -> f32 {
 }
 
 /// Lets a player stumble or fall over another.
-fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerId, outcome: MeetingOutcome) {
+fn lose_balance(
+    game: &mut Match,
+    events: &mut Events,
+    id: PlayerId,
+    by: PlayerId,
+    outcome: MeetingOutcome,
+) {
     let (player, other) = (*game.player(id), *game.player(by));
     let worse = match player.body.pose {
         Pose::Up => outcome > MeetingOutcome::Stands,
-        Pose::Stumbling { .. } => outcome > MeetingOutcome::Stumbles && player.body.pose_ticks < FALLEN.0,
+        Pose::Stumbling { .. } => {
+            outcome > MeetingOutcome::Stumbles && player.body.pose_ticks < FALLEN.0
+        }
         Pose::Sliding | Pose::Down | Pose::Diving => false,
     };
     if !worse {
         return;
     }
-    let push = (player.pos - other.pos).normalize_or_zero() + player.vel * OWN_RUN + other.vel * OTHER_RUN;
+    let push =
+        (player.pos - other.pos).normalize_or_zero() + player.vel * OWN_RUN + other.vel * OTHER_RUN;
     let cos = push.normalize_or_zero().dot(player.body.facing);
     let (speed, falls) = (player.vel.length(), outcome == MeetingOutcome::Falls);
     let tripped = &mut game.players[id.index()];
@@ -130,7 +146,8 @@ fn lose_balance(game: &mut Match, events: &mut Events, id: PlayerId, by: PlayerI
         (false, _) => stumble(speed, cos),
     };
     tripped.body.strike_pose(Pose::Stumbling { to_dmps: (mps * 10.0) as u8 }, ticks);
-    let lunges = other.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke) || other.body.pose == Pose::Sliding;
+    let lunges = other.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke)
+        || other.body.pose == Pose::Sliding;
     let near = player.pos.distance_squared(game.ball.pos.truncate()) < FOUL_M * FOUL_M;
     if falls && lunges && near && by.team() != id.team() && game.possession == Some(id.team()) {
         let behind = player.body.facing.dot((player.pos - other.pos).normalize_or_zero()).max(0.0);

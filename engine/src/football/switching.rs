@@ -8,7 +8,7 @@
 use crate::state::{AgentSlot, Match, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;
-use setpiece_scenario::pitch::TEAM_MAX;
+use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Ai, Others};
 
@@ -63,6 +63,18 @@ pub fn update(game: &mut Match) {
         let awaited = pass_to.is_some_and(|to| to.team() == team && controlled(game, to));
         if !awaited && SOONER * game.player(chaser).body.meet_s < fastest {
             hand_to(game, chaser);
+        }
+    }
+}
+
+/// Switches players after the first step of a start. A key that is still down is pressed anew for
+/// the next player.
+pub fn after_first_step(game: &mut Match) {
+    let before: ArrayVec<_, PLAYERS_MAX> = game.agents.iter().map(|slot| slot.player).collect();
+    update(game);
+    for (slot, before) in game.agents.iter_mut().zip(before) {
+        if slot.player != before {
+            slot.key = None;
         }
     }
 }
@@ -122,7 +134,10 @@ pub fn press(game: &mut Match, slot: usize) {
 pub fn runner(game: &Match, slot: usize) -> Option<PlayerId> {
     let agent = game.agents.get(slot)?;
     let id = agent.player.filter(|id| game.player(*id).active)?;
-    if !has_ball(game, agent.team) || game.play.set_piece.is_some() || game.play.others == Others::Hold {
+    if !has_ball(game, agent.team)
+        || game.play.set_piece.is_some()
+        || game.play.others == Others::Hold
+    {
         return None;
     }
     let ahead = game.player(id).pos + Vec2::new(AHEAD_M * id.team().side() as f32, 0.0);
@@ -141,7 +156,8 @@ pub fn sooner(game: &Match, slot: usize) -> Option<PlayerId> {
         return None;
     }
     let own = agent.player.map_or(f32::MAX, |id| game.player(id).body.meet_s);
-    let mates = game.team(agent.team).filter(|(mate, player)| player.role != Role::GK && free(game, *mate));
+    let mates =
+        game.team(agent.team).filter(|(mate, player)| player.role != Role::GK && free(game, *mate));
     let soonest = nearest(mates.map(|(mate, player)| (player.body.meet_s, mate)))?;
     (game.player(soonest).body.meet_s < own).then_some(soonest)
 }
@@ -178,7 +194,8 @@ pub fn open(game: &mut Match) {
         let open = |slot: &AgentSlot| slot.team == team && slot.player.is_none();
         let slots = game.agents.iter().filter(|slot| open(slot)).count();
         let ids = FIRST_PLACES.map(|place| PlayerId::new(team, place));
-        let mut firsts: ArrayVec<_, TEAM_MAX> = ids.into_iter().filter(|id| free(game, *id)).take(slots).collect();
+        let mut firsts: ArrayVec<_, TEAM_MAX> =
+            ids.into_iter().filter(|id| free(game, *id)).take(slots).collect();
         firsts.sort_unstable_by_key(|id| id.0);
         for (slot, id) in game.agents.iter_mut().filter(|slot| open(slot)).zip(firsts) {
             slot.player = Some(id);

@@ -1,8 +1,8 @@
 //! One tick of 10 ms, in order.
 
 use crate::football::{
-    advantage, contact, duel, forecast, foul, keeper, kick, movement, offside, possession, reach, referee, report,
-    separation, slide, touch, whistle,
+    advantage, contact, duel, forecast, foul, keeper, kick, movement, offside, possession, reach,
+    referee, report, separation, slide, touch, whistle,
 };
 use crate::laps::Phase;
 use crate::physics::{self, BallObstacle, Contact, Scratch};
@@ -106,10 +106,16 @@ fn near_bodies(game: &Match, near: Squad) -> ArrayVec<BallObstacle, BODIES_MAX> 
         }
         let lately = ticks_since(game.tick, player.body.touched_at) < 30;
         // In the box a keeper meets the ball with the hands or not at all.
-        let planned = game.play.save[id.team().index()].is_some_and(|save| !save.reaches || save.at_tick != u32::MAX);
+        let planned = game.play.save[id.team().index()]
+            .is_some_and(|save| !save.reaches || save.at_tick != u32::MAX);
         let by_hand = planned && player.role == Role::GK && foul::in_box(flat, id.team());
         if !lately && !by_hand {
-            bodies.push(BallObstacle { id: id.0, pos: player.pos, vel: player.vel, height_m: player.body.height_m });
+            bodies.push(BallObstacle {
+                id: id.0,
+                pos: player.pos,
+                vel: player.vel,
+                height_m: player.body.height_m,
+            });
         }
     }
     bodies
@@ -127,7 +133,8 @@ fn keep_circle(game: &mut Match) {
     let radius = CIRCLE_RADIUS_M as f32;
     game.each(game.squad.of(team.other()), |player| {
         if player.pos.length() < radius {
-            player.pos = player.pos.normalize_or(Vec2::new(-(team.other().side() as f32), 0.0)) * radius;
+            player.pos =
+                player.pos.normalize_or(Vec2::new(-(team.other().side() as f32), 0.0)) * radius;
         }
     });
 }

@@ -7,11 +7,11 @@
 use crate::football::{dribble, first_touch, kick};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
-use crate::state::player::{Intent, Pose};
+use crate::state::player::{Intent, KickKind, Pose};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::Vec2;
 use setpiece_scenario::Ai;
-use setpiece_scenario::vocabulary::Rule;
+use setpiece_scenario::vocabulary::{Rule, Team};
 
 /// A ball higher than this isn't at its owner's foot yet, metres.
 pub(super) const FOOT_HIGH_M: f32 = 0.5;
@@ -19,10 +19,11 @@ pub(super) const FOOT_HIGH_M: f32 = 0.5;
 const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
 /// From how far at most, metres. Measured.
 const PUSH_OFF_M: f32 = 0.76;
-/// Nobody further from the ball has to do with it in a tick, metres: a foot reaches 1.1, a fast ball that meets a body less
-/// than 1.3.
+/// Nobody further from the ball has to do with it in a tick, metres: a foot reaches 1.1, a fast
+/// ball that meets a body less than 1.3.
 pub(super) const NEAR_M: f32 = 1.3;
-/// From how far somebody may reach for the ball, metres: as far as they run until their foot is there.
+/// From how far somebody may reach for the ball, metres: as far as they run until their foot is
+/// there.
 const ABOUT_M: f32 = 4.5;
 /// For how many ticks before a bot's kick its leg is on the way. (Measured of GRF's motions.)
 const SWING_TICKS: i32 = 28;
@@ -79,7 +80,11 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
             // The owner's own touch comes first. If the owner lets the ball be, a rival may try.
             let foot = dribble::foot_m(game, player);
             let reaches = distance <= foot * foot && ball.z < FOOT_HIGH_M;
-            if reaches && wants_ball(game, id) && !swings(game, id) && dribble::touch(game, events, id) {
+            if reaches
+                && wants_ball(game, id)
+                && !swings(game, id)
+                && dribble::touch(game, events, id)
+            {
                 return;
             }
         } else if nearest.is_none_or(|(best, _)| distance < best) && wants_ball(game, id) {
@@ -90,10 +95,13 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     let near = libm::sqrtf(distance);
     let contested = owner.is_some_and(|rival| rival.team() != id.team());
     if !contested && near <= first_touch::reach_m(game, id) && !about_to_kick(game, id) {
-        if PUSH_OFF_TICKS.contains(&game.tick) && waits_at_ball(game, game.player(id)) && !game.is_driven(id) {
-            dribble::set_off(game, events, id);
-        } else {
+        if !PUSH_OFF_TICKS.contains(&game.tick)
+            || !waits_at_ball(game, game.player(id))
+            || game.is_driven(id)
+        {
             first_touch::take(game, events, id);
+        } else if !is_kick_pressed(game, id.team()) {
+            dribble::set_off(game, events, id);
         }
     }
 }
@@ -120,7 +128,8 @@ fn wants_ball(game: &Match, id: PlayerId) -> bool {
     }
     if game.last_touch == Some(id) {
         // Players let a ball that they have taken come down.
-        return game.ball.pos.z < FOOT_HIGH_M && ticks_since(game.tick, player.body.touched_at) >= PAUSE_TICKS;
+        return game.ball.pos.z < FOOT_HIGH_M
+            && ticks_since(game.tick, player.body.touched_at) >= PAUSE_TICKS;
     }
     let Some(last) = game.last_touch else { return true };
     if last.team() != id.team() {
@@ -148,7 +157,8 @@ fn keeps(game: &Match, id: PlayerId, distance_squared: f32) -> bool {
 /// Whether a bot's leg is on its way to a kick: the player lets the ball roll until then.
 fn swings(game: &Match, id: PlayerId) -> bool {
     let swing = game.player(id).body.kick.and_then(|plan| plan.swing);
-    !game.is_driven(id) && swing.is_some_and(|swing| swing.ready_at - (game.tick as i32) < SWING_TICKS)
+    !game.is_driven(id)
+        && swing.is_some_and(|swing| swing.ready_at - (game.tick as i32) < SWING_TICKS)
 }
 
 /// Whether a player stands at the ball of a start and only has to push it straight on, which
@@ -162,17 +172,33 @@ fn pushes_off(game: &Match, player: &Player) -> bool {
         && wish != Vec2::ZERO
 }
 
+/// Whether an agent who may be given a player at the start already presses a kick: then the ball is
+/// left for it. (Measured.)
+fn is_kick_pressed(game: &Match, team: Team) -> bool {
+    let mut slots = game.agents.iter().filter(|slot| slot.team == team && !slot.fixed);
+    slots.any(|slot| {
+        slot.player
+            .and_then(|id| game.play.acting[id.index()].played)
+            .and_then(KickKind::of)
+            .is_some()
+    })
+}
+
 /// Whether a player stands at the ball of a start, so near that one step takes them to it.
 pub fn waits_at_ball(game: &Match, player: &Player) -> bool {
     let to_ball = game.ball.pos.truncate() - player.pos;
     game.last_touch.is_none() && to_ball.length_squared() < PUSH_OFF_M * PUSH_OFF_M
 }
 
-/// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as their kick.
+/// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as
+/// their kick.
 fn heads(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     let deep = player.pos.x * id.team().side() as f32 <= -25.0;
-    let rival = || game.team(id.team().other()).any(|(_, rival)| rival.pos.distance_squared(player.pos) < 2.2 * 2.2);
+    let rival = || {
+        game.team(id.team().other())
+            .any(|(_, rival)| rival.pos.distance_squared(player.pos) < 2.2 * 2.2)
+    };
     player.body.kick.is_some() || deep || rival()
 }
 
@@ -182,7 +208,8 @@ fn about_to_kick(game: &Match, id: PlayerId) -> bool {
     let Some(plan) = player.body.kick else { return false };
     let Some(swing) = plan.swing else { return false };
     let wait_s = (swing.ready_at - game.tick as i32).max(0) as f32 * 0.01;
-    let apart = player.pos - game.ball.pos.truncate() + (player.vel - game.ball.vel.truncate()) * wait_s;
+    let apart =
+        player.pos - game.ball.pos.truncate() + (player.vel - game.ball.vel.truncate()) * wait_s;
     apart.length_squared() <= kick::KICK_M * kick::KICK_M
 }
 

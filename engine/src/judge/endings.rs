@@ -71,7 +71,11 @@ impl EndingJudge {
     }
 
     /// Writes or reads what it remembers; on the way in [`Self::reset`] has come before.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+    pub(crate) fn archive(
+        &mut self,
+        archive: &mut Archive<'_>,
+        shelf: &mut Shelf,
+    ) -> Result<(), SnapshotError> {
         archive.slots("cells", &mut self.cells)?;
         for memory in &mut self.memories {
             memory.archive("this", archive, shelf)?;

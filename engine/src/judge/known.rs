@@ -45,7 +45,16 @@ clone_in_place! {
 impl Known {
     /// Creates it empty. `purpose` is the stream that scripts draw from.
     pub fn new(scripts: Scripts, scripted: bool, purpose: Purpose) -> Known {
-        Known { scripts, scripted, purpose, params: Vec::new(), scene: None, lets: Vec::new(), seed: 0, index: 0 }
+        Known {
+            scripts,
+            scripted,
+            purpose,
+            params: Vec::new(),
+            scene: None,
+            lets: Vec::new(),
+            seed: 0,
+            index: 0,
+        }
     }
 
     /// Begins an episode.
@@ -70,7 +79,11 @@ impl Known {
     }
 
     /// Writes or reads what scripts are shown; the rest is known since the episode began.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+    pub(crate) fn archive(
+        &mut self,
+        archive: &mut Archive<'_>,
+        shelf: &mut Shelf,
+    ) -> Result<(), SnapshotError> {
         shelf.archive("scene", &mut self.scene, archive)?;
         if self.scene.is_some() == self.scripted {
             return Ok(());

@@ -21,7 +21,9 @@ pub use setpiece_scenario::operators::truth;
 use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Qualifier, Team};
-use setpiece_scenario::{BinaryOp, Distribution, EventFilter, Instr, Over, Program, Reg, UnaryOp, When, Who};
+use setpiece_scenario::{
+    BinaryOp, Distribution, EventFilter, Instr, Over, Program, Reg, UnaryOp, When, Who,
+};
 use std::array;
 use std::sync::Arc;
 
@@ -197,9 +199,14 @@ impl<const W: usize> Machine<'_, W> {
                 Op::Not => self.one(step, |a| UnaryOp::Not.apply(a, |_| false)),
                 Op::Neg => self.one(step, |a| UnaryOp::Neg.apply(a, |_| false)),
                 Op::Select => self.select(step),
-                Op::BallX => self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[0].into())),
-                Op::BallY => self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[1].into())),
-                Op::BallOwner => self.all(step, self.input.now.map_or(f64::NAN, |now| player_number(now.owner()))),
+                Op::BallX => {
+                    self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[0].into()))
+                }
+                Op::BallY => {
+                    self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[1].into()))
+                }
+                Op::BallOwner => self
+                    .all(step, self.input.now.map_or(f64::NAN, |now| player_number(now.owner()))),
                 Op::PlayerX => {
                     let now = self.input.now;
                     self.one(step, |of| now.map_or(f64::NAN, |now| now.load(Field::PlayerX, of)));
@@ -213,12 +220,17 @@ impl<const W: usize> Machine<'_, W> {
                 Op::Give => self.give(step),
                 Op::Assign => self.assign(step),
                 Op::Rare => self.rare(step, &plan.rare[step.a as usize], event),
-                Op::Temporal => self.regs[step.at as usize] = self.temporal(&plan.rare[step.a as usize]),
+                Op::Temporal => {
+                    self.regs[step.at as usize] = self.temporal(&plan.rare[step.a as usize])
+                }
                 Op::Loop => {
                     let each = &plan.loops[step.a as usize];
                     let at = step.at as usize;
-                    self.regs[at] =
-                        if step.uniform { [self.each::<1>(each, at)[0]; W] } else { self.each::<W>(each, at) };
+                    self.regs[at] = if step.uniform {
+                        [self.each::<1>(each, at)[0]; W]
+                    } else {
+                        self.each::<W>(each, at)
+                    };
                 }
             }
         }
@@ -248,14 +260,18 @@ impl<const W: usize> Machine<'_, W> {
 
     fn select(&mut self, step: &PlanStep) {
         let [c, a, b] = [step.a, step.b, step.c].map(|reg| self.regs[reg as usize]);
-        self.regs[step.at as usize] = array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] });
+        self.regs[step.at as usize] =
+            array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] });
     }
 
     /// The rare instructions.
     #[inline(never)]
     fn rare(&mut self, step: &PlanStep, instr: &Instr, event: Option<&Event>) {
-        self.regs[step.at as usize] =
-            if W == 1 || !step.uniform { self.pure::<W>(instr, event) } else { [self.pure::<1>(instr, event)[0]; W] };
+        self.regs[step.at as usize] = if W == 1 || !step.uniform {
+            self.pure::<W>(instr, event)
+        } else {
+            [self.pure::<1>(instr, event)[0]; W]
+        };
     }
 
     /// The value of an instruction without memory, in the first `N` lanes.
@@ -263,7 +279,9 @@ impl<const W: usize> Machine<'_, W> {
         let input = &self.input;
         match instr {
             Instr::Const(value) => [*value; N],
-            Instr::Param(index) => [input.params.get(*index as usize).copied().unwrap_or(f64::NAN); N],
+            Instr::Param(index) => {
+                [input.params.get(*index as usize).copied().unwrap_or(f64::NAN); N]
+            }
             Instr::Let(index) => [input.lets.get(*index as usize).copied().unwrap_or(f64::NAN); N],
             Instr::EpisodeIndex => [input.index as f64; N],
             Instr::Unary(op, a) => {
@@ -409,7 +427,8 @@ impl<const W: usize> Machine<'_, W> {
         let around = self.crew.seated;
         match &each.over {
             Over::Players { team, except } => {
-                let (teams, except) = (self.lanes::<W>(*team), except.map(|reg| self.lanes::<W>(reg)));
+                let (teams, except) =
+                    (self.lanes::<W>(*team), except.map(|reg| self.lanes::<W>(reg)));
                 for id in players_of::<N, W>(&teams) {
                     if !self.input.now.is_some_and(|now| now.is_active(id)) {
                         continue;
@@ -427,11 +446,20 @@ impl<const W: usize> Machine<'_, W> {
             }
             Over::Events(filter) => {
                 let events = self.input.events;
-                for (number, event) in events.iter().enumerate().filter(|(_, event)| is_kind(filter, event)) {
-                    let taken: [bool; W] =
-                        array::from_fn(|lane| self.passes(filter, event, if N == 1 { 0 } else { lane }));
+                for (number, event) in
+                    events.iter().enumerate().filter(|(_, event)| is_kind(filter, event))
+                {
+                    let taken: [bool; W] = array::from_fn(|lane| {
+                        self.passes(filter, event, if N == 1 { 0 } else { lane })
+                    });
                     if taken[..N].contains(&true) {
-                        self.element(each, at, (number as f64, Some(event)), (&around, &taken), &mut folding);
+                        self.element(
+                            each,
+                            at,
+                            (number as f64, Some(event)),
+                            (&around, &taken),
+                            &mut folding,
+                        );
                     }
                 }
             }
@@ -505,11 +533,14 @@ impl<const W: usize> Machine<'_, W> {
             Who::Team(reg) => event.team.is_some() && event.team == team_of_number(value(reg)),
             Who::Player(reg) => {
                 // An own goal counts for the other team, so it isn't a goal of its scorer.
-                let own = event.kind == EventKind::Goal && event.by.map(PlayerId::team) != event.team;
+                let own =
+                    event.kind == EventKind::Goal && event.by.map(PlayerId::team) != event.team;
                 is_player(event.by, value(reg)) && !own
             }
         }) && filter.to.is_none_or(|who| match who {
-            Who::Team(reg) => event.to.is_some() && event.to.map(PlayerId::team) == team_of_number(value(reg)),
+            Who::Team(reg) => {
+                event.to.is_some() && event.to.map(PlayerId::team) == team_of_number(value(reg))
+            }
             Who::Player(reg) => is_player(event.to, value(reg)),
         })
     }

@@ -23,7 +23,10 @@ clone_in_place! {
 impl ObservationJudge {
     /// Prepares the program.
     pub fn new(observation: &Observation) -> ObservationJudge {
-        ObservationJudge { regs: Registers::of(&observation.program), observation: Arc::new(observation.clone()) }
+        ObservationJudge {
+            regs: Registers::of(&observation.program),
+            observation: Arc::new(observation.clone()),
+        }
     }
 
     /// The numbers' names, in order.

@@ -60,7 +60,8 @@ impl RecordJudge {
     pub fn new(records: &[Record], n_agents: usize) -> RecordJudge {
         let state = |record: &Record| {
             let per_agent = record.program.uses_me();
-            let (instances, n_cells) = (if per_agent { n_agents } else { 1 }, record.program.cells as usize);
+            let (instances, n_cells) =
+                (if per_agent { n_agents } else { 1 }, record.program.cells as usize);
             RecordState {
                 per_agent,
                 n_cells,
@@ -70,7 +71,12 @@ impl RecordJudge {
                 kept: vec![Vec::new(); if record.series { instances } else { 0 }],
             }
         };
-        RecordJudge { states: records.iter().map(state).collect(), records: records.into(), n_agents, faults: 0 }
+        RecordJudge {
+            states: records.iter().map(state).collect(),
+            records: records.into(),
+            n_agents,
+            faults: 0,
+        }
     }
 
     /// Begins an episode; `input` shows the start state.
@@ -103,14 +109,17 @@ impl RecordJudge {
             let instances = if state.per_agent { self.n_agents } else { 1 };
             for instance in 0..instances {
                 let slot = game.agents.get(instance).filter(|_| state.per_agent);
-                let me = slot.and_then(|slot| slot.player.filter(|player| game.players[player.index()].active));
+                let me = slot.and_then(|slot| {
+                    slot.player.filter(|player| game.players[player.index()].active)
+                });
                 let (plan, regs) = state.regs.parts();
                 let mut machine = Machine {
                     input: Input { us: slot.map_or(input.us, |slot| slot.team), ..*input },
                     crew: Crew::one(me),
                     plan,
                     regs,
-                    cells: &mut state.cells[instance * state.n_cells..(instance + 1) * state.n_cells],
+                    cells: &mut state.cells
+                        [instance * state.n_cells..(instance + 1) * state.n_cells],
                     terms: &mut [],
                     faults: &mut self.faults,
                     draws: None,
@@ -123,7 +132,9 @@ impl RecordJudge {
                     continue;
                 }
                 let n = record.values.len();
-                for (slot, reg) in state.last[instance * n..(instance + 1) * n].iter_mut().zip(&record.values) {
+                for (slot, reg) in
+                    state.last[instance * n..(instance + 1) * n].iter_mut().zip(&record.values)
+                {
                     *slot = state.regs.value(*reg);
                     if let Some(kept) = state.kept.get_mut(instance) {
                         kept.push(*slot);
@@ -138,7 +149,9 @@ impl RecordJudge {
         self.records.iter().zip(&self.states).map(|(record, state)| {
             let n = record.values.len();
             let one = |instance: usize| match state.kept.get(instance) {
-                Some(kept) if n == 2 => Recorded::Places(kept.chunks_exact(2).map(|at| [at[0], at[1]]).collect()),
+                Some(kept) if n == 2 => {
+                    Recorded::Places(kept.chunks_exact(2).map(|at| [at[0], at[1]]).collect())
+                }
                 Some(kept) => Recorded::Numbers(kept.clone()),
                 None => match &state.last[instance * n..(instance + 1) * n] {
                     [x, y] => Recorded::Place([*x, *y]),

@@ -178,8 +178,13 @@ impl RewardJudge {
         self.clear_step();
     }
 
-    /// Writes or reads what was paid and what is remembered; on the way in [`Self::reset`] has come before.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+    /// Writes or reads what was paid and what is remembered; on the way in [`Self::reset`] has come
+    /// before.
+    pub(crate) fn archive(
+        &mut self,
+        archive: &mut Archive<'_>,
+        shelf: &mut Shelf,
+    ) -> Result<(), SnapshotError> {
         for state in &mut self.states {
             for lanes in state.lanes.iter_mut().flatten() {
                 lanes.archive(archive)?;
@@ -295,7 +300,8 @@ impl HookState {
         let mut value = 0.0;
         for (lane, judged) in side.iter().enumerate() {
             if lane == 0 || !self.shared {
-                let perspective = Perspective { us: judged.team, me: judged.me, agent: judged.agent };
+                let perspective =
+                    Perspective { us: judged.team, me: judged.me, agent: judged.agent };
                 let instance = if self.shared { judged.team.index() } else { judged.agent };
                 let Some(memory) = self.memories.get_mut(instance) else { continue };
                 value = scripts.reward(hook.script, scene, perspective, &arguments, memory)?;

@@ -33,7 +33,9 @@ use std::sync::Arc;
 
 /// A hook that failed. It ends the episode, not the process.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{script}:{line}:{column}: `{hook}` failed: {message} (seed {seed}, episode {index}, step {step})")]
+#[error(
+    "{script}:{line}:{column}: `{hook}` failed: {message} (seed {seed}, episode {index}, step {step})"
+)]
 pub struct ScriptError {
     /// The script, as the scenario names it.
     pub script: String,
@@ -123,8 +125,7 @@ struct Compiled {
 
 /// Why places in a script can't be mapped: Rhai stores lines and columns in two bytes, and has its
 /// own line ends.
-const UNFOLLOWED: &str =
-    "the text can't be followed here: it has a lone carriage return, or more than 65535 lines or columns";
+const UNFOLLOWED: &str = "the text can't be followed here: it has a lone carriage return, or more than 65535 lines or columns";
 /// The hook that runs before a script's first hook of an episode.
 const RESET: &str = "reset";
 const REWARD: &str = "reward";
@@ -138,15 +139,24 @@ impl Scripts {
     pub fn compile(scenario: &Scenario) -> Result<Scripts, ScriptLoadError> {
         let memory_bytes = host::MEMORIES_BYTES_MAX / (PLAYERS_MAX * scenario.scripts.len().max(1));
         let compile = |script: &setpiece_scenario::Script| {
-            let failed =
-                |(line, column), message| ScriptLoadError { script: script.name.clone(), line, column, message };
+            let failed = |(line, column), message| ScriptLoadError {
+                script: script.name.clone(),
+                line,
+                column,
+                message,
+            };
             let unread = |error: rhai::ParseError| {
-                failed(host::line_column(error.position()).unwrap_or((1, 1)), host::parse_message(&error))
+                failed(
+                    host::line_column(error.position()).unwrap_or((1, 1)),
+                    host::parse_message(&error),
+                )
             };
             let ast = host::read(&script.source).map_err(unread)?;
-            let (counted, edits) =
-                budget::count_copies(&script.source, &ast).map_err(|place| failed(place, UNFOLLOWED.to_owned()))?;
-            let resets = ast.iter_functions().any(|function| function.name == RESET && function.params.len() == 1);
+            let (counted, edits) = budget::count_copies(&script.source, &ast)
+                .map_err(|place| failed(place, UNFOLLOWED.to_owned()))?;
+            let resets = ast
+                .iter_functions()
+                .any(|function| function.name == RESET && function.params.len() == 1);
             Ok(Compiled {
                 resets,
                 memory_bytes,
@@ -167,7 +177,10 @@ impl Scripts {
 
     #[cfg(test)]
     fn walked(mut self) -> Scripts {
-        Arc::get_mut(&mut self.list).into_iter().flatten().for_each(|compiled| compiled.code.walk());
+        Arc::get_mut(&mut self.list)
+            .into_iter()
+            .flatten()
+            .for_each(|compiled| compiled.code.walk());
         self
     }
 
@@ -183,8 +196,11 @@ impl Scripts {
 
     /// The scenario's parameters with these values, as scripts see them.
     pub fn params(&self, values: &[f64]) -> Params {
-        let map =
-            self.params.iter().zip(values).map(|(param, &value)| (param.name.as_str().into(), shown(param, value)));
+        let map = self
+            .params
+            .iter()
+            .zip(values)
+            .map(|(param, &value)| (param.name.as_str().into(), shown(param, value)));
         Arc::new(map.collect())
     }
 
@@ -227,8 +243,12 @@ impl Scripts {
             Ok(false) => Ok(Done::No),
             Err(_) => value
                 .into_string()
-                .map_err(|found| self.wrong_type(script, DONE, "true, false or a label", found, scene))
-                .map(|label| if label.trim().is_empty() { Done::No } else { Done::Labelled(label) }),
+                .map_err(|found| {
+                    self.wrong_type(script, DONE, "true, false or a label", found, scene)
+                })
+                .map(
+                    |label| if label.trim().is_empty() { Done::No } else { Done::Labelled(label) },
+                ),
         }
     }
 
@@ -246,7 +266,8 @@ impl Scripts {
     ) -> Result<Action, ScriptError> {
         const HOOK: &str = "act";
         let Some(compiled) = self.list.get(script as usize) else { return Ok(Action::Idle) };
-        let own = (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
+        let own =
+            (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
         let seen = own.as_ref().unwrap_or(scene);
         let now = ShownState::now(seen, perspective);
         compiled.begin(&now, memory)?;
@@ -261,7 +282,8 @@ impl Scripts {
         let known = &Action::ALL[..Action::V2_SET];
         known.iter().copied().find(|action| action.name() == word).ok_or_else(|| {
             let names = known.iter().map(|action| action.name());
-            let hint = check::suggest(&word, names).map(|hint| format!("; {hint}")).unwrap_or_default();
+            let hint =
+                check::suggest(&word, names).map(|hint| format!("; {hint}")).unwrap_or_default();
             compiled.error(HOOK, None, format!("no action is called `{word}`{hint}"), seen)
         })
     }
@@ -275,7 +297,8 @@ impl Scripts {
         memory: &mut Memory,
     ) -> Result<Dynamic, ScriptError> {
         let Some(compiled) = self.list.get(script as usize) else { return Ok(Dynamic::UNIT) };
-        let own = (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
+        let own =
+            (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
         let seen = own.as_ref().unwrap_or(scene);
         let now = ShownState::now(seen, perspective);
         compiled.begin(&now, memory)?;
@@ -288,7 +311,14 @@ impl Scripts {
         called
     }
 
-    fn wrong_type(&self, script: u32, hook: &str, expected: &str, found: &str, scene: &HookScene) -> ScriptError {
+    fn wrong_type(
+        &self,
+        script: u32,
+        hook: &str,
+        expected: &str,
+        found: &str,
+        scene: &HookScene,
+    ) -> ScriptError {
         let message = format!("expected {expected}, found {}", host::type_words(found));
         match self.list.get(script as usize) {
             Some(compiled) => compiled.error(hook, None, message, scene),
@@ -342,7 +372,13 @@ impl Compiled {
         self.error(hook, position.map(|place| self.edits.original(place)), message, scene)
     }
 
-    fn error(&self, hook: &str, position: Option<(usize, usize)>, message: String, scene: &HookScene) -> ScriptError {
+    fn error(
+        &self,
+        hook: &str,
+        position: Option<(usize, usize)>,
+        message: String,
+        scene: &HookScene,
+    ) -> ScriptError {
         let (line, column) = position.unwrap_or_else(|| hook_position(&self.source, hook));
         let (first_line, first_column) = (self.at.0.max(1) as usize, self.at.1.max(1) as usize);
         let column = if line == 1 { column + first_column - 1 } else { column };

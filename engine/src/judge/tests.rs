@@ -6,19 +6,22 @@ use crate::testing::{Code, checkpoints, event, scenario, scoring};
 use glam::Vec3;
 use setpiece_scenario::vocabulary::{EventKind, Field, GameMode, Qualifier, Role, Team, Verdict};
 use setpiece_scenario::{
-    BinaryOp, Each, Ending, EventFilter, Fold, FoldKind, Instr, Over, Program, RewardBody, When, Who,
+    BinaryOp, Each, Ending, EventFilter, Fold, FoldKind, Instr, Over, Program, RewardBody, When,
+    Who,
 };
 
 const GOAL_LINE_M: f32 = 55.0;
 
 /// A judge, a striker with an agent, and their match, which the tests change by hand.
 fn bench(rewards: Vec<Reward>, prepare: impl FnOnce(&mut Scenario)) -> (Judge, Match, Events) {
-    let mut scenario = scenario(&[(Team::Left, Role::CF, 0.0, 0.0), (Team::Right, Role::GK, 50.0, 0.0)]);
+    let mut scenario =
+        scenario(&[(Team::Left, Role::CF, 0.0, 0.0), (Team::Right, Role::GK, 50.0, 0.0)]);
     prepare(&mut scenario);
     setpiece_scenario::verify::verify(&scenario).unwrap();
     let bindings = setpiece_scenario::Bindings::default();
     let roster = crate::draw::Roster::new(&scenario, &bindings, None).unwrap();
-    let drawn = crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
+    let drawn =
+        crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
     let game = begin::blank(&drawn);
     let scripts = Scripts::compile(&scenario).unwrap();
     let mut judge = Judge::new(&scenario, rewards.into(), scripts, roster.agents.len());
@@ -45,9 +48,11 @@ fn where_is_the_ball() -> Reward {
 fn goal_ends(scenario: &mut Scenario) {
     let mut code = Code::default();
     let us = code.push(Instr::Us);
-    let filter = EventFilter { kind: EventKind::Goal, qualifier: None, by: Some(Who::Team(us)), to: None };
+    let filter =
+        EventFilter { kind: EventKind::Goal, qualifier: None, by: Some(Who::Team(us)), to: None };
     let fold = Fold { kind: FoldKind::Count, value: None, guard: None };
-    let when = Some(code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 0, fold }))));
+    let when =
+        Some(code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 0, fold }))));
     scenario.endings.program = code.program;
     let verdict = Some(Verdict::Success);
     scenario.endings.list.push(Ending { verdict, label: "scored".to_owned(), when, script: None });
@@ -76,7 +81,9 @@ fn a_goal_is_judged_in_the_net_and_prev_sees_the_restart() {
 fn rewards_of_the_last_step_see_the_end() {
     let mut code = Code::default();
     let value = code.number(3.0);
-    for (qualifier, term) in [(None, 0), (Some(Qualifier::Success), 1), (Some(Qualifier::Failure), 2)] {
+    for (qualifier, term) in
+        [(None, 0), (Some(Qualifier::Success), 1), (Some(Qualifier::Failure), 2)]
+    {
         let filter = EventFilter { kind: EventKind::End, qualifier, by: None, to: None };
         let fold = Fold { kind: FoldKind::Nothing, value: None, guard: None };
         code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 1, fold })));
@@ -135,7 +142,10 @@ fn judging_and_observing_allocate_nothing() {
             game.step = step;
             events.clear();
             for _ in 0..4 {
-                events.push(Event { tick: step, ..event(EventKind::Touch, Some(Team::Left), Some(0)) });
+                events.push(Event {
+                    tick: step,
+                    ..event(EventKind::Touch, Some(Team::Left), Some(0))
+                });
             }
             if step == 49 {
                 events.push(event(EventKind::Goal, Some(Team::Left), Some(0)));
@@ -165,12 +175,19 @@ fn what_a_program_looks_back_at_is_kept() {
     game.limit_steps = Some(400);
     game.players[11].fatigue = 0.5;
     for &field in Field::ALL {
-        let program = Program { code: vec![Instr::Load { field, of: None, when: When::Prev }], ..Program::default() };
+        let program = Program {
+            code: vec![Instr::Load { field, of: None, when: When::Prev }],
+            ..Program::default()
+        };
         let mut view = MatchView::EMPTY;
         view.keep(&game, ViewMemory::of(&program));
         for of in [0.0, 1.0, 11.0] {
-            let (kept, live) = (Sight::Kept(&view).load(field, of), Sight::Live(&game).load(field, of));
-            assert!(kept == live || kept.is_nan() && live.is_nan(), "{field:?} of {of}: {kept} {live}");
+            let (kept, live) =
+                (Sight::Kept(&view).load(field, of), Sight::Live(&game).load(field, of));
+            assert!(
+                kept == live || kept.is_nan() && live.is_nan(),
+                "{field:?} of {of}: {kept} {live}"
+            );
         }
     }
 }

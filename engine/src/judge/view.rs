@@ -104,12 +104,33 @@ impl MatchView {
             ViewMemory::Nothing => Ok(()),
             ViewMemory::ButPlayers => {
                 // The limit is the match's, which a reset has shown.
-                let MatchView { ball, ball_vel, owner, possession, players, score, mode, dead, step, limit_steps } =
-                    *self;
+                let MatchView {
+                    ball,
+                    ball_vel,
+                    owner,
+                    possession,
+                    players,
+                    score,
+                    mode,
+                    dead,
+                    step,
+                    limit_steps,
+                } = *self;
                 let mut kept = (ball, ball_vel, owner, possession, score, mode, dead, step);
                 archive.value(name, &mut kept)?;
                 let (ball, ball_vel, owner, possession, score, mode, dead, step) = kept;
-                *self = MatchView { ball, ball_vel, owner, possession, players, score, mode, dead, step, limit_steps };
+                *self = MatchView {
+                    ball,
+                    ball_vel,
+                    owner,
+                    possession,
+                    players,
+                    score,
+                    mode,
+                    dead,
+                    step,
+                    limit_steps,
+                };
                 Ok(())
             }
             ViewMemory::All => archive.value(name, self),
@@ -141,7 +162,11 @@ impl MatchView {
     pub fn on_pitch(&self, team: Option<Team>) -> impl Iterator<Item = (usize, &PlayerView)> {
         let ids = ids(team);
         let first = ids.start;
-        self.players[ids].iter().enumerate().filter(|(_, p)| p.active).map(move |(i, p)| (first + i, p))
+        self.players[ids]
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| p.active)
+            .map(move |(i, p)| (first + i, p))
     }
 }
 
@@ -207,7 +232,9 @@ impl Sight<'_> {
         match (self, self.player(id)) {
             (_, None) => f64::NAN,
             (Sight::Kept(_), Some(player)) => player.controlled.into(),
-            (Sight::Live(game), Some(_)) => game.agents.iter().any(|agent| player_number(agent.player) == id).into(),
+            (Sight::Live(game), Some(_)) => {
+                game.agents.iter().any(|agent| player_number(agent.player) == id).into()
+            }
         }
     }
 
@@ -276,10 +303,18 @@ impl Sight<'_> {
             Field::PlayerY => self.player(of).map_or(f64::NAN, |player| player.pos[1].into()),
             Field::PlayerVx => self.player(of).map_or(f64::NAN, |player| player.vel[0].into()),
             Field::PlayerVy => self.player(of).map_or(f64::NAN, |player| player.vel[1].into()),
-            Field::PlayerHeading => self.player(of).map_or(f64::NAN, |player| player.heading_rad.into()),
-            Field::PlayerFatigue => self.player(of).map_or(f64::NAN, |player| player.fatigue.into()),
-            Field::PlayerYellowCards => self.player(of).map_or(f64::NAN, |player| player.yellow_cards.into()),
-            Field::PlayerRole => self.player(of).map_or(f64::NAN, |player| player.role.index() as f64),
+            Field::PlayerHeading => {
+                self.player(of).map_or(f64::NAN, |player| player.heading_rad.into())
+            }
+            Field::PlayerFatigue => {
+                self.player(of).map_or(f64::NAN, |player| player.fatigue.into())
+            }
+            Field::PlayerYellowCards => {
+                self.player(of).map_or(f64::NAN, |player| player.yellow_cards.into())
+            }
+            Field::PlayerRole => {
+                self.player(of).map_or(f64::NAN, |player| player.role.index() as f64)
+            }
             Field::PlayerActive => self.player(of).map_or(f64::NAN, |player| player.active.into()),
             Field::PlayerControlled => self.is_controlled(of),
             Field::Possession
@@ -297,13 +332,19 @@ impl Sight<'_> {
     #[inline(never)]
     fn load_of_match(self, field: Field, of: f64) -> f64 {
         let (possession, score, mode, dead, step, limit_steps) = match self {
-            Sight::Live(game) => (game.possession, game.score, game.mode, game.dead, game.step, game.limit_steps),
-            Sight::Kept(view) => (view.possession, view.score, view.mode, view.dead, view.step, view.limit_steps),
+            Sight::Live(game) => {
+                (game.possession, game.score, game.mode, game.dead, game.step, game.limit_steps)
+            }
+            Sight::Kept(view) => {
+                (view.possession, view.score, view.mode, view.dead, view.step, view.limit_steps)
+            }
         };
         match (field, team_of_number(of)) {
             (Field::Possession, _) => team_number(possession),
             (Field::Score, Some(team)) => score[team.index()].into(),
-            (Field::TeamHasBall, Some(team)) => self.owner().is_some_and(|owner| owner.team() == team).into(),
+            (Field::TeamHasBall, Some(team)) => {
+                self.owner().is_some_and(|owner| owner.team() == team).into()
+            }
             (Field::OffsideLine, Some(team)) => self.offside_line_m(team),
             (Field::Elapsed, _) => f64::from(step) / STEPS_PER_S,
             (Field::Remaining, _) => remaining_s(step, limit_steps),

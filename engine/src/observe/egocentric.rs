@@ -24,7 +24,12 @@ const MOST: f32 = 4.0;
 ///
 /// # Errors
 /// [`ObserveError`] for unknown agents, or a buffer of another size; nothing is written then.
-pub fn egocentric(game: &Match, agent: usize, team: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+pub fn egocentric(
+    game: &Match,
+    agent: usize,
+    team: usize,
+    out: &mut [f32],
+) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), size(team))?;
     out.fill(0.0);
@@ -42,7 +47,12 @@ pub fn egocentric(game: &Match, agent: usize, team: usize, out: &mut [f32]) -> R
     pen.all((me.vel * (side / SPEED_MPS)).to_array(), 2.0);
     pen.all((me.body.facing * side).to_array(), 1.0);
     pen.one(me.fatigue, 1.0);
-    pen.all(std::array::from_fn::<f32, { StickyAction::DEFAULT_SET }, _>(|bit| f32::from(slot.sticky >> bit & 1)), 1.0);
+    pen.all(
+        std::array::from_fn::<f32, { StickyAction::DEFAULT_SET }, _>(|bit| {
+            f32::from(slot.sticky >> bit & 1)
+        }),
+        1.0,
+    );
     let ball = game.ball.pos.truncate() * side - own;
     pen.all((ball / unit).to_array(), MOST);
     pen.one((game.ball.pos.z / HEIGHT_M).max(0.0), 1.0);
@@ -62,11 +72,21 @@ pub fn egocentric(game: &Match, agent: usize, team: usize, out: &mut [f32]) -> R
     );
     pen.all(((goal - own) / unit).to_array(), MOST);
     pen.all(((-goal - own) / unit).to_array(), MOST);
-    pen.all(std::array::from_fn::<f32, 7, _>(|mode| f32::from(u8::from(mode == game.mode.index()))), 1.0);
-    pen.one(f32::from(u8::from(game.play.set_piece.is_some_and(|piece| piece.team == slot.team))), 1.0);
+    pen.all(
+        std::array::from_fn::<f32, 7, _>(|mode| f32::from(u8::from(mode == game.mode.index()))),
+        1.0,
+    );
+    pen.one(
+        f32::from(u8::from(game.play.set_piece.is_some_and(|piece| piece.team == slot.team))),
+        1.0,
+    );
     let [ours, theirs] = frame.teams().map(|team| f32::from(game.score[team.index()]));
     pen.one((ours - theirs) / GOALS, 1.0);
-    pen.one(game.limit_steps.map_or(0.0, |limit| limit.saturating_sub(game.step) as f32 / limit.max(1) as f32), 1.0);
+    pen.one(
+        game.limit_steps
+            .map_or(0.0, |limit| limit.saturating_sub(game.step) as f32 / limit.max(1) as f32),
+        1.0,
+    );
     pen.one((offside::line(game, slot.team) - own.x) / unit, MOST);
     pen.all([f32::from(u8::from(me.role == Role::GK)), 1.0], 1.0);
 

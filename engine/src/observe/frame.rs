@@ -35,7 +35,10 @@ impl<'a> SideFrame<'a> {
     /// Normalised place.
     pub(super) fn place_of(self, metres: Vec2) -> [f64; 2] {
         // Adding 0 folds -0.0.
-        [self.side() * f64::from(metres.x) / X_SCALE_M + 0.0, self.side() * f64::from(metres.y) / Y_SCALE_M + 0.0]
+        [
+            self.side() * f64::from(metres.x) / X_SCALE_M + 0.0,
+            self.side() * f64::from(metres.y) / Y_SCALE_M + 0.0,
+        ]
     }
 
     /// Normalised displacement per step.

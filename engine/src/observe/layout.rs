@@ -62,7 +62,10 @@ impl Layout {
     /// The bounds of every number; written values are clamped to them.
     pub fn bounds(&self) -> (Vec<f32>, Vec<f32>) {
         let over = |bounds: fn(&Block) -> &Vec<f32>| {
-            self.blocks.iter().flat_map(|block| bounds(block).iter().copied().cycle().take(block.len)).collect()
+            self.blocks
+                .iter()
+                .flat_map(|block| bounds(block).iter().copied().cycle().take(block.len))
+                .collect()
         };
         (over(|block| &block.low), over(|block| &block.high))
     }
@@ -98,7 +101,13 @@ impl Layout {
     }
 
     /// Adds a block whose numbers lie within ± `bounds`, repeated.
-    fn around(self, len: usize, meaning: impl Into<String>, unit: &'static str, bounds: &[f32]) -> Layout {
+    fn around(
+        self,
+        len: usize,
+        meaning: impl Into<String>,
+        unit: &'static str,
+        bounds: &[f32],
+    ) -> Layout {
         self.block(len, meaning, unit, bounds.iter().map(|bound| -bound).collect(), bounds.to_vec())
     }
 
@@ -116,20 +125,34 @@ impl Layout {
         high: Vec<f32>,
     ) -> Layout {
         let start = self.len();
-        self.blocks.push(Block { start, len, meaning: meaning.into(), unit, low, high, scale: None });
+        self.blocks.push(Block {
+            start,
+            len,
+            meaning: meaning.into(),
+            unit,
+            low,
+            high,
+            scale: None,
+        });
         self
     }
 
     /// The end of `simple115` and `simple115v2`: the ball, its owner, the controlled player, the
     /// game mode.
     fn ball_and_modes(self) -> Layout {
-        self.block(3, "ball x, y, z", "normalised; z in metres", vec![-2.0, -1.5, 0.0], vec![2.0, 1.5, 100.0])
-            .in_units("50 m; z in 10 m", &[SCALED_PLACE[0], SCALED_PLACE[1], 1.0 / SCALE_HEIGHT_M])
-            .around(3, "ball direction", "normalised per step; z in metres", &[1.0, 1.0, 10.0])
-            .in_units("10 m/s", &[SCALED_STRIDE[0], SCALED_STRIDE[1], STEPS_PER_S as f32 / SCALE_MPS])
-            .shares(3, "who has the ball: nobody, we, they", "one-hot")
-            .shares(11, "the controlled player", "one-hot")
-            .shares(7, "game mode", "one-hot")
+        self.block(
+            3,
+            "ball x, y, z",
+            "normalised; z in metres",
+            vec![-2.0, -1.5, 0.0],
+            vec![2.0, 1.5, 100.0],
+        )
+        .in_units("50 m; z in 10 m", &[SCALED_PLACE[0], SCALED_PLACE[1], 1.0 / SCALE_HEIGHT_M])
+        .around(3, "ball direction", "normalised per step; z in metres", &[1.0, 1.0, 10.0])
+        .in_units("10 m/s", &[SCALED_STRIDE[0], SCALED_STRIDE[1], STEPS_PER_S as f32 / SCALE_MPS])
+        .shares(3, "who has the ball: nobody, we, they", "one-hot")
+        .shares(11, "the controlled player", "one-hot")
+        .shares(7, "game mode", "one-hot")
     }
 }
 
@@ -205,7 +228,11 @@ pub fn egocentric(team: usize) -> Layout {
         .shares(1, "distance of the ball", "128 m")
         .in_units("50 m", &[SCALED_DISTANCE])
         .around(3, "velocity of the ball", "10 m/s", &[6.0])
-        .shares(5, "who has the ball: nobody, I, a mate, an opponent; whether it is in hands", "one-hot, flag")
+        .shares(
+            5,
+            "who has the ball: nobody, I, a mate, an opponent; whether it is in hands",
+            "one-hot, flag",
+        )
         .around(2, "from me to their goal", "54.4 m", &[4.0])
         .in_units("50 m", &[SCALED_WAY])
         .around(2, "from me to our goal", "54.4 m", &[4.0])
@@ -226,7 +253,10 @@ pub fn egocentric(team: usize) -> Layout {
                 vec![0.0, -4.0, -4.0, -4.0, -4.0, 0.0, 0.0],
                 vec![1.0, 4.0, 4.0, 4.0, 4.0, 1.0, 1.0],
             )
-            .in_units("flag; 50 m; 10 m/s; 50 m; flag", &[1.0, SCALED_WAY, SCALED_WAY, 1.0, 1.0, SCALED_DISTANCE, 1.0])
+            .in_units(
+                "flag; 50 m; 10 m/s; 50 m; flag",
+                &[1.0, SCALED_WAY, SCALED_WAY, 1.0, 1.0, SCALED_DISTANCE, 1.0],
+            )
     };
     let mates = (1..team).fold(layout, |layout, i| other(layout, format!("mate {i}")));
     (1..=team).fold(mates, |layout, i| other(layout, format!("opponent {i}")))
@@ -244,5 +274,7 @@ pub const DECLARED_MAX: f32 = 1.0e6;
 
 /// A scenario's own observation, one block per number.
 pub fn declared(names: &[String]) -> Layout {
-    names.iter().fold(Layout::default(), |layout, name| layout.around(1, name, "as declared", &[DECLARED_MAX]))
+    names.iter().fold(Layout::default(), |layout, name| {
+        layout.around(1, name, "as declared", &[DECLARED_MAX])
+    })
 }

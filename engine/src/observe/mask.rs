@@ -24,7 +24,9 @@ pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::FULL_SET
     let slot = slot(game, agent)?;
     let mut mask = [false; Action::FULL_SET];
     mask[Action::Idle.index()] = true;
-    let Some(player) = slot.player.filter(|player| game.player(*player).active) else { return Ok(mask) };
+    let Some(player) = slot.player.filter(|player| game.player(*player).active) else {
+        return Ok(mask);
+    };
     let held = |sticky: StickyAction| slot.sticky >> sticky.index() & 1 == 1;
     let directions = &StickyAction::ALL[..StickyAction::Sprint.index()];
     // A key that is down may stay down; it must be released before it can act again.
@@ -44,14 +46,18 @@ pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::FULL_SET
             | Action::Pressure
             | Action::TeamPressure
             | Action::Sprint
-            | Action::Dribble => StickyAction::from_name(action.name()).is_some_and(|key| !held(key)),
+            | Action::Dribble => {
+                StickyAction::from_name(action.name()).is_some_and(|key| !held(key))
+            }
             Action::ReleaseDirection => directions.iter().any(|direction| held(*direction)),
             Action::ReleaseSprint => held(StickyAction::Sprint),
             Action::ReleaseDribble => held(StickyAction::Dribble),
             Action::ReleaseKeeperRush => held(StickyAction::KeeperRush),
             Action::ReleasePressure => held(StickyAction::Pressure),
             Action::ReleaseTeamPressure => held(StickyAction::TeamPressure),
-            Action::Switch => switching::runner(game, agent).or_else(|| switching::sooner(game, agent)).is_some(),
+            Action::Switch => {
+                switching::runner(game, agent).or_else(|| switching::sooner(game, agent)).is_some()
+            }
             Action::ReleaseLongPass
             | Action::ReleaseHighPass
             | Action::ReleaseShortPass

@@ -117,7 +117,9 @@ fn designated(frame: SideFrame<'_>) -> Option<PlayerId> {
     let ball = frame.game.ball.pos.truncate();
     let active = frame.roster(frame.us).filter(|(_, player)| player.active);
     active
-        .min_by(|(_, a), (_, b)| a.pos.distance_squared(ball).total_cmp(&b.pos.distance_squared(ball)))
+        .min_by(|(_, a), (_, b)| {
+            a.pos.distance_squared(ball).total_cmp(&b.pos.distance_squared(ball))
+        })
         .map(|(id, _)| id)
 }
 

@@ -22,7 +22,13 @@ const MISSING: f32 = 0.0;
 ///
 /// # Errors
 /// [`ObserveError`] for unknown agents, or a buffer of another size; nothing is written then.
-pub fn scaled(game: &Match, agent: usize, of: Scaled, team: usize, out: &mut [f32]) -> Result<(), ObserveError> {
+pub fn scaled(
+    game: &Match,
+    agent: usize,
+    of: Scaled,
+    team: usize,
+    out: &mut [f32],
+) -> Result<(), ObserveError> {
     let factors = match of {
         Scaled::Simple115v2 => {
             write_v2(game, agent, SIMPLE115, MISSING, out)?;

@@ -45,7 +45,9 @@ pub(super) fn write_v2(
     for (block, team) in frame.teams().into_iter().enumerate() {
         let base = block * 4 * TEAM_MAX;
         out[base..base + 4 * TEAM_MAX].fill(missing);
-        for (place, (_, player)) in frame.roster(team).enumerate().filter(|(_, (_, player))| player.active) {
+        for (place, (_, player)) in
+            frame.roster(team).enumerate().filter(|(_, (_, player))| player.active)
+        {
             let at = base + 2 * place;
             write(&mut out[at..at + 2], &frame.place_of(player.pos), &[2.0, 1.5]);
             let at = at + 2 * TEAM_MAX;

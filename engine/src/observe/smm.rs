@@ -30,7 +30,13 @@ pub fn smm_size(width: usize, height: usize) -> usize {
 /// # Errors
 /// [`ObserveError`] for unknown agents, or a buffer whose size isn't [`smm_size`]; nothing is
 /// written then.
-pub fn smm(game: &Match, agent: usize, width: usize, height: usize, out: &mut [u8]) -> Result<(), ObserveError> {
+pub fn smm(
+    game: &Match,
+    agent: usize,
+    width: usize,
+    height: usize,
+    out: &mut [u8],
+) -> Result<(), ObserveError> {
     let slot = slot(game, agent)?;
     check_size(out.len(), smm_size(width, height))?;
     out.fill(0);
@@ -49,7 +55,9 @@ pub fn smm(game: &Match, agent: usize, width: usize, height: usize, out: &mut [u
     }
     let [x, y, _] = frame.ball();
     mark([x, y], 2);
-    if let Some(player) = slot.player.map(|player| game.player(player)).filter(|player| player.active) {
+    if let Some(player) =
+        slot.player.map(|player| game.player(player)).filter(|player| player.active)
+    {
         mark(frame.place_of(player.pos), 3);
     }
     Ok(())

@@ -15,7 +15,8 @@ fn game() -> Match {
     ]);
     let bindings = setpiece_scenario::Bindings::default();
     let roster = crate::draw::Roster::new(&scenario, &bindings, None).unwrap();
-    let drawn = crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
+    let drawn =
+        crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
     let mut game = begin::blank(&drawn);
     game.agents.clear();
     for (team, player) in [(Team::Left, 1), (Team::Right, 11)] {
@@ -67,7 +68,10 @@ fn the_right_team_sees_itself_on_the_left() {
     near(&out[88..97], &[-0.5, 0.1, 0.5, 0.0, -0.01, 0.2, 0.0, 0.0, 1.0]);
     near(&out[97..100], &[1.0, 0.0, 0.0]);
     let raw = raw(&game(), 1).unwrap();
-    assert_eq!((raw.score, raw.ball_owned_team, raw.ball_owned_player, raw.active), ([1, 2], 1, 1, 0));
+    assert_eq!(
+        (raw.score, raw.ball_owned_team, raw.ball_owned_player, raw.active),
+        ([1, 2], 1, 1, 0)
+    );
     assert!(out.iter().all(|value| value.to_bits() != (-0.0f32).to_bits()));
 }
 
@@ -93,7 +97,10 @@ fn blocks_cover_the_vector_and_bounds_hold() {
         let mut next = 0;
         for block in &layout.blocks {
             assert_eq!(block.start, next);
-            assert!(block.low.len() == block.high.len() && block.len.is_multiple_of(block.low.len()), "{block:?}");
+            assert!(
+                block.low.len() == block.high.len() && block.len.is_multiple_of(block.low.len()),
+                "{block:?}"
+            );
             next += block.len;
         }
         let (low, high) = layout.bounds();
@@ -136,14 +143,22 @@ fn raw_tells_everything() {
     assert_eq!(raw.left.roles[1], 9);
     assert_eq!((raw.active, raw.designated, raw.game_mode, raw.steps_left), (1, 1, 4, 50));
     assert_eq!(raw.sticky_actions, [0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0]);
-    assert!((raw.ball_direction[1] - 0.01).abs() < 1e-6 && (raw.ball_direction[2] - 0.2).abs() < 1e-6);
+    assert!(
+        (raw.ball_direction[1] - 0.01).abs() < 1e-6 && (raw.ball_direction[2] - 0.2).abs() < 1e-6
+    );
 }
 
 #[test]
 fn sizes_and_agents_are_checked() {
     let game = game();
-    assert_eq!(simple115v2(&game, 0, &mut [0.0; 3]), Err(ObserveError::Size { expected: 115, found: 3 }));
-    assert_eq!(simple115v2(&game, 2, &mut [0.0; 115]), Err(ObserveError::Agent { agent: 2, n_agents: 2 }));
+    assert_eq!(
+        simple115v2(&game, 0, &mut [0.0; 3]),
+        Err(ObserveError::Size { expected: 115, found: 3 })
+    );
+    assert_eq!(
+        simple115v2(&game, 2, &mut [0.0; 115]),
+        Err(ObserveError::Agent { agent: 2, n_agents: 2 })
+    );
     assert!(smm(&game, 0, 96, 72, &mut [0; 5]).is_err());
     assert!(raw(&game, 5).is_err() && action_mask(&game, 5).is_err());
 }
@@ -156,7 +171,12 @@ fn the_mask_leaves_what_can_matter() {
     game.agents[0].sticky = 1 << StickyAction::Right.index() | 1 << StickyAction::Sprint.index();
     let mask = action_mask(&game, 0).unwrap();
     let open = |action: Action| mask[action.index()];
-    assert!(open(Action::Idle) && open(Action::Left) && open(Action::ReleaseDirection) && open(Action::Shot));
+    assert!(
+        open(Action::Idle)
+            && open(Action::Left)
+            && open(Action::ReleaseDirection)
+            && open(Action::Shot)
+    );
     assert!(!open(Action::Right) && !open(Action::Sprint) && open(Action::ReleaseSprint));
     assert!(open(Action::Dribble) && !open(Action::ReleaseDribble) && !open(Action::Sliding));
     // The goalkeeper of the other side has no ball to pass.
@@ -196,8 +216,11 @@ fn egocentric_is_seen_from_the_player() {
     let way = (mate.pos - me.pos) / 54.4;
     near(&out[46..49], &[1.0, way.x, way.y]);
     let (low, high) = layout::egocentric(team).bounds();
-    let within =
-        |out: &[f32]| out.iter().zip(low.iter().zip(&high)).all(|(value, (low, high))| (low..=high).contains(&value));
+    let within = |out: &[f32]| {
+        out.iter()
+            .zip(low.iter().zip(&high))
+            .all(|(value, (low, high))| (low..=high).contains(&value))
+    };
     assert!(within(&out));
     game.ball.pos = Vec3::new(1e6, -1e6, 1e6);
     game.ball.vel = Vec3::splat(-1e6);
@@ -229,11 +252,17 @@ fn the_held_keys_stand_behind_simple115v2() {
     assert_eq!(sticky[115..], [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
     // They are those of GRF's `sticky_actions`, in its order.
     let raw = raw(&game, 0).unwrap();
-    assert_eq!(sticky[115..], std::array::from_fn::<f32, 10, _>(|bit| f32::from(raw.sticky_actions[bit])));
+    assert_eq!(
+        sticky[115..],
+        std::array::from_fn::<f32, 10, _>(|bit| f32::from(raw.sticky_actions[bit]))
+    );
     // Each agent sees its own keys.
     simple115v2_sticky(&game, 1, &mut sticky).unwrap();
     assert_eq!(sticky[115..], [0.0; 10]);
-    assert_eq!(simple115v2_sticky(&game, 0, &mut [0.0; 115]), Err(ObserveError::Size { expected: 125, found: 115 }));
+    assert_eq!(
+        simple115v2_sticky(&game, 0, &mut [0.0; 115]),
+        Err(ObserveError::Size { expected: 125, found: 115 })
+    );
 }
 
 #[test]
@@ -246,7 +275,10 @@ fn scaled_numbers_are_in_metres_and_seconds() {
     near(&out[0..4], &[-54.4, 0.0, 27.2, 8.36].map(length));
     near(&out[22..26], &[0.0, 0.0, 5.44, -8.36].map(speed));
     near(&out[44..46], &[54.4, 0.0].map(length));
-    near(&out[88..94], &[length(27.2), length(-8.36), 0.5 / 10.0, speed(0.0), speed(8.36), speed(2.0)]);
+    near(
+        &out[88..94],
+        &[length(27.2), length(-8.36), 0.5 / 10.0, speed(0.0), speed(8.36), speed(2.0)],
+    );
     // Flags stay as they are, and a missing player is 0.
     let mut plain = [9.0; layout::SIMPLE115_STICKY];
     simple115v2_sticky(&game, 0, &mut plain).unwrap();
@@ -267,11 +299,13 @@ fn scaled_numbers_are_in_metres_and_seconds() {
 fn scaled_egocentric_has_one_unit_of_length() {
     let game = game();
     for team in [2, 11] {
-        let (mut plain, mut out) = (vec![9.0; egocentric_size(team)], vec![9.0; egocentric_size(team)]);
+        let (mut plain, mut out) =
+            (vec![9.0; egocentric_size(team)], vec![9.0; egocentric_size(team)]);
         egocentric(&game, 0, team, &mut plain).unwrap();
         scaled(&game, 0, Scaled::Egocentric, team, &mut out).unwrap();
         let factors = layout::egocentric(team).factors();
-        let times: Vec<f32> = plain.iter().zip(&factors).map(|(value, factor)| value * factor).collect();
+        let times: Vec<f32> =
+            plain.iter().zip(&factors).map(|(value, factor)| value * factor).collect();
         assert_eq!(out, times);
     }
     let (me, ball) = (Vec2::new(27.2, 8.36), Vec2::new(27.2, -8.36));
@@ -304,7 +338,10 @@ fn scaled_bounds_hold() {
                 assert!((low[at]..=high[at]).contains(value), "{at}: {value}");
             }
         }
-        assert_eq!(scaled(&game, 0, of, 2, &mut [0.0; 3]), Err(ObserveError::Size { expected: out.len(), found: 3 }));
+        assert_eq!(
+            scaled(&game, 0, of, 2, &mut [0.0; 3]),
+            Err(ObserveError::Size { expected: out.len(), found: 3 })
+        );
     }
 }
 
@@ -312,11 +349,19 @@ fn scaled_bounds_hold() {
 fn flags_and_shares_are_never_scaled() {
     for layout in [layout::simple115v2_sticky(), layout::egocentric(11)] {
         for (plain, scaled) in layout.blocks.iter().zip(layout.clone().scaled().blocks) {
-            let kept = ["one-hot", "flag", "flags", "share", "0 fresh", "flags of `sticky_actions`"];
+            let kept =
+                ["one-hot", "flag", "flags", "share", "0 fresh", "flags of `sticky_actions`"];
             if kept.iter().any(|unit| plain.unit.starts_with(unit)) && plain.len != layout::OTHER {
-                assert_eq!((&plain.low, &plain.high, plain.unit), (&scaled.low, &scaled.high, scaled.unit));
+                assert_eq!(
+                    (&plain.low, &plain.high, plain.unit),
+                    (&scaled.low, &scaled.high, scaled.unit)
+                );
             }
-            assert!(!scaled.unit.contains("54.4") && !scaled.unit.contains("normalised"), "{}", scaled.unit);
+            assert!(
+                !scaled.unit.contains("54.4") && !scaled.unit.contains("normalised"),
+                "{}",
+                scaled.unit
+            );
         }
     }
 }

@@ -11,9 +11,9 @@
 
 use super::Ball;
 use super::constants::{
-    AIR_DRAG, BALL_RADIUS, BOUNCE, BOUNCE_FRICTION, BOUNCE_GRIP, BOUNCE_LEAST, BOUNCE_LOSS, GRASS_DEPTH, GRAVITY,
-    MAGNUS, MAGNUS_SPEED_MAX, MAGNUS_SPIN_MAX, ROLL_DRAG, ROLL_DRAG_SQUARE, ROLL_SPIN_SHARE, ROLL_TWIST_DECAY,
-    SPIN_DECAY, TICK_S,
+    AIR_DRAG, BALL_RADIUS, BOUNCE, BOUNCE_FRICTION, BOUNCE_GRIP, BOUNCE_LEAST, BOUNCE_LOSS,
+    GRASS_DEPTH, GRAVITY, MAGNUS, MAGNUS_SPEED_MAX, MAGNUS_SPIN_MAX, ROLL_DRAG, ROLL_DRAG_SQUARE,
+    ROLL_SPIN_SHARE, ROLL_TWIST_DECAY, SPIN_DECAY, TICK_S,
 };
 use glam::{Vec2, Vec3};
 
@@ -55,8 +55,11 @@ pub(super) fn push(ball: &mut Ball) {
 /// The sideways pull on a spinning ball, m/s².
 pub(super) fn magnus(spin: Vec3, vel: Vec3, speed: f32) -> Vec3 {
     let spin_squared = spin.length_squared();
-    let share =
-        if spin_squared > MAGNUS_SPIN_MAX * MAGNUS_SPIN_MAX { MAGNUS_SPIN_MAX / spin_squared.sqrt() } else { 1.0 };
+    let share = if spin_squared > MAGNUS_SPIN_MAX * MAGNUS_SPIN_MAX {
+        MAGNUS_SPIN_MAX / spin_squared.sqrt()
+    } else {
+        1.0
+    };
     spin.cross(vel) * (MAGNUS * share * speed.min(MAGNUS_SPEED_MAX))
 }
 
@@ -100,7 +103,8 @@ pub(super) fn land(ball: &mut Ball) {
 /// Applies friction in a bounce: it acts against the sliding of the lowest point, and spins the
 /// ball as it slows it.
 fn grip(ball: &mut Ball, impact: f32) {
-    let sliding = Vec2::new(ball.vel.x - BALL_RADIUS * ball.spin.y, ball.vel.y + BALL_RADIUS * ball.spin.x);
+    let sliding =
+        Vec2::new(ball.vel.x - BALL_RADIUS * ball.spin.y, ball.vel.y + BALL_RADIUS * ball.spin.x);
     let speed = sliding.length();
     if speed == 0.0 {
         return;

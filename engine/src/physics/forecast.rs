@@ -109,7 +109,9 @@ impl Forecast {
 
     /// Whether the forecast covers a tick and the ball is where it predicted.
     pub fn holds(&self, ball: &Ball, tick: u32) -> bool {
-        tick >= self.from_tick && tick - self.from_tick < 100 && self.at(tick).distance_squared(ball.pos) < 0.15 * 0.15
+        tick >= self.from_tick
+            && tick - self.from_tick < 100
+            && self.at(tick).distance_squared(ball.pos) < 0.15 * 0.15
     }
 }
 

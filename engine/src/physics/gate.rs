@@ -24,7 +24,10 @@ pub(super) fn near_goal(ball: &Ball) -> bool {
 }
 
 /// The bodies that the ball can meet within a tick, nearest first, at most [`BODIES_MAX`].
-pub(super) fn near_bodies(ball: &Ball, bodies: &[BallObstacle]) -> ArrayVec<BallObstacle, BODIES_MAX> {
+pub(super) fn near_bodies(
+    ball: &Ball,
+    bodies: &[BallObstacle],
+) -> ArrayVec<BallObstacle, BODIES_MAX> {
     const REACH: f32 = BALL_RADIUS + BODY_RADIUS + NEAR;
     let mut found: ArrayVec<(f32, BallObstacle), BODIES_MAX> = ArrayVec::new();
     for body in bodies {
@@ -51,6 +54,7 @@ pub(super) fn near_bodies(ball: &Ball, bodies: &[BallObstacle]) -> ArrayVec<Ball
 /// The least distance from the origin of a point that moves from `from` by `by`.
 fn closest_approach(from: Vec2, by: Vec2) -> f32 {
     let length_squared = by.length_squared();
-    let share = if length_squared > 0.0 { (-from.dot(by) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+    let share =
+        if length_squared > 0.0 { (-from.dot(by) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
     (from + by * share).length()
 }

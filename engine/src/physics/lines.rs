@@ -67,15 +67,25 @@ mod tests {
         assert_eq!(crossed_goal_line(Vec3::new(55.0, 3.8, 1.0), Vec3::new(55.4, 3.8, 1.0)), None);
         assert_eq!(crossed_goal_line(Vec3::new(55.0, 0.0, 2.7), Vec3::new(55.4, 0.0, 2.6)), None);
         assert_eq!(crossed_goal_line(Vec3::new(55.4, 0.0, 1.0), Vec3::new(55.1, 0.0, 1.0)), None);
-        assert_eq!(crossed_goal_line(Vec3::new(55.2, 0.0, 1.0), Vec3::new(55.5, 0.0, 1.0)), None, "over before");
+        assert_eq!(
+            crossed_goal_line(Vec3::new(55.2, 0.0, 1.0), Vec3::new(55.5, 0.0, 1.0)),
+            None,
+            "over before"
+        );
     }
 
     #[test]
     fn what_counts_is_where_the_path_crosses_the_line() {
         // Under the bar at the line, though above it before; beside the post after, though inside
         // at the line.
-        assert_eq!(crossed_goal_line(Vec3::new(54.97, 0.0, 2.55), Vec3::new(55.37, 0.0, 2.35)), Some(Team::Right));
-        assert_eq!(crossed_goal_line(Vec3::new(55.07, 3.5, 1.0), Vec3::new(55.47, 3.9, 1.0)), Some(Team::Right));
+        assert_eq!(
+            crossed_goal_line(Vec3::new(54.97, 0.0, 2.55), Vec3::new(55.37, 0.0, 2.35)),
+            Some(Team::Right)
+        );
+        assert_eq!(
+            crossed_goal_line(Vec3::new(55.07, 3.5, 1.0), Vec3::new(55.47, 3.9, 1.0)),
+            Some(Team::Right)
+        );
     }
 
     #[test]

@@ -7,8 +7,8 @@
 
 use super::Ball;
 use super::constants::{
-    AIR_DRAG, BALL_RADIUS, BOUNCE_LEAST, GRASS_DEPTH, GRAVITY, MAGNUS, MAGNUS_SPIN_MAX, ROLL_DRAG, ROLL_DRAG_SQUARE,
-    ROLL_SPIN_SHARE, ROLL_TWIST_DECAY, SPIN_DECAY, TICK_S,
+    AIR_DRAG, BALL_RADIUS, BOUNCE_LEAST, GRASS_DEPTH, GRAVITY, MAGNUS, MAGNUS_SPIN_MAX, ROLL_DRAG,
+    ROLL_DRAG_SQUARE, ROLL_SPIN_SHARE, ROLL_TWIST_DECAY, SPIN_DECAY, TICK_S,
 };
 use super::flight;
 use glam::{Vec2, Vec3};
@@ -113,7 +113,11 @@ impl Stride {
     fn fly(&self, ball: &Ball) -> Ball {
         let force = |vel: Vec3| {
             let speed = vel.length();
-            let turn = if ball.spin == Vec3::ZERO { Vec3::ZERO } else { flight::magnus(ball.spin, vel, speed) };
+            let turn = if ball.spin == Vec3::ZERO {
+                Vec3::ZERO
+            } else {
+                flight::magnus(ball.spin, vel, speed)
+            };
             turn - vel * (AIR_DRAG * speed) - Vec3::new(0.0, 0.0, GRAVITY)
         };
         let middle = ball.vel + force(ball.vel) * (0.5 * self.seconds);

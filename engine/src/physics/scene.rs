@@ -7,15 +7,19 @@
 //! Gravity isn't either: all forces are in the ball's velocity before rapier sees it.
 
 use super::constants::{
-    BALL_INERTIA_SHARE, BALL_MASS, BALL_RADIUS, BODY_BOUNCE, BODY_FRICTION, BODY_LENGTH, BODY_RADIUS, FRAME_BOUNCE,
-    FRAME_FRICTION, FRAME_RADIUS, NET_BOUNCE, NET_FRICTION, NET_HALF, TICK_S,
+    BALL_INERTIA_SHARE, BALL_MASS, BALL_RADIUS, BODY_BOUNCE, BODY_FRICTION, BODY_LENGTH,
+    BODY_RADIUS, FRAME_BOUNCE, FRAME_FRICTION, FRAME_RADIUS, NET_BOUNCE, NET_FRICTION, NET_HALF,
+    TICK_S,
 };
 use glam::Vec3;
 use rapier3d::dynamics::{
-    CCDSolver, CoefficientCombineRule, ImpulseJointSet, IntegrationParameters, IslandManager, MassProperties,
-    MultibodyJointSet, RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SoftBodySet,
+    CCDSolver, CoefficientCombineRule, ImpulseJointSet, IntegrationParameters, IslandManager,
+    MassProperties, MultibodyJointSet, RigidBodyBuilder, RigidBodyHandle, RigidBodySet,
+    SoftBodySet,
 };
-use rapier3d::geometry::{BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SharedShape};
+use rapier3d::geometry::{
+    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SharedShape,
+};
 use rapier3d::math::Pose;
 use rapier3d::pipeline::PhysicsPipeline;
 use setpiece_scenario::pitch;
@@ -98,12 +102,14 @@ impl RapierWorld {
                 .ccd_enabled(bodies > 0)
                 .additional_mass_properties(MassProperties::new(Vec3::ZERO, BALL_MASS, inertia)),
         );
-        let ball_shape = ColliderBuilder::ball(BALL_RADIUS).density(0.0).restitution(1.0).friction(1.0);
+        let ball_shape =
+            ColliderBuilder::ball(BALL_RADIUS).density(0.0).restitution(1.0).friction(1.0);
         let ball_collider = colliders.insert_with_parent(ball_shape, ball, &mut rigid);
         let bodies = std::array::from_fn(|i| {
             (i < bodies).then(|| {
                 let aside = Vec3::new(-20.0 - 5.0 * i as f32, 0.0, 0.0);
-                let handle = rigid.insert(RigidBodyBuilder::kinematic_velocity_based().translation(aside));
+                let handle =
+                    rigid.insert(RigidBodyBuilder::kinematic_velocity_based().translation(aside));
                 colliders.insert_with_parent(body(i), handle, &mut rigid);
                 handle
             })
@@ -200,10 +206,12 @@ fn frame() -> ColliderBuilder {
 
 /// Sides, rear and top of the net, tight between the frame and the rear.
 fn net() -> ColliderBuilder {
-    let panel =
-        |centre: Vec3, half: Vec3| (Pose::from_translation(centre), SharedShape::cuboid(half.x, half.y, half.z));
+    let panel = |centre: Vec3, half: Vec3| {
+        (Pose::from_translation(centre), SharedShape::cuboid(half.x, half.y, half.z))
+    };
     let (middle, reach) = (GOAL_X + 0.5 * DEPTH, 0.5 * DEPTH);
-    let side = |y: f32| panel(Vec3::new(middle, y, 0.5 * BAR_Z), Vec3::new(reach, NET_HALF, 0.5 * BAR_Z));
+    let side =
+        |y: f32| panel(Vec3::new(middle, y, 0.5 * BAR_Z), Vec3::new(reach, NET_HALF, 0.5 * BAR_Z));
     ColliderBuilder::compound(vec![
         side(-POST_Y),
         side(POST_Y),

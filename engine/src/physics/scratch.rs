@@ -40,7 +40,13 @@ impl Default for Scratch {
         let mut workspace = Workspace::default();
         let templates: [RapierWorld; BODIES_MAX + 1] =
             std::array::from_fn(|bodies| RapierWorld::template(bodies, &mut workspace));
-        Scratch { live: templates[0].clone(), templates, workspace, laps: Laps::default(), rigid: 0 }
+        Scratch {
+            live: templates[0].clone(),
+            templates,
+            workspace,
+            laps: Laps::default(),
+            rigid: 0,
+        }
     }
 }
 

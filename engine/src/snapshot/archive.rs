@@ -38,8 +38,8 @@ impl<'a> Archive<'a> {
         matches!(self.way, ArchiveWay::In(_))
     }
 
-    /// Writes two parts in the other order than they are archived in: `first` is called when `second` has been, and
-    /// stands before it. They are read in the order in which they stand.
+    /// Writes two parts in the other order than they are archived in: `first` is called when
+    /// `second` has been, and stands before it. They are read in the order in which they stand.
     pub(crate) fn in_order<C>(
         &mut self,
         context: &mut C,
@@ -76,11 +76,15 @@ impl<'a> Archive<'a> {
     }
 
     /// Writes a value; no-op while reading.
-    pub(super) fn put<T: Serialize + ?Sized>(&mut self, name: &str, value: &T) -> Result<(), SnapshotError> {
+    pub(super) fn put<T: Serialize + ?Sized>(
+        &mut self,
+        name: &str,
+        value: &T,
+    ) -> Result<(), SnapshotError> {
         if let ArchiveWay::Out(bytes) = &mut self.way {
             let behind = Growing(std::mem::take(bytes));
-            *bytes =
-                postcard::serialize_with_flavor(value, behind).map_err(|why| fault(format_args!("{name}"), why))?;
+            *bytes = postcard::serialize_with_flavor(value, behind)
+                .map_err(|why| fault(format_args!("{name}"), why))?;
         }
         Ok(())
     }
@@ -98,12 +102,19 @@ impl<'a> Archive<'a> {
     }
 
     /// Reads a value. May only be called while reading.
-    pub(crate) fn read<T: Serialize + DeserializeOwned>(&mut self, name: &str) -> Result<T, SnapshotError> {
+    pub(crate) fn read<T: Serialize + DeserializeOwned>(
+        &mut self,
+        name: &str,
+    ) -> Result<T, SnapshotError> {
         self.read_at(format_args!("{name}"))
     }
 
-    fn read_at<T: Serialize + DeserializeOwned>(&mut self, name: fmt::Arguments<'_>) -> Result<T, SnapshotError> {
-        let (value, rest) = postcard::take_from_bytes::<T>(self.rest()).map_err(|why| fault(name, why))?;
+    fn read_at<T: Serialize + DeserializeOwned>(
+        &mut self,
+        name: fmt::Arguments<'_>,
+    ) -> Result<T, SnapshotError> {
+        let (value, rest) =
+            postcard::take_from_bytes::<T>(self.rest()).map_err(|why| fault(name, why))?;
         walk(&value).map_err(|fault| {
             let NumberPlace { place, why } = fault.found();
             SnapshotError::damaged(format!("{name}{place}"), why)
@@ -140,7 +151,9 @@ impl<'a> Archive<'a> {
         content: impl FnOnce(&mut Self) -> Result<(), SnapshotError>,
     ) -> Result<(), SnapshotError> {
         content(self).map_err(|error| match error {
-            SnapshotError::Damaged { place, why } => SnapshotError::damaged(format!("{name}.{place}"), why),
+            SnapshotError::Damaged { place, why } => {
+                SnapshotError::damaged(format!("{name}.{place}"), why)
+            }
             other => other,
         })
     }

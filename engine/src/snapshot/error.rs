@@ -12,7 +12,9 @@ pub enum SnapshotError {
     #[error("not a snapshot: its header isn't recognised")]
     NotASnapshot,
     /// It was taken by another version.
-    #[error("the snapshot has version {0}; this build reads version {SNAPSHOT_VERSION}: take it again")]
+    #[error(
+        "the snapshot has version {0}; this build reads version {SNAPSHOT_VERSION}: take it again"
+    )]
     Version(u32),
     /// It is truncated.
     #[error("the snapshot is truncated: its end is missing")]
@@ -89,7 +91,9 @@ impl From<HeadError> for SnapshotError {
 
 fn other_scenario(found: &str, expected: &str) -> String {
     if found == expected {
-        format!("the snapshot is of another version of `{expected}`: the scenario has changed since")
+        format!(
+            "the snapshot is of another version of `{expected}`: the scenario has changed since"
+        )
     } else {
         format!("the snapshot is of scenario `{found}`, this environment's is `{expected}`")
     }

@@ -33,7 +33,8 @@ fn busy() -> Match {
     game.play.pending = Some(restart);
     game.play.advantage = Some(Advantage { by: id, victim: id, restart, tick: 0 });
     (game.play.pass, game.play.shot) = (flight, flight);
-    game.play.save[0] = Some(Save { at_tick: 0, from_tick: 0, point: spot, reaches: true, holds: true });
+    game.play.save[0] =
+        Some(Save { at_tick: 0, from_tick: 0, point: spot, reaches: true, holds: true });
     game.play.acting[0].played = Some(Action::Idle);
     let body = &mut game.players[0].body;
     body.intent = Intent::Go(spot, 1.0);
@@ -50,9 +51,13 @@ fn busy() -> Match {
 fn names(value: &Value, path: &str, found: &mut BTreeSet<String>) {
     let kind = match value {
         Value::Object(fields) => {
-            return fields.iter().for_each(|(name, value)| names(value, &format!("{path}.{name}"), found));
+            return fields
+                .iter()
+                .for_each(|(name, value)| names(value, &format!("{path}.{name}"), found));
         }
-        Value::Array(parts) => return parts.iter().for_each(|part| names(part, &format!("{path}[]"), found)),
+        Value::Array(parts) => {
+            return parts.iter().for_each(|part| names(part, &format!("{path}[]"), found));
+        }
         Value::Null => return,
         Value::Bool(_) => "bool",
         Value::Number(number) if number.is_f64() => "float",

@@ -102,8 +102,9 @@ impl Serializer for Walk {
     type SerializeStructVariant = Parts;
 
     free! {
-        serialize_bool: bool, serialize_i8: i8, serialize_i16: i16, serialize_i64: i64, serialize_u8: u8,
-        serialize_u16: u16, serialize_u64: u64, serialize_f64: f64, serialize_char: char, serialize_str: &str,
+        serialize_bool: bool, serialize_i8: i8, serialize_i16: i16, serialize_i64: i64,
+        serialize_u8: u8, serialize_u16: u16, serialize_u64: u64, serialize_f64: f64,
+        serialize_char: char, serialize_str: &str,
         serialize_unit_struct: &'static str,
     }
 
@@ -121,7 +122,11 @@ impl Serializer for Walk {
 
     fn serialize_f32(self, value: f32) -> Result<(), NumberFault> {
         // NaN fails this comparison too.
-        if value.abs() <= FLOAT_MAX { Ok(()) } else { Err(NumberFault::custom(format_args!("is {value}"))) }
+        if value.abs() <= FLOAT_MAX {
+            Ok(())
+        } else {
+            Err(NumberFault::custom(format_args!("is {value}")))
+        }
     }
 
     /// The same as for writing a snapshot, so that the walk covers what is written.
@@ -152,11 +157,20 @@ impl Serializer for Walk {
         Ok(())
     }
 
-    fn serialize_unit_variant(self, _: &'static str, _: u32, _: &'static str) -> Result<(), NumberFault> {
+    fn serialize_unit_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        _: &'static str,
+    ) -> Result<(), NumberFault> {
         Ok(())
     }
 
-    fn serialize_newtype_struct<T: Serialize + ?Sized>(self, _: &'static str, value: &T) -> Result<(), NumberFault> {
+    fn serialize_newtype_struct<T: Serialize + ?Sized>(
+        self,
+        _: &'static str,
+        value: &T,
+    ) -> Result<(), NumberFault> {
         value.serialize(self)
     }
 
@@ -182,7 +196,13 @@ impl Serializer for Walk {
         Ok(Parts(0))
     }
 
-    fn serialize_tuple_variant(self, _: &'static str, _: u32, _: &'static str, _: usize) -> Result<Parts, NumberFault> {
+    fn serialize_tuple_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        _: &'static str,
+        _: usize,
+    ) -> Result<Parts, NumberFault> {
         Ok(Parts(0))
     }
 
@@ -211,7 +231,10 @@ macro_rules! elements {
             type Ok = ();
             type Error = NumberFault;
 
-            fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), NumberFault> {
+            fn serialize_element<T: Serialize + ?Sized>(
+                &mut self,
+                value: &T,
+            ) -> Result<(), NumberFault> {
                 self.next(value)
             }
 
@@ -230,7 +253,10 @@ macro_rules! fields {
             type Ok = ();
             type Error = NumberFault;
 
-            fn serialize_field<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), NumberFault> {
+            fn serialize_field<T: Serialize + ?Sized>(
+                &mut self,
+                value: &T,
+            ) -> Result<(), NumberFault> {
                 self.next(value)
             }
 
@@ -249,7 +275,11 @@ macro_rules! named_fields {
             type Ok = ();
             type Error = NumberFault;
 
-            fn serialize_field<T: Serialize + ?Sized>(&mut self, key: &'static str, value: &T) -> Result<(), NumberFault> {
+            fn serialize_field<T: Serialize + ?Sized>(
+                &mut self,
+                key: &'static str,
+                value: &T,
+            ) -> Result<(), NumberFault> {
                 named(key, value)
             }
 
@@ -276,8 +306,13 @@ mod tests {
         sum: f64,
     }
 
-    const SOUND: Sample =
-        Sample { pos: [1.0, -50.0], lane: [0.5; 3], tick: 7, limit_steps: Some(u32::MAX), sum: f64::INFINITY };
+    const SOUND: Sample = Sample {
+        pos: [1.0, -50.0],
+        lane: [0.5; 3],
+        tick: 7,
+        limit_steps: Some(u32::MAX),
+        sum: f64::INFINITY,
+    };
 
     #[test]
     fn lists_of_floats_are_walked_as_they_are_written() {
@@ -295,7 +330,10 @@ mod tests {
         assert!(walk(&SOUND).is_ok());
         assert_eq!(fault(&Sample { pos: [0.0, f32::NAN], ..SOUND }), "[0].pos[1] is NaN");
         assert_eq!(fault(&Sample { pos: [2.0e4, 0.0], ..SOUND }), "[0].pos[0] is 20000");
-        assert_eq!(fault(&Sample { lane: [0.0, 1.0e4, f32::INFINITY], ..SOUND }), "[0].lane[2] is inf");
+        assert_eq!(
+            fault(&Sample { lane: [0.0, 1.0e4, f32::INFINITY], ..SOUND }),
+            "[0].lane[2] is inf"
+        );
         assert_eq!(fault(&Sample { tick: u32::MAX, ..SOUND }), "[0].tick is 4294967295");
     }
 }

@@ -4,13 +4,15 @@
 use glam::Vec2;
 use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
-use setpiece_scenario::vocabulary::{Role, Stat, Team};
+use setpiece_scenario::vocabulary::{Action, Role, Stat, Team};
 
 /// A tick long before every match.
 pub const NEVER: i32 = -100_000;
 
 /// A player: `team * 11 + index`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+)]
 #[serde(try_from = "u8")]
 pub struct PlayerId(pub u8);
 
@@ -18,7 +20,11 @@ impl TryFrom<u8> for PlayerId {
     type Error = &'static str;
 
     fn try_from(id: u8) -> Result<PlayerId, &'static str> {
-        if usize::from(id) < PLAYERS_MAX { Ok(PlayerId(id)) } else { Err("a player's id is below 22") }
+        if usize::from(id) < PLAYERS_MAX {
+            Ok(PlayerId(id))
+        } else {
+            Err("a player's id is below 22")
+        }
     }
 }
 
@@ -167,6 +173,19 @@ pub enum KickKind {
     Clear,
 }
 
+impl KickKind {
+    /// The kick that an action requests.
+    pub fn of(action: Action) -> Option<KickKind> {
+        match action {
+            Action::ShortPass => Some(KickKind::Short),
+            Action::LongPass => Some(KickKind::Long),
+            Action::HighPass => Some(KickKind::High),
+            Action::Shot => Some(KickKind::Shot),
+            _ => None,
+        }
+    }
+}
+
 /// A requested kick: it waits for the key's release, then for the ball, then for the swing.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct KickPlan {
@@ -273,7 +292,13 @@ impl Body {
             meet: Vec2::ZERO,
             meet_s: 9.0,
             mean_mps: 0.0,
-            mind: Mind { slot: Vec2::ZERO, fills: PlayerId(0), mark: None, run_until_step: 0, decide_at_step: 0 },
+            mind: Mind {
+                slot: Vec2::ZERO,
+                fills: PlayerId(0),
+                mark: None,
+                run_until_step: 0,
+                decide_at_step: 0,
+            },
         }
     }
 

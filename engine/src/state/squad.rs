@@ -108,7 +108,10 @@ mod tests {
         let some = squad(&[21, 3, 0, 11]);
         assert_eq!(some.ids().map(|id| id.0).collect::<Vec<_>>(), [0, 3, 11, 21]);
         assert_eq!(some.ids_from(Team::Right).map(|id| id.0).collect::<Vec<_>>(), [11, 21, 0, 3]);
-        assert_eq!((some.len(), some.of(Team::Left), some.of(Team::Right)), (4, squad(&[0, 3]), squad(&[11, 21])));
+        assert_eq!(
+            (some.len(), some.of(Team::Left), some.of(Team::Right)),
+            (4, squad(&[0, 3]), squad(&[11, 21]))
+        );
         assert!(some.has(PlayerId(3)) && !some.has(PlayerId(4)) && squad(&[]).is_empty());
     }
 

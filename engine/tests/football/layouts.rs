@@ -66,7 +66,13 @@ pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
         Layout::RunToScore | Layout::RunToScoreKeeper => {
             left.extend([(-1.0, 0.0, GK), (0.0, 0.0, CB)]);
             right.push((if matches!(layout, Layout::RunToScore) { 1.0 } else { -1.0 }, 0.0, GK));
-            right.extend([(0.12, 0.2, LB), (0.12, 0.1, CB), (0.12, 0.0, CM), (0.12, -0.1, CB), (0.12, -0.2, RB)]);
+            right.extend([
+                (0.12, 0.2, LB),
+                (0.12, 0.1, CB),
+                (0.12, 0.0, CM),
+                (0.12, -0.1, CB),
+                (0.12, -0.2, RB),
+            ]);
             ball = (0.02, 0.0);
         }
         Layout::ThreeVersusOne => {

@@ -25,8 +25,8 @@ fn speeds(layout: Layout, keys: &[Action], steps: usize) -> Vec<f32> {
 #[test]
 fn a_sprint_from_standstill_follows_the_measured_curve() {
     let measured = [
-        0.36, 2.19, 3.11, 3.93, 4.69, 5.07, 5.34, 5.86, 6.31, 6.69, 6.97, 7.19, 7.36, 7.48, 7.57, 7.64, 7.69, 7.73,
-        7.75, 7.77,
+        0.36, 2.19, 3.11, 3.93, 4.69, 5.07, 5.34, 5.86, 6.31, 6.69, 6.97, 7.19, 7.36, 7.48, 7.57,
+        7.64, 7.69, 7.73, 7.75, 7.77,
     ];
     // The first step presses only the direction, so both gaits start alike.
     let run = speeds(Layout::Alone, &[Action::Right, Action::Sprint], 24);
@@ -39,7 +39,9 @@ fn a_sprint_from_standstill_follows_the_measured_curve() {
 #[test]
 fn the_gaits_top_out_where_they_should() {
     let top = |layout, keys: &[Action]| *speeds(layout, keys, 60).last().unwrap();
-    let near = |is: f32, should: f32| assert!((is - should).abs() <= 0.05 * should, "{is} against {should}");
+    let near = |is: f32, should: f32| {
+        assert!((is - should).abs() <= 0.05 * should, "{is} against {should}")
+    };
     near(top(Layout::Alone, &[Action::Right]), 5.0);
     near(top(Layout::Alone, &[Action::Right, Action::Dribble]), 3.5);
     near(top(Layout::Alone, &[Action::Right, Action::Sprint]), 7.82);

@@ -10,7 +10,10 @@ use setpiece_scenario::vocabulary::{Action, EventKind, Qualifier, Role, Rule};
 
 /// Everything visible of a match.
 fn seen(game: &Match) -> String {
-    format!("{:?} {:?} {:?} {:?} {:?}", game.ball, game.players, game.score, game.owner, game.agents)
+    format!(
+        "{:?} {:?} {:?} {:?} {:?}",
+        game.ball, game.players, game.score, game.owner, game.agents
+    )
 }
 
 /// Plays this many steps of bot against bot.
@@ -62,7 +65,8 @@ fn a_copy_goes_on_like_the_match_it_was_taken_from() {
 #[test]
 fn bots_play_football() {
     let (mut steps, mut crowd, mut thirds) = (0u32, 0.0f64, [0u32; 3]);
-    let (mut passes, mut completed, mut shots, mut goals, mut spells) = (0u32, 0u32, 0u32, 0u32, 0u32);
+    let (mut passes, mut completed, mut shots, mut goals, mut spells) =
+        (0u32, 0u32, 0u32, 0u32, 0u32);
     let matches = 6;
     for seed in 0..matches {
         let mut bench = Bench::new(Layout::Eleven, seed);
@@ -82,9 +86,14 @@ fn bots_play_football() {
             assert_eq!(bench.events.dropped(), 0);
             let game = &bench.game;
             let ball = game.ball.pos;
-            assert!(ball.is_finite() && ball.x.abs() < 60.0 && ball.y.abs() < 40.0 && ball.z < 30.0, "ball at {ball}");
-            let field: Vec<_> = game.players.iter().filter(|p| p.active && p.role != Role::GK).collect();
-            crowd += field.iter().filter(|p| p.pos.distance(ball.truncate()) < 8.0).count() as f64 / field.len() as f64;
+            assert!(
+                ball.is_finite() && ball.x.abs() < 60.0 && ball.y.abs() < 40.0 && ball.z < 30.0,
+                "ball at {ball}"
+            );
+            let field: Vec<_> =
+                game.players.iter().filter(|p| p.active && p.role != Role::GK).collect();
+            crowd += field.iter().filter(|p| p.pos.distance(ball.truncate()) < 8.0).count() as f64
+                / field.len() as f64;
             thirds[if ball.x < -18.33 {
                 0
             } else if ball.x < 18.33 {
@@ -98,7 +107,11 @@ fn bots_play_football() {
             }
             assert_eq!(game.squad.len(), 22);
             for player in game.players.iter().filter(|p| p.active) {
-                assert!(player.pos.is_finite() && player.pos.x.abs() <= 60.5 && player.pos.y.abs() <= 40.5);
+                assert!(
+                    player.pos.is_finite()
+                        && player.pos.x.abs() <= 60.5
+                        && player.pos.y.abs() <= 40.5
+                );
                 assert!(player.vel.length() < 12.0, "{} m/s", player.vel.length());
             }
             if bench.game.dead {
@@ -178,7 +191,12 @@ fn a_kick_pressed_before_the_ball_comes_is_the_first_touch() {
         let mut touches = 0;
         let kicked = (0..20).any(|step| {
             bench.step(if step == 1 { action } else { Action::Idle });
-            touches += bench.events.as_slice().iter().filter(|event| event.kind == EventKind::Touch).count();
+            touches += bench
+                .events
+                .as_slice()
+                .iter()
+                .filter(|event| event.kind == EventKind::Touch)
+                .count();
             bench.seen(kind).is_some()
         });
         assert!(kicked, "{action:?} is never struck");
@@ -223,7 +241,11 @@ fn a_defender_reaches_for_the_ball_that_a_sprinter_pushes_ahead() {
     let mut bench = Bench::new(Layout::ThreeVersusOne, 0);
     let stopped = (0..40).any(|_| {
         bench.step(Action::Sprint);
-        bench.game.players.iter().any(|player| player.body.lunge.is_some_and(|lunge| lunge.aim != Aim::Poke))
+        bench
+            .game
+            .players
+            .iter()
+            .any(|player| player.body.lunge.is_some_and(|lunge| lunge.aim != Aim::Poke))
     });
     assert!(stopped, "nobody reaches for the ball of a sprinter");
 }
@@ -232,7 +254,8 @@ fn a_defender_reaches_for_the_ball_that_a_sprinter_pushes_ahead() {
 fn a_leg_far_from_the_ball_is_drawn_back_in_its_time() {
     let mut bench = Bench::new(Layout::Eleven, 3);
     let far = PlayerId(0);
-    let lunge = Lunge { at: bench.game.tick as i32 + 5, place: Vec2::ZERO, aim: Aim::Poke, stops: false };
+    let lunge =
+        Lunge { at: bench.game.tick as i32 + 5, place: Vec2::ZERO, aim: Aim::Poke, stops: false };
     bench.game.players[far.index()].body.lunge = Some(lunge);
     bench.step(Action::BuiltinAi);
     assert_eq!(bench.game.player(far).body.lunge, None);

@@ -46,13 +46,15 @@ fn over_the_side_line_is_a_throw_in_for_the_others() {
 
 #[test]
 fn over_the_goal_line_is_a_goal_kick_or_a_corner_by_the_last_toucher() {
-    for (last, kind, team) in [(LEFT_MAN, EventKind::GoalKick, Team::Right), (RIGHT_MAN, EventKind::Corner, Team::Left)]
+    for (last, kind, team) in
+        [(LEFT_MAN, EventKind::GoalKick, Team::Right), (RIGHT_MAN, EventKind::Corner, Team::Left)]
     {
         let mut bench = Bench::new(Layout::Eleven, 0);
         roll(&mut bench, Vec3::new(54.5, 12.0, 0.11), Vec3::new(15.0, 0.0, 0.0), last);
         assert_eq!(bench.seen(kind).unwrap().team, Some(team));
         bench.restart();
-        let spot = if kind == EventKind::Corner { Vec2::new(55.0, 36.0) } else { Vec2::new(50.6, 0.0) };
+        let spot =
+            if kind == EventKind::Corner { Vec2::new(55.0, 36.0) } else { Vec2::new(50.6, 0.0) };
         assert!(bench.game.ball.pos.truncate().distance(spot) < 1e-3);
         for (_, rival) in bench.game.team(team.other()).filter(|(id, _)| id.in_team() != 0) {
             assert!(rival.pos.distance(spot) > 9.0, "{:?} is too near", rival.pos);
@@ -68,7 +70,11 @@ fn a_goal_counts_and_an_own_goal_for_the_others() {
         assert_eq!(bench.game.score, [1, 0]);
         let goal = bench.seen(EventKind::Goal).unwrap();
         assert_eq!((goal.team, goal.by), (Some(Team::Left), Some(last)));
-        assert!((goal.at.truncate().distance(Vec2::new(55.0, 1.0))) < 0.1, "on the line: {}", goal.at);
+        assert!(
+            (goal.at.truncate().distance(Vec2::new(55.0, 1.0))) < 0.1,
+            "on the line: {}",
+            goal.at
+        );
         assert_eq!(bench.seen(EventKind::OwnGoal).is_some(), own);
         assert!(bench.seen(EventKind::OutOfPlay).is_none());
         bench.restart();
@@ -95,9 +101,14 @@ fn a_player_beyond_the_line_is_offside_when_playing_the_pass() {
         bench.game.players[passer.index()].pos = Vec2::new(25.0, 30.0);
         bench.game.players[runner.index()].pos = Vec2::new(35.0, 30.0);
         bench.game.ball.pos = Vec3::new(25.5, 30.0, 0.11);
-        bench.game.play.offside = setpiece_engine::football::offside::positions(&bench.game, passer);
+        bench.game.play.offside =
+            setpiece_engine::football::offside::positions(&bench.game, passer);
         bench.game.last_touch = Some(passer);
-        bench.game.ball = Ball { pos: Vec3::new(34.0, 30.0, 0.11), vel: Vec3::new(8.0, 0.0, 0.0), spin: Vec3::ZERO };
+        bench.game.ball = Ball {
+            pos: Vec3::new(34.0, 30.0, 0.11),
+            vel: Vec3::new(8.0, 0.0, 0.0),
+            spin: Vec3::ZERO,
+        };
         let mut called = false;
         for _ in 0..8 {
             bench.step(Action::BuiltinAi);
@@ -123,7 +134,11 @@ fn a_keeper_may_not_pick_up_a_mates_back_pass() {
         let mut bench = Bench::of(&start);
         let game = &mut bench.game;
         game.players[0].pos = Vec2::new(-50.0, 0.0);
-        game.ball = Ball { pos: Vec3::new(-49.5, 0.0, 0.11), vel: Vec3::new(-1.0, 0.0, 0.0), spin: Vec3::ZERO };
+        game.ball = Ball {
+            pos: Vec3::new(-49.5, 0.0, 0.11),
+            vel: Vec3::new(-1.0, 0.0, 0.0),
+            spin: Vec3::ZERO,
+        };
         game.last_touch = Some(PlayerId(4));
         game.play.kicked_by = Some(PlayerId(4));
         keeper::use_hands(game, &mut bench.events);
@@ -145,7 +160,11 @@ fn a_set_piece_waits_for_its_taker_and_no_longer_than_allowed() {
     }
     assert!((20..28).contains(&waited), "an idle agent's corner was taken after {waited} steps");
     assert!(
-        bench.events.as_slice().iter().any(|e| e.qualifier == Some(setpiece_scenario::vocabulary::Qualifier::Taken))
+        bench
+            .events
+            .as_slice()
+            .iter()
+            .any(|e| e.qualifier == Some(setpiece_scenario::vocabulary::Qualifier::Taken))
     );
 }
 
@@ -216,7 +235,10 @@ fn a_foul_is_called_back_where_the_advantage_is_lost() {
     assert_eq!(awarded.team, Some(Team::Left));
     assert!(bench.seen(EventKind::Advantage).is_none());
     bench.restart();
-    assert_eq!((bench.game.mode, bench.game.ball.pos.truncate()), (GameMode::FreeKick, Vec2::new(10.0, 5.0)));
+    assert_eq!(
+        (bench.game.mode, bench.game.ball.pos.truncate()),
+        (GameMode::FreeKick, Vec2::new(10.0, 5.0))
+    );
     assert_eq!(bench.game.play.advantage, None);
 }
 
@@ -236,13 +258,18 @@ fn a_ball_that_goes_out_after_a_foul_gives_the_free_kick_and_a_goal_counts() {
     let mut bench = alone(&[], 0);
     fouled(&mut bench);
     bench.game.players[RIGHT_MAN.index()].pos = Vec2::new(-50.0, 20.0);
-    bench.game.ball = Ball { pos: Vec3::new(10.0, -35.8, 0.11), vel: Vec3::new(0.0, -9.0, 0.0), spin: Vec3::ZERO };
+    bench.game.ball = Ball {
+        pos: Vec3::new(10.0, -35.8, 0.11),
+        vel: Vec3::new(0.0, -9.0, 0.0),
+        spin: Vec3::ZERO,
+    };
     until(&mut bench, 5, EventKind::ThrowIn);
     assert!(bench.seen(EventKind::FreeKick).is_some() && bench.seen(EventKind::ThrowIn).is_none());
 
     let mut bench = alone(&[], 0);
     fouled(&mut bench);
-    bench.game.ball = Ball { pos: Vec3::new(54.5, 0.0, 0.5), vel: Vec3::new(20.0, 0.0, 0.0), spin: Vec3::ZERO };
+    bench.game.ball =
+        Ball { pos: Vec3::new(54.5, 0.0, 0.5), vel: Vec3::new(20.0, 0.0, 0.0), spin: Vec3::ZERO };
     until(&mut bench, 5, EventKind::Goal);
     assert!(bench.seen(EventKind::Goal).is_some() && bench.seen(EventKind::Advantage).is_some());
     assert_eq!(bench.game.score, [1, 0]);
@@ -250,7 +277,8 @@ fn a_ball_that_goes_out_after_a_foul_gives_the_free_kick_and_a_goal_counts() {
 
 #[test]
 fn a_card_or_a_penalty_is_not_let_run() {
-    for (spot, severity, mode) in [(10.0, 1.6, GameMode::FreeKick), (50.0, 1.2, GameMode::Penalty)] {
+    for (spot, severity, mode) in [(10.0, 1.6, GameMode::FreeKick), (50.0, 1.2, GameMode::Penalty)]
+    {
         let mut bench = alone(&[], 0);
         bench.game.players[LEFT_MAN.index()].pos = Vec2::new(spot, 0.0);
         foul::call_or_let_run(&mut bench.game, &mut bench.events, RIGHT_MAN, LEFT_MAN, severity);
@@ -268,7 +296,8 @@ fn meeting(mps: f32, lunges: bool) -> ([Pose; 2], bool) {
     let now = bench.game.tick as i32;
     let [left, right] = [LEFT_MAN.index(), RIGHT_MAN.index()];
     let spot = bench.game.players[left].pos;
-    (bench.game.players[left].vel, bench.game.players[left].body.facing) = (Vec2::new(mps, 0.0), Vec2::X);
+    (bench.game.players[left].vel, bench.game.players[left].body.facing) =
+        (Vec2::new(mps, 0.0), Vec2::X);
     bench.game.players[left].body.push_m = 0.1;
     bench.game.players[right].pos = spot + Vec2::new(0.5, 0.0);
     bench.game.players[right].body.facing = -Vec2::X;
@@ -292,7 +321,12 @@ fn who_runs_into_a_rival_loses_their_balance_and_who_stands_does_not() {
 }
 
 /// Shoots at a player's chest: the handballs of each seed, and what was given.
-fn handballs(rules: &[(Rule, f64)], man: PlayerId, at: Vec2, height: f32) -> Vec<(Event, GameMode)> {
+fn handballs(
+    rules: &[(Rule, f64)],
+    man: PlayerId,
+    at: Vec2,
+    height: f32,
+) -> Vec<(Event, GameMode)> {
     let mut called = Vec::new();
     for seed in 0..400 {
         let mut bench = alone(rules, seed);
@@ -318,7 +352,11 @@ fn handball_is_rare_and_only_where_the_rule_is_on() {
     let (middle, near_goal) = (Vec2::new(0.0, 10.0), Vec2::new(48.0, 5.0));
     let called = handballs(&on, RIGHT_MAN, middle, 1.0);
     assert!((4..=40).contains(&called.len()), "{} of 400", called.len());
-    assert!(called.iter().all(|(event, mode)| event.by == Some(RIGHT_MAN) && *mode == GameMode::FreeKick));
+    assert!(
+        called
+            .iter()
+            .all(|(event, mode)| event.by == Some(RIGHT_MAN) && *mode == GameMode::FreeKick)
+    );
     let called = handballs(&on, RIGHT_MAN, near_goal, 1.0);
     assert!(!called.is_empty() && called.iter().all(|(_, mode)| *mode == GameMode::Penalty));
     for (rules, man, at, height) in [
@@ -339,8 +377,13 @@ fn a_goal_and_a_shots_verdict_name_where_it_was_struck() {
         let struck = Vec2::new(40.0, y);
         contact::shot_struck(&mut bench.game, &mut bench.events, LEFT_MAN, struck);
         roll(&mut bench, Vec3::new(54.0, y, 0.5), Vec3::new(20.0, 0.0, 0.0), LEFT_MAN);
-        let verdicts: Vec<Event> =
-            bench.events.as_slice().iter().copied().filter(|it| it.qualifier == Some(verdict)).collect();
+        let verdicts: Vec<Event> = bench
+            .events
+            .as_slice()
+            .iter()
+            .copied()
+            .filter(|it| it.qualifier == Some(verdict))
+            .collect();
         assert_eq!(verdicts.len(), 1);
         for event in verdicts.into_iter().chain(bench.seen(EventKind::Goal)) {
             assert_eq!(event.at.truncate(), struck, "{:?}", event.kind);

@@ -32,7 +32,8 @@ fn a_wall_stands_in_the_way_of_a_free_kick_near_goal() {
         };
         let men = bench.game.team(Team::Right).filter(|(_, player)| in_way(player.pos)).count();
         assert_eq!(men, wall, "at {spot}");
-        for (_, rival) in bench.game.team(Team::Right).filter(|(_, player)| player.role != Role::GK) {
+        for (_, rival) in bench.game.team(Team::Right).filter(|(_, player)| player.role != Role::GK)
+        {
             assert!(rival.pos.distance(spot) > 9.0, "{} is too near", rival.pos);
         }
     }
@@ -110,7 +111,13 @@ fn nobody_stands_in_anybody_at_a_kick_off() {
 
 #[test]
 fn nobody_stands_in_anybody_at_a_restart() {
-    for mode in [GameMode::GoalKick, GameMode::FreeKick, GameMode::Corner, GameMode::ThrowIn, GameMode::Penalty] {
+    for mode in [
+        GameMode::GoalKick,
+        GameMode::FreeKick,
+        GameMode::Corner,
+        GameMode::ThrowIn,
+        GameMode::Penalty,
+    ] {
         for (i, team) in [Team::Left, Team::Right].into_iter().cycle().take(20).enumerate() {
             let side = team.side() as f32;
             let (x, y) = (i as f32 * 5.0 - 50.0, i as f32 * 3.2 - 32.0);
@@ -126,7 +133,10 @@ fn nobody_stands_in_anybody_at_a_restart() {
             let places: Vec<Vec2> = bench.game.players.iter().map(|player| player.pos).collect();
             for (a, one) in places.iter().enumerate() {
                 for (b, two) in places.iter().enumerate().skip(a + 1) {
-                    assert!(one.distance(*two) > 0.7, "{mode} at {spot}: {a} and {b} at {one} and {two}");
+                    assert!(
+                        one.distance(*two) > 0.7,
+                        "{mode} at {spot}: {a} and {b} at {one} and {two}"
+                    );
                 }
             }
         }
@@ -172,7 +182,11 @@ fn a_deflection_plays_nobody_onside_and_a_played_ball_does() {
         bench.game.players[11].pos = Vec2::new(54.0, 0.0);
         bench.game.players[passer.index()].pos = Vec2::new(10.0, 0.0);
         bench.game.players[runner.index()].pos = Vec2::new(35.0, 10.0);
-        bench.game.ball = Ball { pos: Vec3::new(20.0, 5.0, 0.11), vel: Vec3::new(15.0, 5.0, 0.0), spin: Vec3::ZERO };
+        bench.game.ball = Ball {
+            pos: Vec3::new(20.0, 5.0, 0.11),
+            vel: Vec3::new(15.0, 5.0, 0.0),
+            spin: Vec3::ZERO,
+        };
         contact::note(&mut bench.game, passer, contact::Touch::Played);
         assert_ne!(offside::positions(&bench.game, passer) & (1 << runner.0), 0);
         bench
@@ -193,7 +207,11 @@ fn who_stands_on_the_ball_is_attacked_where_mates_are_about() {
         let carrier = bench.game.agents[0].player.unwrap();
         let pos = Vec2::new(-20.0, 10.0);
         bench.game.players[carrier.index()].pos = pos;
-        bench.game.ball = Ball { pos: (pos + Vec2::new(0.4, 0.0)).extend(0.11), vel: Vec3::ZERO, spin: Vec3::ZERO };
+        bench.game.ball = Ball {
+            pos: (pos + Vec2::new(0.4, 0.0)).extend(0.11),
+            vel: Vec3::ZERO,
+            spin: Vec3::ZERO,
+        };
         (bench.game.last_touch, bench.game.owner) = (Some(carrier), Some(carrier));
         for _ in 0..200 {
             bench.step(Action::Idle);
@@ -233,7 +251,11 @@ fn a_shot_at_the_keepers_chest_does_not_go_through() {
         bench.game.players[11].pos = Vec2::new(53.5, 0.0);
         let man = PlayerId(2);
         bench.game.players[man.index()].pos = Vec2::new(43.0, 0.0);
-        bench.game.ball = Ball { pos: Vec3::new(44.0, 0.0, 0.5), vel: Vec3::new(25.0, 0.0, 1.5), spin: Vec3::ZERO };
+        bench.game.ball = Ball {
+            pos: Vec3::new(44.0, 0.0, 0.5),
+            vel: Vec3::new(25.0, 0.0, 1.5),
+            spin: Vec3::ZERO,
+        };
         contact::note(&mut bench.game, man, contact::Touch::Played);
         for _ in 0..8 {
             bench.step(Action::BuiltinAi);
@@ -255,7 +277,11 @@ fn an_agents_keeper_has_hands_unless_the_rule_takes_them() {
         let mut bench = Bench::of(&start);
         bench.game.play.driven = 1;
         bench.game.players[0].pos = Vec2::new(-50.0, 0.0);
-        bench.game.ball = Ball { pos: Vec3::new(-49.6, 0.0, 0.11), vel: Vec3::new(-1.0, 0.0, 0.0), spin: Vec3::ZERO };
+        bench.game.ball = Ball {
+            pos: Vec3::new(-49.6, 0.0, 0.11),
+            vel: Vec3::new(-1.0, 0.0, 0.0),
+            spin: Vec3::ZERO,
+        };
         bench.game.last_touch = Some(PlayerId(13));
         for _ in 0..50 {
             keeper::use_hands(&mut bench.game, &mut bench.events);
@@ -285,7 +311,10 @@ fn a_kick_off_that_nobody_takes_is_given_up() {
         for player in &mut bench.game.players[..11] {
             player.ai = setpiece_scenario::Ai::Lazy;
         }
-        place(&mut bench.game, Restart { mode: GameMode::KickOff, team: Team::Left, spot: Vec2::ZERO });
+        place(
+            &mut bench.game,
+            Restart { mode: GameMode::KickOff, team: Team::Left, spot: Vec2::ZERO },
+        );
         let touched = (0..60).any(|_| {
             bench.step(Action::Idle);
             bench.seen(EventKind::Touch).is_some()
@@ -349,7 +378,11 @@ fn nobody_walks_through_a_man_on_the_ground() {
         bench.step(Action::Right);
         least = least.min(bench.game.players[9].pos.distance(bench.game.players[14].pos));
     }
-    assert!(bench.game.players[9].pos.x > -2.0, "the runner came past: {}", bench.game.players[9].pos);
+    assert!(
+        bench.game.players[9].pos.x > -2.0,
+        "the runner came past: {}",
+        bench.game.players[9].pos
+    );
     assert!(least > 0.4, "the runner went through: {least} m");
 }
 
@@ -372,7 +405,9 @@ fn without_a_seed_the_game_is_the_same_game() {
         bench.step(Action::BuiltinAi);
         for event in bench.events.as_slice() {
             let kinds = [EventKind::Tackle, EventKind::Save];
-            wide += u32::from(event.kind == EventKind::Shot && event.qualifier == Some(Qualifier::OffTarget));
+            wide += u32::from(
+                event.kind == EventKind::Shot && event.qualifier == Some(Qualifier::OffTarget),
+            );
             if let Some(i) = kinds.iter().position(|kind| *kind == event.kind) {
                 seen[i] += 1;
             }
@@ -423,7 +458,8 @@ fn a_kick_off_of_nobody_is_the_others() {
 
 #[test]
 fn an_agents_penalty_goes_to_the_side_that_is_held() {
-    for (hold, side) in [(Action::TopRight, -1.0), (Action::BottomRight, 1.0), (Action::Top, -1.0)] {
+    for (hold, side) in [(Action::TopRight, -1.0), (Action::BottomRight, 1.0), (Action::Top, -1.0)]
+    {
         let (mut wide, mut meant) = (0, 0);
         for seed in 0..20 {
             let mut bench = bench(&[], seed);
@@ -494,8 +530,11 @@ fn a_parry_goes_back_into_play() {
         let man = PlayerId(2);
         bench.game.players[man.index()].pos = Vec2::new(34.0, 0.0);
         let aside = (seed % 7) as f32 - 3.0;
-        bench.game.ball =
-            Ball { pos: Vec3::new(35.0, 0.0, 0.5), vel: Vec3::new(24.0, 1.15 * aside, 3.0), spin: Vec3::ZERO };
+        bench.game.ball = Ball {
+            pos: Vec3::new(35.0, 0.0, 0.5),
+            vel: Vec3::new(24.0, 1.15 * aside, 3.0),
+            spin: Vec3::ZERO,
+        };
         contact::note(&mut bench.game, man, contact::Touch::Played);
         let mut parried = false;
         for _ in 0..25 {

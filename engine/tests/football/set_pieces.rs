@@ -193,7 +193,11 @@ fn everybody_stands_where_they_were_measured() {
             let mut far = 0.0;
             for (i, place) in left.iter().chain(right).enumerate() {
                 let away = bench.game.players[i].pos.distance(Vec2::from(*place) * turn);
-                assert!(away < 0.9, "{mode} of {team}: {i} stands {away} m away, at {}", bench.game.players[i].pos);
+                assert!(
+                    away < 0.9,
+                    "{mode} of {team}: {i} stands {away} m away, at {}",
+                    bench.game.players[i].pos
+                );
                 far += away / 22.0;
             }
             assert!(far < 0.2, "{mode} of {team}: {far} m away on average");
@@ -253,8 +257,16 @@ fn an_agents_run_up_takes_as_long_as_measured() {
                 _ => 7,
             };
             let after = |waited: usize| if heard { waited + run_up } else { stalled };
-            assert_eq!(shown(mode, Team::Left, spot, once(1)), after(0), "{mode}: {key:?} pressed at once");
-            assert_eq!(shown(mode, Team::Left, spot, once(6)), after(5), "{mode}: {key:?} pressed late");
+            assert_eq!(
+                shown(mode, Team::Left, spot, once(1)),
+                after(0),
+                "{mode}: {key:?} pressed at once"
+            );
+            assert_eq!(
+                shown(mode, Team::Left, spot, once(6)),
+                after(5),
+                "{mode}: {key:?} pressed late"
+            );
             let held = match key {
                 Action::ShortPass if throw => 8,
                 Action::HighPass if !throw => 11 + longer,
@@ -265,7 +277,11 @@ fn an_agents_run_up_takes_as_long_as_measured() {
             assert_eq!(shown(mode, Team::Left, spot, |_| key), held, "{mode}: {key:?} held");
         }
         let stalled = if throw { 23 } else { 26 + usize::from(mode == GameMode::Penalty) };
-        assert_eq!(shown(mode, Team::Left, spot, |_| Action::Idle), stalled, "{mode}: nothing pressed");
+        assert_eq!(
+            shown(mode, Team::Left, spot, |_| Action::Idle),
+            stalled,
+            "{mode}: nothing pressed"
+        );
     }
 }
 
@@ -293,7 +309,10 @@ fn the_lazy_never_take_a_set_piece_without_anti_stalling() {
             player.ai = Ai::Lazy;
         }
         let mut bench = Bench::of(&start);
-        place(&mut bench.game, Restart { mode: GameMode::Penalty, team: Team::Right, spot: Vec2::new(-44.0, 0.0) });
+        place(
+            &mut bench.game,
+            Restart { mode: GameMode::Penalty, team: Team::Right, spot: Vec2::new(-44.0, 0.0) },
+        );
         for _ in 0..60 {
             bench.step(Action::Idle);
         }

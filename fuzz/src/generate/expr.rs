@@ -69,16 +69,24 @@ impl Writer<'_, '_> {
             }
             3 => format!("(distance({}, {}) / 1m)", self.point(view), self.point(view)),
             4 => {
-                let function = self.choices.one(&["sqrt", "log", "exp", "abs", "floor", "round", "ceil"]);
+                let function =
+                    self.choices.one(&["sqrt", "log", "exp", "abs", "floor", "round", "ceil"]);
                 format!("{function}({})", self.number_at(view, depth))
             }
             5 => {
                 let function = self.choices.one(&["min", "max", "mod", "pow"]);
-                format!("{function}({}, {})", self.number_at(view, depth), self.number_at(view, depth))
+                format!(
+                    "{function}({}, {})",
+                    self.number_at(view, depth),
+                    self.number_at(view, depth)
+                )
             }
             6 => {
-                let (c, a, b) =
-                    (self.condition_at(view, depth), self.number_at(view, depth), self.number_at(view, depth));
+                let (c, a, b) = (
+                    self.condition_at(view, depth),
+                    self.number_at(view, depth),
+                    self.number_at(view, depth),
+                );
                 format!("(if {c} then {a} else {b})")
             }
             7 => format!("count(p in {} where {})", self.set(view), self.of_player(view, "p")),
@@ -91,7 +99,9 @@ impl Writer<'_, '_> {
                 let function = self.choices.one(&["prev", "delta"]);
                 format!("{function}({inner})")
             }
-            10 if view.knows_time() => format!("(since({}) / 1s)", self.condition_at(inner(view), depth)),
+            10 if view.knows_time() => {
+                format!("(since({}) / 1s)", self.condition_at(inner(view), depth))
+            }
             11 if view.knows_time() => format!("(closing(ball, {}) / 1m)", self.point(inner(view))),
             12 => format!("offside_line({})", self.team(view)),
             _ => format!("(angle({}, {}) / 1rad)", self.point(view), self.point(view)),
@@ -130,14 +140,19 @@ impl Writer<'_, '_> {
             6 if !plain => format!("(not ({}))", self.condition_at(view, depth)),
             7 if !plain => {
                 let word = self.choices.one(&["and", "or"]);
-                format!("(({}) {word} ({}))", self.condition_at(view, depth), self.condition_at(view, depth))
+                format!(
+                    "(({}) {word} ({}))",
+                    self.condition_at(view, depth),
+                    self.condition_at(view, depth)
+                )
             }
             8 => {
                 let fold = self.choices.one(&["any", "all"]);
                 format!("{fold}(p in {} where {})", self.set(view), self.of_player(view, "p"))
             }
             9 if view.knows_time() && !plain => {
-                let (inner, steps) = (self.condition_at(inner(view), depth), self.choices.below(30));
+                let (inner, steps) =
+                    (self.condition_at(inner(view), depth), self.choices.below(30));
                 match self.choices.below(4) {
                     0 => format!("held({inner}, for: {steps} steps)"),
                     1 => format!("within({inner}, {steps} steps)"),
@@ -147,7 +162,10 @@ impl Writer<'_, '_> {
             }
             10 if view.knows_time() => self.event(view),
             11 if view.knows_time() => format!("possession changes to {}", self.team(view)),
-            12 => format!("game_mode == {}", self.choices.one(&["normal", "corner", "throw_in", "free_kick"])),
+            12 => format!(
+                "game_mode == {}",
+                self.choices.one(&["normal", "corner", "throw_in", "free_kick"])
+            ),
             _ => "ball_dead".to_owned(),
         }
     }
@@ -188,9 +206,15 @@ impl Writer<'_, '_> {
     }
 
     pub(super) fn area(&mut self, view: View) -> String {
-        let team = if view == View::Start { self.choices.one(&["left", "right"]) } else { self.team(view) };
+        let team = if view == View::Start {
+            self.choices.one(&["left", "right"])
+        } else {
+            self.team(view)
+        };
         match self.choices.below(8) {
-            0 | 1 => format!("{team}.{}", self.choices.one(&["box", "half", "third", "six_yard", "d"])),
+            0 | 1 => {
+                format!("{team}.{}", self.choices.one(&["box", "half", "third", "six_yard", "d"]))
+            }
             2 => "centre_circle".to_owned(),
             3 | 4 if !self.regions.is_empty() => {
                 let at = self.choices.below(self.regions.len());
@@ -203,7 +227,11 @@ impl Writer<'_, '_> {
     }
 
     pub(super) fn team(&mut self, view: View) -> &'static str {
-        if view.is_own() { self.choices.one(&["us", "them"]) } else { self.choices.one(&["left", "right"]) }
+        if view.is_own() {
+            self.choices.one(&["us", "them"])
+        } else {
+            self.choices.one(&["left", "right"])
+        }
     }
 
     fn set(&mut self, view: View) -> &'static str {

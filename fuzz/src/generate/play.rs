@@ -13,8 +13,12 @@ impl Writer<'_, '_> {
                 0 => format!("give {value} when {condition} as \"a{at}\""),
                 1 => format!("give {value} per second as \"b{at}\""),
                 2 => format!("give {value} once when {condition} as \"c{at}\""),
-                3 => format!("give event.length / 1m + {value} on {} as \"d{at}\"", self.event(view)),
-                4 => format!("on {} {{ s = s + 1 give s * {value} as \"e{at}\" }}", self.event(view)),
+                3 => {
+                    format!("give event.length / 1m + {value} on {} as \"d{at}\"", self.event(view))
+                }
+                4 => {
+                    format!("on {} {{ s = s + 1 give s * {value} as \"e{at}\" }}", self.event(view))
+                }
                 5 => format!("when {condition} {{ s = {value} }} else {{ give s as \"f{at}\" }}"),
                 _ => format!("give {value} on end success as \"g{at}\""),
             };
@@ -35,7 +39,11 @@ impl Writer<'_, '_> {
         let view = View::World;
         let value = match self.choices.below(6) {
             0 => format!("count of ({})", self.condition(view)),
-            1 => format!("{} of ({})", self.choices.one(&["max", "min", "mean", "sum"]), self.number(view)),
+            1 => format!(
+                "{} of ({})",
+                self.choices.one(&["max", "min", "mean", "sum"]),
+                self.number(view)
+            ),
             2 => format!("count of {}", self.event(view)),
             3 => "first of ball".to_owned(),
             4 => format!("series of ({})", self.number(view)),
@@ -121,7 +129,9 @@ impl Writer<'_, '_> {
         let view = View::Behavior;
         match self.choices.below(16) {
             0 => "hold".to_owned(),
-            1 | 2 => format!("move_to({}){}", self.point(view), self.choices.one(&["", " sprinting"])),
+            1 | 2 => {
+                format!("move_to({}){}", self.point(view), self.choices.one(&["", " sprinting"]))
+            }
             3 => format!("run({}deg)", self.choices.byte()),
             4 | 5 => format!("dribble_to({})", self.point(view)),
             6 => format!("pass_to(nearest(mates, to: {}))", self.point(view)),

@@ -3,7 +3,8 @@
 use super::{View, Writer};
 
 const OUTFIELD: &[&str] = &["CM", "CB", "CF", "LB", "RB", "DM", "LM", "RM", "AM"];
-const STATS: &[&str] = &["speed", "shot_power", "agility", "stamina", "reaction", "dribble", "short_pass", "vision"];
+const STATS: &[&str] =
+    &["speed", "shot_power", "agility", "stamina", "reaction", "dribble", "short_pass", "vision"];
 
 impl Writer<'_, '_> {
     /// The ball and the start.
@@ -14,9 +15,13 @@ impl Writer<'_, '_> {
             0 => format!("ball at {point}"),
             1 => format!("ball in {}", self.area(View::Start)),
             2 => {
-                let (x, y, z) =
-                    (self.choices.between(-30.0, 30.0), self.choices.between(-30.0, 30.0), self.choices.below(20));
-                let (height, spin) = (self.choices.between(0.0, 20.0), self.choices.between(-200.0, 200.0));
+                let (x, y, z) = (
+                    self.choices.between(-30.0, 30.0),
+                    self.choices.between(-30.0, 30.0),
+                    self.choices.below(20),
+                );
+                let (height, spin) =
+                    (self.choices.between(0.0, 20.0), self.choices.between(-200.0, 200.0));
                 format!(
                     "ball at {point} {{ velocity: ({x:.1}m/s, {y:.1}m/s, {z}m/s), height: {height:.1}m, \
                      spin: ({spin:.0}, 3, {:.0}) }}",
@@ -28,9 +33,18 @@ impl Writer<'_, '_> {
                 None => "ball at centre jitter 5m".to_owned(),
             },
             4 => format!("start kickoff for {team}"),
-            5 => format!("start {} for {team}", self.choices.one(&["corner", "goal_kick", "penalty"])),
-            6 => format!("start {} for {team} at {point}", self.choices.one(&["free_kick", "throw_in"])),
-            _ => format!("start corner for left at right.corner.bottom {{ score: [{}, 1] }}", self.choices.below(99)),
+            5 => format!(
+                "start {} for {team}",
+                self.choices.one(&["corner", "goal_kick", "penalty"])
+            ),
+            6 => format!(
+                "start {} for {team} at {point}",
+                self.choices.one(&["free_kick", "throw_in"])
+            ),
+            _ => format!(
+                "start corner for left at right.corner.bottom {{ score: [{}, 1] }}",
+                self.choices.below(99)
+            ),
         };
         self.line(&ball);
         if self.choices.rarely(6) {
@@ -57,12 +71,22 @@ impl Writer<'_, '_> {
             0 | 1 => format!("{name}: {role} at ({:.2}, {y:.2})", self.choices.between(-1.0, 1.0)),
             2 => format!("{name}: {role} at own (-{:.2}, {y:.2})", self.choices.between(0.2, 1.0)),
             3 => format!("{name}: {role} in {}", self.area(View::Start)),
-            4 => format!("{name}: {role} at own.zone.{role} + ({n}m, {:.1}m)", self.choices.between(-3.0, 3.0)),
-            5 => format!("{name}: {role} between (0, {y:.2}) and right.goal at {}%", self.choices.below(95)),
-            6 => format!("{name}: {role} offset from centre along {}deg by 9m", n * 30 + self.choices.below(20)),
+            4 => format!(
+                "{name}: {role} at own.zone.{role} + ({n}m, {:.1}m)",
+                self.choices.between(-3.0, 3.0)
+            ),
+            5 => format!(
+                "{name}: {role} between (0, {y:.2}) and right.goal at {}%",
+                self.choices.below(95)
+            ),
+            6 => format!(
+                "{name}: {role} offset from centre along {}deg by 9m",
+                n * 30 + self.choices.below(20)
+            ),
             _ => {
                 let goals = ["left.goal", "right.goal"];
-                let (near, far) = if name.starts_with('p') { (goals[0], goals[1]) } else { (goals[1], goals[0]) };
+                let (near, far) =
+                    if name.starts_with('p') { (goals[0], goals[1]) } else { (goals[1], goals[0]) };
                 format!("{name}: {role} beyond {near} by {:.2}m from {far}", n as f64 * 0.45)
             }
         };

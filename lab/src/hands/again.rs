@@ -34,7 +34,9 @@ pub(crate) struct RecordedArgs {
 /// Sets figures of traces beside the file's, writes them in their place, or makes one of both.
 pub(crate) fn recorded(args: &RecordedArgs) -> Result<(), LabError> {
     let RecordedArgs { file, traces, .. } = args;
-    let topic = topics().find(|topic| topic.file == file).ok_or_else(|| format!("no topic has `{file}`"))?;
+    let topic = topics()
+        .find(|topic| topic.file == file)
+        .ok_or_else(|| format!("no topic has `{file}`"))?;
     let recorded = topic.recorded()?;
     let values = read(topic, &recorded, traces)?;
     if args.write {
@@ -48,7 +50,11 @@ pub(crate) fn recorded(args: &RecordedArgs) -> Result<(), LabError> {
 }
 
 /// The figures of every row that has traces.
-fn read(topic: &Topic, file: &RecordedFile, traces: &str) -> Result<BTreeMap<usize, Values>, LabError> {
+fn read(
+    topic: &Topic,
+    file: &RecordedFile,
+    traces: &str,
+) -> Result<BTreeMap<usize, Values>, LabError> {
     let text = std::fs::File::open(traces).map_err(|why| format!("{traces}: {why}"))?;
     let mut values: BTreeMap<usize, Values> = BTreeMap::new();
     for line in std::io::BufReader::new(text).lines() {
@@ -63,7 +69,11 @@ fn read(topic: &Topic, file: &RecordedFile, traces: &str) -> Result<BTreeMap<usi
 }
 
 /// The views of an episode.
-fn views(file: &RecordedFile, row: &RecordedRow, steps: Vec<RecordedStep>) -> Result<Vec<TraceMoment>, LabError> {
+fn views(
+    file: &RecordedFile,
+    row: &RecordedRow,
+    steps: Vec<RecordedStep>,
+) -> Result<Vec<TraceMoment>, LabError> {
     let roles = file.scene(row)?.roles()?;
     let mut trace: Vec<TraceMoment> = Vec::new();
     for (ball, (owner, who, mode), teams, pressed, active, score) in steps {
@@ -99,7 +109,8 @@ fn compared(topic: &Topic, file: &RecordedFile, values: &BTreeMap<usize, Values>
     for figure in &outside {
         let _ = writeln!(text, "{}: {}, on file {}", figure.what, figure.ours(), figure.wanted());
     }
-    let _ = writeln!(text, "{}: {} of {} outside", topic.file, outside.len(), section.figures.len());
+    let _ =
+        writeln!(text, "{}: {} of {} outside", topic.file, outside.len(), section.figures.len());
     text
 }
 
@@ -111,7 +122,8 @@ fn write<'a>(
     before: impl Fn(usize) -> Option<&'a RecordedRow>,
 ) -> Result<(), LabError> {
     let text = std::fs::read_to_string(topic.path()).map_err(|why| topic.named(why))?;
-    let (head, rows) = text.split_once("\"rows\": [\n").ok_or_else(|| topic.named("no rows, one a line"))?;
+    let (head, rows) =
+        text.split_once("\"rows\": [\n").ok_or_else(|| topic.named("no rows, one a line"))?;
     let mut written = format!("{head}\"rows\": [\n");
     for (number, line) in rows.lines().enumerate() {
         match (values.get(&number), line.split_once("\"figures\": ")) {
@@ -139,7 +151,10 @@ fn figures(topic: &Topic, values: &Values, before: Option<&RecordedRow>) -> Stri
             };
         }
         if let (Some(mean), Some(sd)) = (all.mean, all.sd) {
-            parts.push(format!("\"{name}\": {{\"mean\": {mean:.3}, \"sd\": {sd:.3}, \"n\": {}}}", all.n));
+            parts.push(format!(
+                "\"{name}\": {{\"mean\": {mean:.3}, \"sd\": {sd:.3}, \"n\": {}}}",
+                all.n
+            ));
         }
     }
     format!("{{{}}}", parts.join(", "))

@@ -57,7 +57,8 @@ fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
             furthest = Some(furthest.unwrap_or(-9.0).max(view.ball[0] / 54.4));
         }
         let me = view.player(0, 0);
-        let nearest = view.teams[1].iter().skip(1).map(|foe| apart(*foe, me)).fold(f64::INFINITY, f64::min);
+        let nearest =
+            view.teams[1].iter().skip(1).map(|foe| apart(*foe, me)).fold(f64::INFINITY, f64::min);
         if lost.is_some() || contact.is_some() {
             continue;
         }
@@ -69,7 +70,8 @@ fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     }
     let at = |step: usize| &trace[step.min(trace.len() - 1)];
     let owned = |team: i8, later: usize| contact.map(|step| yes(at(step + later).owner == team));
-    let moment = |later: isize| contact.and_then(|step| step.checked_add_signed(later)).filter(|s| *s > 0);
+    let moment =
+        |later: isize| contact.and_then(|step| step.checked_add_signed(later)).filter(|s| *s > 0);
     let ball = |later| moment(later).and_then(|step| trace.get(step)).map(|view| view.speed);
     let me = |later| pace(trace, moment(later)?, trace[contact?].active[0]);
     vec![

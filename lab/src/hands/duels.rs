@@ -18,7 +18,8 @@ pub(super) const TOPIC: Topic =
 
 fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let owned = || trace.iter().enumerate().filter(|(step, view)| *step > 0 && view.owner == 0);
-    let furthest = owned().map(|(_, view)| view.ball[0] / 54.4).fold(trace[0].ball[0] / 54.4, f64::max);
+    let furthest =
+        owned().map(|(_, view)| view.ball[0] / 54.4).fold(trace[0].ball[0] / 54.4, f64::max);
     let nearest = trace.iter().skip(1).map(|view| apart(view.player(0, 0), view.teams[1][1]));
     vec![
         Some(furthest),

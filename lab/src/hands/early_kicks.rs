@@ -34,11 +34,18 @@ const GROUPS: [Group; 3] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic =
-    Topic { name: "early kick", file: "grf_early_kicks.json", columns: &COLUMNS, groups: &GROUPS, read };
+pub(super) const TOPIC: Topic = Topic {
+    name: "early kick",
+    file: "grf_early_kicks.json",
+    columns: &COLUMNS,
+    groups: &GROUPS,
+    read,
+};
 
 fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
-    let pressed = |view: &TraceMoment| [Action::Shot, Action::ShortPass, Action::HighPass].contains(&view.pressed[1]);
+    let pressed = |view: &TraceMoment| {
+        [Action::Shot, Action::ShortPass, Action::HighPass].contains(&view.pressed[1])
+    };
     let (Some(left), Some(key)) = (leaves(trace), first(trace, 1, pressed)) else {
         let mut none = vec![None; COLUMNS.len()];
         none[0] = Some(0.0);
@@ -60,7 +67,11 @@ fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
 }
 
 /// The steps in which a pass that left in a step arrives at the receiver, and is kicked on.
-pub(super) fn struck(trace: &[TraceMoment], left: usize, receiver: usize) -> (Option<usize>, Option<usize>) {
+pub(super) fn struck(
+    trace: &[TraceMoment],
+    left: usize,
+    receiver: usize,
+) -> (Option<usize>, Option<usize>) {
     let arrives = first(trace, left, |view| view.ball_from(view.teams[0][receiver]) < ARRIVED_M);
     let kick = arrives.and_then(|arrives| {
         let before = &trace[left.max(arrives - 1)];
@@ -77,5 +88,8 @@ pub(super) fn struck(trace: &[TraceMoment], left: usize, receiver: usize) -> (Op
 
 /// The largest height of a kicked ball.
 pub(super) fn peak(trace: &[TraceMoment], step: usize) -> f64 {
-    trace[step..trace.len().min(step + PEAK_STEPS)].iter().map(|view| view.ball[2]).fold(0.0, f64::max)
+    trace[step..trace.len().min(step + PEAK_STEPS)]
+        .iter()
+        .map(|view| view.ball[2])
+        .fold(0.0, f64::max)
 }

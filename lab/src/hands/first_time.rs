@@ -31,8 +31,13 @@ const GROUPS: [Group; 3] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic =
-    Topic { name: "first time", file: "grf_first_time.json", columns: &COLUMNS, groups: &GROUPS, read };
+pub(super) const TOPIC: Topic = Topic {
+    name: "first time",
+    file: "grf_first_time.json",
+    columns: &COLUMNS,
+    groups: &GROUPS,
+    read,
+};
 
 fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let key = first(trace, 1, |view| is_kick(view.pressed[0]));

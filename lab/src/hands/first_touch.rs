@@ -23,8 +23,13 @@ const GROUPS: [Group; 4] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic =
-    Topic { name: "first touch", file: "grf_first_touch.json", columns: &COLUMNS, groups: &GROUPS, read };
+pub(super) const TOPIC: Topic = Topic {
+    name: "first touch",
+    file: "grf_first_touch.json",
+    columns: &COLUMNS,
+    groups: &GROUPS,
+    read,
+};
 
 fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let mut figures = vec![None; COLUMNS.len()];
@@ -35,7 +40,8 @@ fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let owned = first(trace, left, |view| view.owned_by(0, me));
     figures[1] = Some(yes(owned.is_some()));
     let Some(owned) = owned else { return figures };
-    let away = |later: usize| trace.get(owned + later).map(|view| view.ball_from(view.teams[0][me]));
+    let away =
+        |later: usize| trace.get(owned + later).map(|view| view.ball_from(view.teams[0][me]));
     figures[2] = Some((owned - left) as f64);
     figures[3] = Some(trace[owned - 1].speed);
     figures[4] = away(1);

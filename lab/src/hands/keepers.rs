@@ -37,7 +37,8 @@ fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     };
     let end = &trace[trace.len() - 1];
     let on = |view: &TraceMoment| view.mode == 0 && view.score == trace[0].score;
-    let leaves = first(trace, key, |view| view.owner == -1 && view.velocity() > SHOT_MPS && on(view));
+    let leaves =
+        first(trace, key, |view| view.owner == -1 && view.velocity() > SHOT_MPS && on(view));
     let speed = |from: usize| {
         let after = trace[from..trace.len().min(from + 4)].iter().filter(|view| on(view));
         after.map(|view| view.speed).fold(0.0, f64::max)

@@ -68,7 +68,8 @@ impl<'a> Keys<'a> {
         let side = if self.team == 0 { 1.0 } else { -1.0 };
         let me = view.player(self.agent, self.team);
         let towards = |[x, y]: [f64; 2]| {
-            let eighth = (-(y - me[1]) * side).atan2((x - me[0]) * side) / std::f64::consts::FRAC_PI_4;
+            let eighth =
+                (-(y - me[1]) * side).atan2((x - me[0]) * side) / std::f64::consts::FRAC_PI_4;
             WAYS[(eighth.round() as i64).rem_euclid(8) as usize]
         };
         Ok(match key.as_str() {
@@ -110,7 +111,9 @@ impl<'a> Keys<'a> {
             "end" => false,
             "owned" | "mine" => owned && view.who == view.active[self.agent],
             "team" => owned,
-            "near" => view.teams[1 - self.team].iter().map(away).fold(f64::INFINITY, f64::min) <= number,
+            "near" => {
+                view.teams[1 - self.team].iter().map(away).fold(f64::INFINITY, f64::min) <= number
+            }
             "ball" => away(&[view.ball[0], view.ball[1]]) <= number,
             "fast" => view.speed >= number,
             "x" => owned && view.ball[0] * if self.team == 0 { 1.0 } else { -1.0 } >= number * 54.4,

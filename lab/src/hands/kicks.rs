@@ -39,9 +39,13 @@ fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
 pub(super) fn figures(trace: &[TraceMoment], steps: usize) -> Vec<Option<f64>> {
     let key = first(trace, 1, |view| is_kick(view.pressed[0]));
     let until = trace.len().min(key.unwrap_or_default() + steps + 1);
-    let kick = key.and_then(|key| first(&trace[..until], key, |view| view.owner == -1 && view.velocity() > KICKED_MPS));
+    let kick = key.and_then(|key| {
+        first(&trace[..until], key, |view| view.owner == -1 && view.velocity() > KICKED_MPS)
+    });
     let moved = |from: usize| {
-        let after = trace[(from + 1)..trace.len().min(from + SPEED_STEPS)].iter().filter(|view| view.mode == 0);
+        let after = trace[(from + 1)..trace.len().min(from + SPEED_STEPS)]
+            .iter()
+            .filter(|view| view.mode == 0);
         after.map(|view| view.speed).fold(trace[from].velocity(), f64::max)
     };
     vec![

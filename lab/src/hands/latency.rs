@@ -15,12 +15,19 @@ const COLUMNS: [FigureColumn; 5] = [
     ("peak", FigureKind::Height),
 ];
 
-const GROUPS: [Group; 2] =
-    [("when it leaves", &["kicked", "when"]), ("where to and how fast", &["speed", "degrees", "peak"])];
+const GROUPS: [Group; 2] = [
+    ("when it leaves", &["kicked", "when"]),
+    ("where to and how fast", &["speed", "degrees", "peak"]),
+];
 
 /// The topic.
-pub(super) const TOPIC: Topic =
-    Topic { name: "kick asked for", file: "grf_kick_latency.json", columns: &COLUMNS, groups: &GROUPS, read };
+pub(super) const TOPIC: Topic = Topic {
+    name: "kick asked for",
+    file: "grf_kick_latency.json",
+    columns: &COLUMNS,
+    groups: &GROUPS,
+    read,
+};
 
 fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     kicks::figures(trace, STEPS)

@@ -44,7 +44,8 @@ impl RecordedFigure {
     /// The figure from these episodes' values.
     pub(super) fn of(kind: FigureKind, values: &[f64]) -> RecordedFigure {
         let some = !values.is_empty();
-        let [mean, sd] = [kind.mean(values), kind.deviation(values)].map(|it| Some(it).filter(|_| some));
+        let [mean, sd] =
+            [kind.mean(values), kind.deviation(values)].map(|it| Some(it).filter(|_| some));
         RecordedFigure { mean, sd, n: values.len() as u64 }
     }
 
@@ -66,12 +67,20 @@ impl RecordedFigure {
 }
 
 /// Compares our figure with theirs.
-pub(super) fn part(name: &str, kind: FigureKind, theirs: &RecordedFigure, ours: &[f64]) -> Option<FigurePart> {
+pub(super) fn part(
+    name: &str,
+    kind: FigureKind,
+    theirs: &RecordedFigure,
+    ours: &[f64],
+) -> Option<FigurePart> {
     let middle = theirs.mean?;
     let n = ours.len().max(1) as u64;
     // Events that a few episodes happen not to show aren't impossible: adds one to their total.
-    let least = if let FigureKind::Count = kind { (middle + 1.0 / theirs.n as f64).sqrt() } else { 0.0 };
-    let chance = 1.96 * theirs.sd.unwrap_or_default().max(least) * (1.0 / theirs.n as f64 + 1.0 / n as f64).sqrt();
+    let least =
+        if let FigureKind::Count = kind { (middle + 1.0 / theirs.n as f64).sqrt() } else { 0.0 };
+    let chance = 1.96
+        * theirs.sd.unwrap_or_default().max(least)
+        * (1.0 / theirs.n as f64 + 1.0 / n as f64).sqrt();
     let give = match kind {
         FigureKind::Share => share_give(middle, theirs.n, n),
         FigureKind::Part => 0.05 + chance,
@@ -131,10 +140,13 @@ mod tests {
     fn two_recordings_together_are_one_of_all_their_episodes() {
         for kind in [FigureKind::Steps, FigureKind::Way] {
             let all = [170.0, 178.0, 175.0, 179.0, 168.0, 176.0, 171.0];
-            let together = RecordedFigure::of(kind, &all[..3]).with(kind, &RecordedFigure::of(kind, &all[3..]));
+            let together = RecordedFigure::of(kind, &all[..3])
+                .with(kind, &RecordedFigure::of(kind, &all[3..]));
             let whole = RecordedFigure::of(kind, &all);
             assert_eq!(together.n, whole.n);
-            assert!((together.mean.unwrap_or_default() - whole.mean.unwrap_or_default()).abs() < 0.1);
+            assert!(
+                (together.mean.unwrap_or_default() - whole.mean.unwrap_or_default()).abs() < 0.1
+            );
             assert!((together.sd.unwrap_or_default() - whole.sd.unwrap_or_default()).abs() < 0.1);
         }
     }

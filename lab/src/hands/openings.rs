@@ -32,11 +32,15 @@ pub(super) const TOPIC: Topic =
     Topic { name: "match", file: "grf_matches.json", columns: &COLUMNS, groups: &GROUPS, read };
 
 fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
-    let plays = |pair: &&[TraceMoment]| pair[0].mode == 0 && pair[1].mode == 0 && pair[0].score == pair[1].score;
-    let speeds = trace.windows(2).filter(plays).map(|pair| pair[1].speed).filter(|mps| *mps < PLACED_MPS);
+    let plays = |pair: &&[TraceMoment]| {
+        pair[0].mode == 0 && pair[1].mode == 0 && pair[0].score == pair[1].score
+    };
+    let speeds =
+        trace.windows(2).filter(plays).map(|pair| pair[1].speed).filter(|mps| *mps < PLACED_MPS);
     let speeds: Vec<f64> = speeds.collect();
-    let between =
-        |low: f64, high: f64| Some(mean(&speeds.iter().map(|mps| yes((low..high).contains(mps))).collect::<Vec<_>>()));
+    let between = |low: f64, high: f64| {
+        Some(mean(&speeds.iter().map(|mps| yes((low..high).contains(mps))).collect::<Vec<_>>()))
+    };
     let share = |holds: &dyn Fn(&TraceMoment) -> bool| {
         Some(mean(&trace.iter().skip(1).map(|view| yes(holds(view))).collect::<Vec<_>>()))
     };

@@ -104,7 +104,11 @@ impl Topic {
     }
 
     /// The rows of the report for a recorded row: our figures and the recorded ones.
-    pub(super) fn compare(&self, row: &RecordedRow, values: &Values) -> Vec<(String, Vec<FigurePart>)> {
+    pub(super) fn compare(
+        &self,
+        row: &RecordedRow,
+        values: &Values,
+    ) -> Vec<(String, Vec<FigurePart>)> {
         let about = match [row.left, row.right] {
             [left, right] if left != one() => format!(", difficulties {left} and {right}"),
             [_, right] if right != usual() => format!(", difficulty {right}"),
@@ -133,20 +137,27 @@ impl Topic {
 }
 
 /// Measures every row of a topic.
-pub(super) fn measure(section: &mut Section, topic: &Topic, count: Option<u64>) -> Result<(), LabError> {
+pub(super) fn measure(
+    section: &mut Section,
+    topic: &Topic,
+    count: Option<u64>,
+) -> Result<(), LabError> {
     let file = topic.recorded()?;
     for row in &file.rows {
         let take = Take {
             scene: file.scene(row).map_err(|why| topic.named(why))?,
-            plans: file.plans.get(&row.plan).ok_or_else(|| topic.named(format!("no plan `{}`", row.plan)))?,
+            plans: file
+                .plans
+                .get(&row.plan)
+                .ok_or_else(|| topic.named(format!("no plan `{}`", row.plan)))?,
             difficulty: [row.left, row.right],
             steps: row.steps,
             stop: &row.stop,
         };
         let mut values = Values::new();
         for episode in 0..count.unwrap_or(EPISODES) {
-            let trace =
-                play(&take, episode).map_err(|why| topic.named(format!("{}, {}: {why}", row.scene, row.plan)))?;
+            let trace = play(&take, episode)
+                .map_err(|why| topic.named(format!("{}, {}: {why}", row.scene, row.plan)))?;
             topic.add(&mut values, &trace, row);
         }
         for (what, parts) in topic.compare(row, &values) {

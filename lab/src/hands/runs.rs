@@ -37,8 +37,13 @@ const GROUPS: [Group; 4] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic =
-    Topic { name: "with the ball", file: "grf_runs.json", columns: &COLUMNS, groups: &GROUPS, read };
+pub(super) const TOPIC: Topic = Topic {
+    name: "with the ball",
+    file: "grf_runs.json",
+    columns: &COLUMNS,
+    groups: &GROUPS,
+    read,
+};
 
 fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let mut figures = vec![None; COLUMNS.len()];
@@ -59,9 +64,11 @@ fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
             }
         }
         Action::ReleaseDirection => {
-            let stands = steps.into_iter().find(|step| speed(*step).is_some_and(|mps| mps < STANDS_MPS));
+            let stands =
+                steps.into_iter().find(|step| speed(*step).is_some_and(|mps| mps < STANDS_MPS));
             figures[10] = stands.map(|step| (step - begins) as f64);
-            figures[11] = stands.map(|step| apart(trace[step - 1].teams[0][me], trace[begins - 1].teams[0][me]));
+            figures[11] = stands
+                .map(|step| apart(trace[step - 1].teams[0][me], trace[begins - 1].teams[0][me]));
         }
         _ => {
             let before: Vec<f64> = (begins - 5..begins).filter_map(speed).collect();
@@ -71,7 +78,8 @@ fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
                 let off = (then[1] - now[1]).atan2(now[0] - then[0]).to_degrees() - way;
                 off.abs() < TURNED_DEG && apart(now, then) > 0.0
             };
-            let fast = |step: &usize| straight(step) && speed(*step).is_some_and(|mps| mps >= FAST * old);
+            let fast =
+                |step: &usize| straight(step) && speed(*step).is_some_and(|mps| mps >= FAST * old);
             figures[8] = steps.clone().find(straight).map(|step| (step - begins + 1) as f64);
             figures[9] = steps.clone().find(fast).map(|step| (step - begins + 1) as f64);
         }

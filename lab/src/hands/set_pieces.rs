@@ -34,14 +34,22 @@ const COLUMNS: [FigureColumn; 16] = [
 const GROUPS: [Group; 5] = [
     ("when", &["awarded", "resumed", "moved"]),
     ("what is seen meanwhile", &["in_mode", "ownerless"]),
-    ("who takes it", &["agent_takes", "taker_keeper", "taker_defender", "taker_midfielder", "taker_forward"]),
+    (
+        "who takes it",
+        &["agent_takes", "taker_keeper", "taker_defender", "taker_midfielder", "taker_forward"],
+    ),
     ("where they stand", &["taker_m", "waiter_m"]),
     ("what comes of it", &["ball_speed", "kept", "first_right", "first_own"]),
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic =
-    Topic { name: "set piece", file: "grf_set_pieces.json", columns: &COLUMNS, groups: &GROUPS, read };
+pub(super) const TOPIC: Topic = Topic {
+    name: "set piece",
+    file: "grf_set_pieces.json",
+    columns: &COLUMNS,
+    groups: &GROUPS,
+    read,
+};
 
 /// The `game_mode` of a scene; a kick-off shows none.
 fn mode_of(scene: &str) -> usize {
@@ -57,7 +65,12 @@ fn mode_of(scene: &str) -> usize {
 
 fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let mode = mode_of(&row.scene);
-    let begins = first(trace, 1, |view| if mode == 0 { view.score != trace[0].score } else { view.mode != 0 });
+    let begins =
+        first(
+            trace,
+            1,
+            |view| if mode == 0 { view.score != trace[0].score } else { view.mode != 0 },
+        );
     let Some(begins) = begins.filter(|step| trace[*step].mode == mode) else {
         let mut none = vec![None; COLUMNS.len()];
         none[0] = Some(0.0);
@@ -93,7 +106,8 @@ fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
         Some(apart(start.player(0, 0), spot)),
         moved.map(|from| {
             let after = trace[from..trace.len().min(from + SPEED_STEPS)].iter();
-            let plays = after.filter(|view| [0, mode].contains(&view.mode) && view.score == start.score);
+            let plays =
+                after.filter(|view| [0, mode].contains(&view.mode) && view.score == start.score);
             plays.map(|view| view.speed).filter(|mps| *mps < PLACED_MPS).fold(0.0, f64::max)
         }),
         moved.map(|from| {

@@ -18,8 +18,10 @@ const COLUMNS: [FigureColumn; 6] = [
     ("speed", FigureKind::Speed),
 ];
 
-const GROUPS: [Group; 2] =
-    [("what comes of it", &["goal", "wide", "lost"]), ("the shot", &["leaves", "degrees", "speed"])];
+const GROUPS: [Group; 2] = [
+    ("what comes of it", &["goal", "wide", "lost"]),
+    ("the shot", &["leaves", "degrees", "speed"]),
+];
 
 /// The topic.
 pub(super) const TOPIC: Topic =
@@ -29,10 +31,12 @@ fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let end = &trace[trace.len() - 1];
     let key = first(trace, 1, |view| view.pressed[0] == Action::Shot);
     let plays = |view: &TraceMoment| view.mode == 0 && view.score == trace[0].score;
-    let struck =
-        key.and_then(|key| first(trace, key, |view| view.owner == -1 && view.velocity() > SHOT_MPS && plays(view)));
+    let struck = key.and_then(|key| {
+        first(trace, key, |view| view.owner == -1 && view.velocity() > SHOT_MPS && plays(view))
+    });
     let speed = |from: usize| {
-        let after = trace[from..trace.len().min(from + SPEED_STEPS)].iter().filter(|view| plays(view));
+        let after =
+            trace[from..trace.len().min(from + SPEED_STEPS)].iter().filter(|view| plays(view));
         after.map(|view| view.speed).fold(0.0, f64::max)
     };
     vec![

@@ -46,8 +46,9 @@ impl RecordedScene {
     /// The roles of both teams' players.
     pub(super) fn roles(&self) -> Result<[Vec<Role>; 2], LabError> {
         let of = |players: &[RecordedPlayer]| {
-            let roles =
-                players.iter().map(|(name, ..)| Role::from_name(name).ok_or_else(|| format!("no role `{name}`")));
+            let roles = players
+                .iter()
+                .map(|(name, ..)| Role::from_name(name).ok_or_else(|| format!("no role `{name}`")));
             roles.collect::<Result<Vec<_>, _>>()
         };
         Ok([of(&self.left)?, of(&self.right)?])
@@ -68,7 +69,8 @@ impl RecordedScene {
             self.agents[1],
             place(self.ball[0], self.ball[1], self.ball_jitter),
         );
-        for (name, players, difficulty) in [("left", &self.left, difficulty[0]), ("right", &self.right, difficulty[1])]
+        for (name, players, difficulty) in
+            [("left", &self.left, difficulty[0]), ("right", &self.right, difficulty[1])]
         {
             let _ = writeln!(text, " team {name} {{ difficulty: {difficulty}");
             for (role, x, y, flags) in players {
@@ -76,7 +78,10 @@ impl RecordedScene {
                 let ai = if has("lazy") { "lazy" } else { "bot" };
                 let controllable = if has("nobody") { "off" } else { "on" };
                 let place = place(*x, *y, has("jitter"));
-                let _ = writeln!(text, "  {role} at {place} {{ ai: {ai}, controllable: {controllable} }}");
+                let _ = writeln!(
+                    text,
+                    "  {role} at {place} {{ ai: {ai}, controllable: {controllable} }}"
+                );
             }
             text.push_str(" }\n");
         }

@@ -18,20 +18,31 @@ const COLUMNS: [FigureColumn; 6] = [
     ("keeper_m", FigureKind::Metres),
 ];
 
-const GROUPS: [Group; 2] =
-    [("what comes of it", &["goal", "wide", "held"]), ("the shot", &["leaves", "speed", "keeper_m"])];
+const GROUPS: [Group; 2] = [
+    ("what comes of it", &["goal", "wide", "held"]),
+    ("the shot", &["leaves", "speed", "keeper_m"]),
+];
 
 /// The topic.
-pub(super) const TOPIC: Topic =
-    Topic { name: "standing shot", file: "grf_standing_shots.json", columns: &COLUMNS, groups: &GROUPS, read };
+pub(super) const TOPIC: Topic = Topic {
+    name: "standing shot",
+    file: "grf_standing_shots.json",
+    columns: &COLUMNS,
+    groups: &GROUPS,
+    read,
+};
 
 fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let end = &trace[trace.len() - 1];
-    let Some(key) = first(trace, 1, |view| view.pressed[0] == Action::Shot) else { return vec![None; COLUMNS.len()] };
+    let Some(key) = first(trace, 1, |view| view.pressed[0] == Action::Shot) else {
+        return vec![None; COLUMNS.len()];
+    };
     let plays = |view: &TraceMoment| view.mode == 0 && view.score == trace[0].score;
-    let struck = first(trace, key, |view| view.owner == -1 && view.velocity() > SHOT_MPS && plays(view));
+    let struck =
+        first(trace, key, |view| view.owner == -1 && view.velocity() > SHOT_MPS && plays(view));
     let speed = |from: usize| {
-        let after = trace[from..trace.len().min(from + SPEED_STEPS)].iter().filter(|view| plays(view));
+        let after =
+            trace[from..trace.len().min(from + SPEED_STEPS)].iter().filter(|view| plays(view));
         after.map(|view| view.speed).fold(0.0, f64::max)
     };
     let guarded = !row.scene.ends_with("no keeper");

@@ -27,14 +27,19 @@ const GROUPS: [Group; 4] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic =
-    Topic { name: "switching", file: "grf_switching.json", columns: &COLUMNS, groups: &GROUPS, read };
+pub(super) const TOPIC: Topic = Topic {
+    name: "switching",
+    file: "grf_switching.json",
+    columns: &COLUMNS,
+    groups: &GROUPS,
+    read,
+};
 
 fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let event = match row.event.as_str() {
-        "kick" => {
-            first(trace, 2, |view| [Action::ShortPass, Action::LongPass, Action::HighPass].contains(&view.pressed[0]))
-        }
+        "kick" => first(trace, 2, |view| {
+            [Action::ShortPass, Action::LongPass, Action::HighPass].contains(&view.pressed[0])
+        }),
         "lost" => first(trace, 2, |view| view.owner == 1),
         "score" => first(trace, 2, |view| view.score != trace[0].score),
         _ => Some(2),
@@ -44,16 +49,19 @@ fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
         none[0] = Some(0.0);
         return none;
     };
-    let nearest = |view: &TraceMoment| view.nearest(0, [view.ball[0], view.ball[1]], |player| player > 0);
+    let nearest =
+        |view: &TraceMoment| view.nearest(0, [view.ball[0], view.ball[1]], |player| player > 0);
     let before = trace[event - 1].active[0];
     let other = row.event == "kick";
     let owner = first(trace, event, |view| view.owner == 0 && !(other && view.who == before));
     let switch = first(trace, event, |view| view.active[0] != before);
     let new = switch.map(|step| (&trace[step], trace[step].active[0]));
     let rest = &trace[event..];
-    let share =
-        |holds: &dyn Fn(&TraceMoment) -> bool| Some(mean(&rest.iter().map(|v| yes(holds(v))).collect::<Vec<_>>()));
-    let changes = trace[event - 1..].windows(2).filter(|pair| pair[0].active[0] != pair[1].active[0]).count();
+    let share = |holds: &dyn Fn(&TraceMoment) -> bool| {
+        Some(mean(&rest.iter().map(|v| yes(holds(v))).collect::<Vec<_>>()))
+    };
+    let changes =
+        trace[event - 1..].windows(2).filter(|pair| pair[0].active[0] != pair[1].active[0]).count();
     let steps = |step: Option<usize>| step.map(|step| (step - event) as f64);
     vec![
         Some(1.0),

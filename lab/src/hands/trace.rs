@@ -63,7 +63,11 @@ impl TraceMoment {
             teams: [left, right],
             roles: [left_roles, right_roles],
             pressed,
-            active: game.agents.iter().map(|slot| slot.player.map_or(0, PlayerId::in_team)).collect(),
+            active: game
+                .agents
+                .iter()
+                .map(|slot| slot.player.map_or(0, PlayerId::in_team))
+                .collect(),
             score: game.score,
         }
     }
@@ -94,9 +98,16 @@ impl TraceMoment {
     }
 
     /// The index of a team's player nearest to a place, among those that count.
-    pub(super) fn nearest(&self, team: usize, at: [f64; 2], counts: impl Fn(usize) -> bool) -> usize {
+    pub(super) fn nearest(
+        &self,
+        team: usize,
+        at: [f64; 2],
+        counts: impl Fn(usize) -> bool,
+    ) -> usize {
         let players = self.teams[team].iter().enumerate().filter(|(i, _)| counts(*i));
-        players.min_by(|(_, a), (_, b)| apart(**a, at).total_cmp(&apart(**b, at))).map_or(0, |(i, _)| i)
+        players
+            .min_by(|(_, a), (_, b)| apart(**a, at).total_cmp(&apart(**b, at)))
+            .map_or(0, |(i, _)| i)
     }
 }
 
@@ -106,7 +117,11 @@ pub(super) fn yes(holds: bool) -> f64 {
 }
 
 /// The first step from one on in which a condition holds.
-pub(super) fn first(trace: &[TraceMoment], from: usize, holds: impl Fn(&TraceMoment) -> bool) -> Option<usize> {
+pub(super) fn first(
+    trace: &[TraceMoment],
+    from: usize,
+    holds: impl Fn(&TraceMoment) -> bool,
+) -> Option<usize> {
     trace.iter().enumerate().skip(from).find(|(_, view)| holds(view)).map(|(step, _)| step)
 }
 
@@ -151,7 +166,8 @@ pub(super) fn play(take: &Take<'_>, episode: u64) -> Result<Vec<TraceMoment>, La
     let mut waiting = 0;
     for _ in 0..take.steps {
         let view = &trace[trace.len() - 1];
-        let mut actions = hands.iter_mut().map(|hand| hand.press(view)).collect::<Result<Vec<_>, _>>()?;
+        let mut actions =
+            hands.iter_mut().map(|hand| hand.press(view)).collect::<Result<Vec<_>, _>>()?;
         if waiting >= STALLED {
             for (agent, action) in actions.iter_mut().enumerate() {
                 *action = hurried(view, agent, usize::from(agent >= left), waiting);
@@ -189,7 +205,8 @@ fn stops(trace: &[TraceMoment], words: &[String]) -> Result<bool, LabError> {
         let (word, number) = words.split_once(' ').unwrap_or((words, "0"));
         let number: usize = number.parse().map_err(|_| format!("`{words}` wants a number"))?;
         let past = |first: Option<usize>| first.is_some_and(|first| now >= first + number);
-        let owned = |team: i8| trace.iter().skip(1).position(|view| view.owner == team).map(|at| at + 1);
+        let owned =
+            |team: i8| trace.iter().skip(1).position(|view| view.owner == team).map(|at| at + 1);
         let holds = match word {
             "goal" => trace[now].score != trace[0].score,
             "out" => trace[now].mode != 0,
@@ -197,7 +214,9 @@ fn stops(trace: &[TraceMoment], words: &[String]) -> Result<bool, LabError> {
             "won" => past(owned(0)),
             "over" => {
                 let stopped = trace.iter().position(|view| view.mode != 0);
-                past(stopped.and_then(|from| trace[from..].iter().position(|view| view.mode == 0).map(|at| at + from)))
+                past(stopped.and_then(|from| {
+                    trace[from..].iter().position(|view| view.mode == 0).map(|at| at + from)
+                }))
             }
             _ => return Err(format!("no stop `{words}`")),
         };

@@ -41,7 +41,8 @@ fn turn(plan: &str) -> (Action, f64) {
 
 fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let (key, way) = turn(&row.plan);
-    let begins = first(trace, 1, |view| view.pressed[0] == key).filter(|step| trace[step - 1].owner == 0);
+    let begins =
+        first(trace, 1, |view| view.pressed[0] == key).filter(|step| trace[step - 1].owner == 0);
     let Some(begins) = begins else {
         let mut none = vec![None; COLUMNS.len()];
         none[0] = Some(0.0);
@@ -50,7 +51,8 @@ fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let before = &trace[begins - 1];
     let me = before.active[0];
     let at = before.teams[0][me];
-    let foe = before.teams[1].iter().skip(1).map(|foe| apart(*foe, at)).fold(f64::INFINITY, f64::min);
+    let foe =
+        before.teams[1].iter().skip(1).map(|foe| apart(*foe, at)).fold(f64::INFINITY, f64::min);
     let last = trace.len() - 1;
     let kept = |steps: usize| {
         let to = last.min(begins + steps);
@@ -59,7 +61,8 @@ fn read(trace: &[TraceMoment], row: &RecordedRow) -> Vec<Option<f64>> {
     let turned = (begins..=last).find(|step| {
         let (now, before) = (trace[*step].teams[0][me], trace[step - 1].teams[0][me]);
         let off = (-(now[1] - before[1])).atan2(now[0] - before[0]).to_degrees() - way;
-        apart(now, before) * 10.0 > MOVES_MPS && ((off + 180.0).rem_euclid(360.0) - 180.0).abs() < TURNED_DEG
+        apart(now, before) * 10.0 > MOVES_MPS
+            && ((off + 180.0).rem_euclid(360.0) - 180.0).abs() < TURNED_DEG
     });
     vec![
         Some(1.0),

@@ -22,8 +22,13 @@ const GROUPS: [Group; 4] = [
 ];
 
 /// The topic.
-pub(super) const TOPIC: Topic =
-    Topic { name: "winning the ball", file: "grf_winning.json", columns: &COLUMNS, groups: &GROUPS, read };
+pub(super) const TOPIC: Topic = Topic {
+    name: "winning the ball",
+    file: "grf_winning.json",
+    columns: &COLUMNS,
+    groups: &GROUPS,
+    read,
+};
 
 fn read(trace: &[TraceMoment], _: &RecordedRow) -> Vec<Option<f64>> {
     let owned = first(trace, 1, |view| view.owner >= 0);

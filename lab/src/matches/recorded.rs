@@ -13,7 +13,9 @@ pub(super) fn matches(left: f64, right: f64) -> Result<Vec<MatchCounts>, LabErro
     const FILE: &str = "grf_bot_matches.jsonl";
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(FILE);
     let text = std::fs::read_to_string(path).map_err(|why| format!("lab/data/{FILE}: {why}"))?;
-    let all = text.lines().map(|line| serde_json::from_str(line).map_err(|why| format!("lab/data/{FILE}: {why}")));
+    let all = text
+        .lines()
+        .map(|line| serde_json::from_str(line).map_err(|why| format!("lab/data/{FILE}: {why}")));
     let mut of = all.collect::<Result<Vec<MatchCounts>, LabError>>()?;
     of.retain(|one| one.get("left") == Some(&left) && one.get("right") == Some(&right));
     Ok(of)
@@ -31,7 +33,13 @@ pub(super) enum Give {
 }
 
 /// Compares a count of ours, the mean over this many matches, with theirs.
-pub(super) fn part(theirs: &[MatchCounts], name: &str, give: Give, ours: f64, matches: usize) -> FigurePart {
+pub(super) fn part(
+    theirs: &[MatchCounts],
+    name: &str,
+    give: Give,
+    ours: f64,
+    matches: usize,
+) -> FigurePart {
     let of: Vec<f64> = theirs.iter().filter_map(|one| one.get(name).copied()).collect();
     let (middle, n) = (mean(&of), of.len() as f64);
     // Events that a few matches happen not to show aren't impossible: adds one to their total.

@@ -51,12 +51,18 @@ impl Witness {
     /// Begins at a start.
     pub(super) fn new(start: &Match) -> Result<Witness, LabError> {
         bodies::sound(start)?;
-        Ok(Witness { before: start.clone(), film: TickMemory::default(), waiting: Waiting::default() })
+        Ok(Witness {
+            before: start.clone(),
+            film: TickMemory::default(),
+            waiting: Waiting::default(),
+        })
     }
 
     /// Checks a step.
     pub(super) fn see(&mut self, step: &Step, scratch: &mut Scratch) -> Result<Seen, LabError> {
-        use EventKind::{Corner, FreeKick, Goal, GoalKick, Kickoff, Penalty, RedCard, ThrowIn, YellowCard};
+        use EventKind::{
+            Corner, FreeKick, Goal, GoalKick, Kickoff, Penalty, RedCard, ThrowIn, YellowCard,
+        };
         for game in [step.judged, step.after] {
             bodies::sound(game)?;
         }
@@ -65,7 +71,10 @@ impl Witness {
         self.waiting.hold(step)?;
         self.film.watch(&self.before, step, scratch)?;
         let of = |kinds: &[EventKind]| {
-            step.events.iter().filter(|event| kinds.contains(&event.kind) && event.qualifier.is_none()).count() as u64
+            step.events
+                .iter()
+                .filter(|event| kinds.contains(&event.kind) && event.qualifier.is_none())
+                .count() as u64
         };
         self.before.clone_from(step.after);
         Ok(Seen {

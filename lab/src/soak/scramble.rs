@@ -85,7 +85,12 @@ fn men(random: &mut Stream, team: usize, size: u32) -> Vec<Man> {
         let role = if index == 0 && keeper { "GK" } else { ROLES[random.below(9) as usize] };
         let at_home = role == "GK" && !one_in(random, 6);
         let place = if at_home { (side, 0.0) } else { (spread(random), spread(random) * 0.42) };
-        Man { name: format!("{}{index}", &SIDES[team][..1]), role, place, controllable: !one_in(random, 12) }
+        Man {
+            name: format!("{}{index}", &SIDES[team][..1]),
+            role,
+            place,
+            controllable: !one_in(random, 12),
+        }
     };
     (0..size).map(man).collect()
 }
@@ -110,7 +115,8 @@ fn rules(text: &mut String, random: &mut Stream) {
 fn start(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
     let kind = STARTS[random.below(9) as usize];
     let team = usize::from(!teams[1].is_empty() && one_in(random, 2));
-    let whose = matches!(kind, "corner" | "goal_kick" | "penalty") || (kind != "open" && !one_in(random, 4));
+    let whose = matches!(kind, "corner" | "goal_kick" | "penalty")
+        || (kind != "open" && !one_in(random, 4));
     let whose = if whose { format!(" for {}", SIDES[team]) } else { String::new() };
     let late = if one_in(random, 4) {
         let (left, right, elapsed) = (random.below(4), random.below(4), random.below(200));
@@ -131,9 +137,19 @@ fn start(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
 }
 
 fn ball(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
-    let owner = teams.iter().flatten().filter(|man| man.place.0.abs() < 0.95).nth(random.below(22) as usize);
+    let owner = teams
+        .iter()
+        .flatten()
+        .filter(|man| man.place.0.abs() < 0.95)
+        .nth(random.below(22) as usize);
     if let Some(man) = owner {
-        let _ = writeln!(text, "    ball at {} + ({:.2}m, 0m) {{ owner: {} }}", man.name, spread(random), man.name);
+        let _ = writeln!(
+            text,
+            "    ball at {} + ({:.2}m, 0m) {{ owner: {} }}",
+            man.name,
+            spread(random),
+            man.name
+        );
         return;
     }
     let (x, y) = (spread(random), spread(random) * 0.42);
@@ -141,7 +157,8 @@ fn ball(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
     if one_in(random, 2) {
         let mut speed = |most: f32| format!("{:.1}m/s", spread(random) * most);
         let (vx, vy, vz) = (speed(35.0), speed(35.0), speed(9.0));
-        let _ = write!(text, " {{ velocity: ({vx}, {vy}, {vz})  height: {:.2}m", random.unit() * 6.0);
+        let _ =
+            write!(text, " {{ velocity: ({vx}, {vy}, {vz})  height: {:.2}m", random.unit() * 6.0);
         if one_in(random, 3) {
             let mut spin = || (spread(random) * 100.0).round();
             let _ = write!(text, "  spin: ({}, {}, {})", spin(), spin(), spin());
@@ -160,7 +177,11 @@ fn agents(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
             0 => "all".to_owned(),
             1 => "0".to_owned(),
             2 => {
-                let named: Vec<&str> = free.iter().filter(|_| one_in(random, 2)).map(|man| man.name.as_str()).collect();
+                let named: Vec<&str> = free
+                    .iter()
+                    .filter(|_| one_in(random, 2))
+                    .map(|man| man.name.as_str())
+                    .collect();
                 if named.is_empty() { "1".to_owned() } else { format!("[{}]", named.join(", ")) }
             }
             _ => random.below(free.len() as u32 + 1).to_string(),
@@ -177,14 +198,24 @@ fn manners(text: &mut String, random: &mut Stream) {
     let _ = writeln!(text, " others: {others}{switching} }}");
 }
 
-fn player(text: &mut String, random: &mut Stream, man: &Man, teams: &[Vec<Man>; 2], behaviors: bool) {
+fn player(
+    text: &mut String,
+    random: &mut Stream,
+    man: &Man,
+    teams: &[Vec<Man>; 2],
+    behaviors: bool,
+) {
     let ai = match random.below(if behaviors { 10 } else { 6 }) {
         0 => "hold".to_owned(),
         1 => "lazy".to_owned(),
         2..6 => "bot".to_owned(),
         _ => script::call(random, teams.iter().flatten().map(|man| man.name.as_str())),
     };
-    let _ = write!(text, "        {}: {} at ({:.3}, {:.3})", man.name, man.role, man.place.0, man.place.1);
+    let _ = write!(
+        text,
+        "        {}: {} at ({:.3}, {:.3})",
+        man.name, man.role, man.place.0, man.place.1
+    );
     if one_in(random, 8) {
         let _ = write!(text, " facing {:.0}deg", spread(random) * 180.0);
     }
@@ -200,7 +231,12 @@ fn player(text: &mut String, random: &mut Stream, man: &Man, teams: &[Vec<Man>; 
         text.push_str("  yellow_cards: 1");
     }
     if one_in(random, 10) {
-        let _ = write!(text, "  velocity: ({:.1}m/s, {:.1}m/s)", spread(random) * 7.0, spread(random) * 7.0);
+        let _ = write!(
+            text,
+            "  velocity: ({:.1}m/s, {:.1}m/s)",
+            spread(random) * 7.0,
+            spread(random) * 7.0
+        );
     }
     if one_in(random, 5) {
         let stats: Vec<String> = Stat::ALL
@@ -220,26 +256,33 @@ fn player(text: &mut String, random: &mut Stream, man: &Man, teams: &[Vec<Man>; 
 fn kicked_off(text: &mut String, random: &mut Stream, limit: u32) {
     let size = size(random, 1);
     let keeper = !one_in(random, 4);
-    let roles: Vec<&str> =
-        (0..size).map(|index| if index == 0 && keeper { "GK" } else { ROLES[random.below(9) as usize] }).collect();
+    let roles: Vec<&str> = (0..size)
+        .map(|index| if index == 0 && keeper { "GK" } else { ROLES[random.below(9) as usize] })
+        .collect();
     for name in ["kicking", "receiving"] {
         let _ = writeln!(text, "formation {name} {{");
         for role in &roles {
-            let place = if *role == "GK" { (-1.0, 0.0) } else { (-random.unit(), spread(random) * 0.42) };
+            let place =
+                if *role == "GK" { (-1.0, 0.0) } else { (-random.unit(), spread(random) * 0.42) };
             let _ = writeln!(text, "    {role} at ({:.3}, {:.3})", place.0, place.1);
         }
         text.push_str("}\n");
     }
     text.push_str("scenario soak {\n");
     rules(text, random);
-    let whose = ["left", "right", "alternate(left, right)", "choice(left, right)"][random.below(4) as usize];
+    let whose = ["left", "right", "alternate(left, right)", "choice(left, right)"]
+        [random.below(4) as usize];
     let _ = writeln!(text, "    kickoff {whose} {{ kicking: kicking, receiving: receiving }}");
-    let mut count = || if one_in(random, 3) { "all".to_owned() } else { random.below(size + 1).to_string() };
+    let mut count =
+        || if one_in(random, 3) { "all".to_owned() } else { random.below(size + 1).to_string() };
     let _ = write!(text, "    agents {{ left: {}, right: {},", count(), count());
     manners(text, random);
     for side in SIDES {
-        let _ =
-            writeln!(text, "    team {side} {{ difficulty: {:.2}  each all {{ overlap: allowed }} }}", random.unit());
+        let _ = writeln!(
+            text,
+            "    team {side} {{ difficulty: {:.2}  each all {{ overlap: allowed }} }}",
+            random.unit()
+        );
     }
     let _ = writeln!(text, "    end limit {limit} steps\n}}");
 }

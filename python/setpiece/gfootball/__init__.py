@@ -24,7 +24,12 @@ from setpiece.gfootball._dump import replay_to_dump
 __all__ = ["env", "install", "replay_to_dump", "scenarios"]
 
 ALIAS = "gfootball"
-REPRESENTATIONS = {"SMM": "extracted", "Pixels": "pixels", "simple115": "simple115", "simple115v2": "simple115v2"}
+REPRESENTATIONS = {
+    "SMM": "extracted",
+    "Pixels": "pixels",
+    "simple115": "simple115",
+    "simple115v2": "simple115v2",
+}
 
 
 def install() -> None:
@@ -37,13 +42,16 @@ def install() -> None:
     there = sys.modules.get(ALIAS)
     if there is not None and there is not sys.modules[__name__]:
         raise InUseError(
-            "another `gfootball` is imported already", help="call `install()` before anything imports `gfootball`"
+            "another `gfootball` is imported already",
+            help="call `install()` before anything imports `gfootball`",
         )
     package = sys.modules[__name__]
     sys.modules[ALIAS] = package
     for module in pkgutil.walk_packages(package.__path__, f"{__name__}."):
         if not module.name.rpartition(".")[2].startswith("_"):
-            sys.modules[ALIAS + module.name.removeprefix(__name__)] = importlib.import_module(module.name)
+            sys.modules[ALIAS + module.name.removeprefix(__name__)] = importlib.import_module(
+                module.name
+            )
     for name in setpiece.list():
         for suffix, representation in REPRESENTATIONS.items():
             env_id = f"GFootball-{name}-{suffix}-v0"

@@ -38,18 +38,26 @@ def replay_to_dump(replay: Replay | str | PathLike[str], path: str | PathLike[st
     if isinstance(replay, (str, PathLike)):
         replay = Replay(replay)
     elif not isinstance(replay, Replay):
-        raise ParameterError(f"expected a `Replay` or the path of one, found `{replay!r}`", name="replay")
+        raise ParameterError(
+            f"expected a `Replay` or the path of one, found `{replay!r}`", name="replay"
+        )
     if not replay.agents:
-        raise _untellable(replay, "agents", "nobody was an agent, and a dump tells what agents see and do")
+        raise _untellable(
+            replay, "agents", "nobody was an agent, and a dump tells what agents see and do"
+        )
     if replay.action_set == "continuous":
-        raise _untellable(replay, "action_set", "the agents' actions were continuous, and a dump tells of keys")
+        raise _untellable(
+            replay, "action_set", "the agents' actions were continuous, and a dump tells of keys"
+        )
     # Played before anything is written, so that a diverging replay leaves no file.
     longest = _longest_wait(replay, {**defaults(), "action_set": replay.action_set})
     left, right = _counts(replay)
     config = {
         **defaults(),
         "action_set": replay.action_set,
-        "level": replay.scenario.name if longest < STALLED and _is_known(replay) else str(replay.path),
+        "level": replay.scenario.name
+        if longest < STALLED and _is_known(replay)
+        else str(replay.path),
         "players": [f"agent:left_players={left},right_players={right}"],
         "episode_number": FIRST_EPISODE + replay.index,
         "game_engine_random_seed": replay.seed,
@@ -72,7 +80,14 @@ def _traces(replay: Replay, config: dict[str, Any]) -> Iterator[Trace]:
             continue
         chosen = _chosen(replay, moment, config)
         time_s = moment.step * STEP_S
-        yield trace_of(chosen, moment.step - 1, lead - before, lead - first, time_s, _whole(replay, moment, config))
+        yield trace_of(
+            chosen,
+            moment.step - 1,
+            lead - before,
+            lead - first,
+            time_s,
+            _whole(replay, moment, config),
+        )
         before = lead
 
 
@@ -88,7 +103,11 @@ def _chosen(replay: Replay, moment: Moment, config: dict[str, Any]) -> list[Core
 
 def _whole(replay: Replay, moment: Moment, config: dict[str, Any]) -> dict[str, Any]:
     left, right = (
-        [slot_view(moment.observations[agent.id], config) for agent in replay.agents if agent.team == team]
+        [
+            slot_view(moment.observations[agent.id], config)
+            for agent in replay.agents
+            if agent.team == team
+        ]
         for team in (0, 1)
     )
     first = left[0] if left else flip_observation(right[0], config)
@@ -99,7 +118,11 @@ def _longest_wait(replay: Replay, config: dict[str, Any]) -> int:
     """Returns the longest wait of a set piece in steps, of those that the drop-in counts."""
     longest = waiting = 0
     for moment in replay:
-        waiting = waiting + 1 if slot_view(moment.observations[replay.agents[0].id], config)["game_mode"] else 0
+        waiting = (
+            waiting + 1
+            if slot_view(moment.observations[replay.agents[0].id], config)["game_mode"]
+            else 0
+        )
         longest = max(longest, waiting)
     return longest
 
@@ -112,7 +135,9 @@ def _is_known(replay: Replay) -> bool:
     if replay.snapshot is not None or replay.index > 1:
         return False
     left, right = _counts(replay)
-    agents = setpiece.FootballEnv(Source(name).compiled(str(left), str(right), None), rewards=[]).agents
+    agents = setpiece.FootballEnv(
+        Source(name).compiled(str(left), str(right), None), rewards=[]
+    ).agents
     return agents == tuple(agent.id for agent in replay.agents)
 
 

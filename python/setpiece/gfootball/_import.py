@@ -60,9 +60,13 @@ def main(arguments: Sequence[str]) -> int:
         prog="setpiece import", description="Write a scenario of another engine as a .pitch file"
     )
     kinds = parser.add_subparsers(dest="kind", required=True, metavar="KIND")
-    grf = kinds.add_parser("grf", help="a Python script of Google Research Football, with `build_scenario(builder)`")
+    grf = kinds.add_parser(
+        "grf", help="a Python script of Google Research Football, with `build_scenario(builder)`"
+    )
     grf.add_argument("file", metavar="FILE.py", help="the script; it is run")
-    grf.add_argument("-o", "--output", metavar="OUT.pitch", help="where to write; else to standard output")
+    grf.add_argument(
+        "-o", "--output", metavar="OUT.pitch", help="where to write; else to standard output"
+    )
     try:
         parsed = parser.parse_args(arguments)
     except SystemExit as end:

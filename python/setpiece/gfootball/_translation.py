@@ -53,10 +53,14 @@ def to_pitch(recorded: ScenarioConfig, name: str, other: ScenarioConfig | None =
     )
     blocks = [[*_rules(recorded), *_agents(recorded), *opening]]
     for side in ("left", "right"):
-        level = _both(getattr(recorded, f"{side}_team_difficulty"), getattr(other, f"{side}_team_difficulty"))
+        level = _both(
+            getattr(recorded, f"{side}_team_difficulty"), getattr(other, f"{side}_team_difficulty")
+        )
         players = [] if kickoff is not None else _players(recorded, other, side)
         if players:
-            blocks.append([f"    team {side} {{", f"        difficulty: {level}", *players, "    }"])
+            blocks.append(
+                [f"    team {side} {{", f"        difficulty: {level}", *players, "    }"]
+            )
         else:
             blocks.append([f"    team {side} {{ difficulty: {level} }}"])
     blocks.append(["    reward scoring"])
@@ -90,7 +94,10 @@ def _agents(recorded: ScenarioConfig) -> list[str]:
 def _endings(recorded: ScenarioConfig) -> list[str]:
     endings = []
     if recorded.end_episode_on_score:
-        endings += ["    end success scored when goal by left", "    end failure conceded when goal by right"]
+        endings += [
+            "    end success scored when goal by left",
+            "    end failure conceded when goal by right",
+        ]
     if recorded.end_episode_on_out_of_play:
         endings.append("    end out when out_of_play or ball_dead")
     if recorded.end_episode_on_possession_change:
@@ -98,7 +105,9 @@ def _endings(recorded: ScenarioConfig) -> list[str]:
     if recorded.game_duration <= LIMIT_MAX:
         endings.append(f"    end limit {recorded.game_duration} steps")
     else:
-        endings.append(f"    // Its game_duration of {recorded.game_duration} steps is more than a limit can be: none.")
+        endings.append(
+            f"    // Its game_duration of {recorded.game_duration} steps is more than a limit can be: none."
+        )
     return endings
 
 
@@ -109,7 +118,9 @@ def _players(recorded: ScenarioConfig, other: ScenarioConfig, side: str) -> list
     lines = []
     for number, (entry, twin) in enumerate(zip(entries, others, strict=True)):
         x, y = (_both(here, there) for here, there in zip(_place(entry), _place(twin), strict=True))
-        lines.append(f"        {_role(entry)} at {frame}({x}, {y}){_options(entry, number in crowded)}")
+        lines.append(
+            f"        {_role(entry)} at {frame}({x}, {y}){_options(entry, number in crowded)}"
+        )
     return lines
 
 
@@ -124,7 +135,10 @@ def _options(entry: FormationEntry, crowded: bool) -> str:
 
 def _crowded(recorded: ScenarioConfig, side: str) -> set[int]:
     """Returns the players of a team who stand on somebody else's spot."""
-    teams = {team: [_metres(entry, team) for entry in _team(recorded, team)] for team in ("left", "right")}
+    teams = {
+        team: [_metres(entry, team) for entry in _team(recorded, team)]
+        for team in ("left", "right")
+    }
     everybody = [*teams["left"], *teams["right"]]
     return {
         number
@@ -153,7 +167,9 @@ class _Kickoff:
     def formations(self, name: str) -> list[str]:
         lines = [f"/// The team that kicks off in {name}.", f"formation {name}_kicking {{"]
         for number, entry in enumerate(self.kicking):
-            lines.append(f"    {_role(entry)} at {_point(entry)}{_options(entry, number in self.crowded)}")
+            lines.append(
+                f"    {_role(entry)} at {_point(entry)}{_options(entry, number in self.crowded)}"
+            )
         lines += ["}", "", f"/// The other team in {name}.", f"formation {name}_receiving {{"]
         lines += [f"    {_role(entry)} at {_point(entry)}" for entry in self.receiving]
         return [*lines, "}", ""]
@@ -172,17 +188,25 @@ def _kickoff(recorded: ScenarioConfig, other: ScenarioConfig) -> _Kickoff | None
     if [_shape(entry) for entry in kicking] != [_shape(entry) for entry in receiving]:
         return None
     swapped = kicker != second
-    if _team(other, second) != kicking or _team(other, receiver if not swapped else kicker) != receiving:
+    if (
+        _team(other, second) != kicking
+        or _team(other, receiver if not swapped else kicker) != receiving
+    ):
         return None
     crowded = _crowded(recorded, "left") | _crowded(recorded, "right")
-    return _Kickoff(f"alternate({kicker}, {second})" if swapped else kicker, kicking, receiving, crowded)
+    return _Kickoff(
+        f"alternate({kicker}, {second})" if swapped else kicker, kicking, receiving, crowded
+    )
 
 
 def _kicker(recorded: ScenarioConfig) -> str | None:
     """Returns the team with the player at the ball if the ball lies on the centre spot."""
     if any(recorded.ball_position[:2]):
         return None
-    nearest = {side: min(hypot(*_metres(entry, side)) for entry in _team(recorded, side)) for side in ("left", "right")}
+    nearest = {
+        side: min(hypot(*_metres(entry, side)) for entry in _team(recorded, side))
+        for side in ("left", "right")
+    }
     if min(nearest.values()) > AT_THE_BALL or nearest["left"] == nearest["right"]:
         return None
     return min(nearest, key=lambda side: nearest[side])
@@ -195,11 +219,19 @@ def _shape(entry: FormationEntry) -> tuple[object, ...]:
 def _check_same(recorded: ScenarioConfig, other: ScenarioConfig) -> None:
     """Raises `TranslationError` if two episodes differ in what no text can alternate."""
     may_differ = (
-        *("ball_position", "left_team", "right_team", "left_team_difficulty", "right_team_difficulty"),
+        *(
+            "ball_position",
+            "left_team",
+            "right_team",
+            "left_team_difficulty",
+            "right_team_difficulty",
+        ),
         "reverse_team_processing",  # The order of the teams has no effect here.
     )
     for each in fields(recorded):
-        if each.name not in may_differ and getattr(recorded, each.name) != getattr(other, each.name):
+        if each.name not in may_differ and getattr(recorded, each.name) != getattr(
+            other, each.name
+        ):
             raise TranslationError(
                 f"`{each.name}` is {getattr(recorded, each.name)} in even and {getattr(other, each.name)} in odd"
                 " episodes; a text can't express that",
@@ -240,4 +272,6 @@ def _either(recorded: ScenarioConfig, other: ScenarioConfig, axis: int) -> str:
 
 
 def _both(even: float, odd: float) -> str:
-    return number_text(even) if even == odd else f"alternate({number_text(even)}, {number_text(odd)})"
+    return (
+        number_text(even) if even == odd else f"alternate({number_text(even)}, {number_text(odd)})"
+    )

@@ -17,15 +17,27 @@ _FLAGS = {"true": True, "false": False, "1": True, "0": False}
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command and returns its exit code: 0, 1 (input) or 2 (usage)."""
-    parser = argparse.ArgumentParser(prog="dump_to_txt", description="Write a dump as text", allow_abbrev=False)
-    parser.add_argument(
-        "--trace_file", metavar="FILE.dump", required=True, help="the dump; reading it runs what it says"
+    parser = argparse.ArgumentParser(
+        prog="dump_to_txt", description="Write a dump as text", allow_abbrev=False
     )
-    parser.add_argument("--output", metavar="FILE.txt", required=True, help="where the text is written")
-    # All three ways to write GRF's flags.
-    parser.add_argument("--include_debug", type=_flag, nargs="?", const=True, default=True, metavar="true|false")
     parser.add_argument(
-        "--noinclude_debug", dest="include_debug", action="store_false", help="without what was pressed"
+        "--trace_file",
+        metavar="FILE.dump",
+        required=True,
+        help="the dump; reading it runs what it says",
+    )
+    parser.add_argument(
+        "--output", metavar="FILE.txt", required=True, help="where the text is written"
+    )
+    # All three ways to write GRF's flags.
+    parser.add_argument(
+        "--include_debug", type=_flag, nargs="?", const=True, default=True, metavar="true|false"
+    )
+    parser.add_argument(
+        "--noinclude_debug",
+        dest="include_debug",
+        action="store_false",
+        help="without what was pressed",
     )
     try:
         parsed = parser.parse_args(arguments)

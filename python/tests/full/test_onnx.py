@@ -58,7 +58,9 @@ def test_a_model_plays_what_it_likes_best(tmp_path: Path) -> None:
 @pytest.mark.parametrize("batch", ["batch", 1])
 def test_it_plays_every_agent_of_its_side(tmp_path: Path, batch: Any) -> None:
     model = save(tmp_path / "policy.onnx", batch=batch)
-    env = parallel_env("academy_3_vs_1_with_keeper", left=3, right="all", opponents={"right": model})
+    env = parallel_env(
+        "academy_3_vs_1_with_keeper", left=3, right="all", opponents={"right": model}
+    )
     env.reset(seed=1)
     env.step(dict.fromkeys(env.agents, 0))
     played = env.env.played()
@@ -67,10 +69,18 @@ def test_it_plays_every_agent_of_its_side(tmp_path: Path, batch: Any) -> None:
 
 @pytest.mark.parametrize("kind", [TensorProto.UINT8, TensorProto.FLOAT, TensorProto.DOUBLE])
 def test_it_can_see_another_observation_than_the_caller(tmp_path: Path, kind: int) -> None:
-    model = save(tmp_path / "pixels.onnx", shape=(72, 96, 4), kind=kind, n_actions=20, favourite=Action.BUILTIN_AI)
+    model = save(
+        tmp_path / "pixels.onnx",
+        shape=(72, 96, 4),
+        kind=kind,
+        n_actions=20,
+        favourite=Action.BUILTIN_AI,
+    )
     env = setpiece.make(DUEL, right=1, opponents={"right": Policy(model, observation="smm")})
     bot = setpiece.make(DUEL, right=1, opponents={"right": "bot"})
-    assert same(play(env, 1, lambda: Action.LEFT, steps=50), play(bot, 1, lambda: Action.LEFT, steps=50))
+    assert same(
+        play(env, 1, lambda: Action.LEFT, steps=50), play(bot, 1, lambda: Action.LEFT, steps=50)
+    )
 
 
 def test_the_greatest_logit_wins(tmp_path: Path) -> None:
@@ -92,14 +102,18 @@ def test_files_that_are_no_policies(tmp_path: Path) -> None:
     (tmp_path / "text.onnx").write_text("no model")
     with pytest.raises(setpiece.FormatError, match="no ONNX model"):
         setpiece.onnx_policy(tmp_path / "text.onnx")
-    seven = setpiece.make(DUEL, right=1, opponents={"right": save(tmp_path / "seven.onnx", n_actions=7, favourite=1)})
+    seven = setpiece.make(
+        DUEL, right=1, opponents={"right": save(tmp_path / "seven.onnx", n_actions=7, favourite=1)}
+    )
     seven.reset(seed=1)
     with pytest.raises(setpiece.OpponentError, match=r"\(batch, 19\)") as caught:
         seven.step(0)
     assert isinstance(caught.value.__cause__, setpiece.FormatError)
     with pytest.raises(setpiece.FormatError, match="expected one"):
         setpiece.onnx_policy(save(tmp_path / "int.onnx", kind=TensorProto.INT32))
-    wide = setpiece.make(DUEL, right=1, opponents={"right": save(tmp_path / "wide.onnx", shape=(116,))})
+    wide = setpiece.make(
+        DUEL, right=1, opponents={"right": save(tmp_path / "wide.onnx", shape=(116,))}
+    )
     wide.reset(seed=1)
     with pytest.raises(setpiece.OpponentError, match="of `right_GK_1` failed"):
         wide.step(0)

@@ -40,7 +40,9 @@ def cluster() -> Any:
     ],
 )
 def test_passes_the_checks_of_rllib(shown: dict[str, Any]) -> None:
-    check_multiagent_environments(RllibFootballEnv({"scenario": THREE, "left": "all", "right": "all", **shown}))
+    check_multiagent_environments(
+        RllibFootballEnv({"scenario": THREE, "left": "all", "right": "all", **shown})
+    )
 
 
 def test_is_the_parallel_environment() -> None:
@@ -98,7 +100,9 @@ def test_random_agents_of_both_sides_roll_out() -> None:
 
 def test_ppo_trains_on_the_empty_goal() -> None:
     algorithm = ppo(
-        {"scenario": CLOSE, "left": 1, "rewards": "scoring,checkpoints"}, {"p0"}, lambda *_, **__: "p0"
+        {"scenario": CLOSE, "left": 1, "rewards": "scoring,checkpoints"},
+        {"p0"},
+        lambda *_, **__: "p0",
     ).build_algo()
     results = [algorithm.train() for _ in range(2)]
     assert results[-1]["env_runners"]["num_episodes_lifetime"] > 0

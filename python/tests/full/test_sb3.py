@@ -59,7 +59,9 @@ def test_is_step_by_step_what_dummy_vec_env_is(shown: dict[str, Any]) -> None:
             np.testing.assert_array_equal(info["action_mask"], expected["action_mask"])
             if "terminal_observation" in expected:
                 ends += 1
-                np.testing.assert_array_equal(info["terminal_observation"], expected["terminal_observation"])
+                np.testing.assert_array_equal(
+                    info["terminal_observation"], expected["terminal_observation"]
+                )
                 assert info["setpiece"] == expected["setpiece"]
                 assert info["outcome"] == expected["outcome"]
         for info, expected in zip(ours.reset_infos, theirs.reset_infos, strict=True):
@@ -136,7 +138,8 @@ def test_attributes_and_methods_of_a_batch() -> None:
 
 def test_what_a_batch_does_not_tell_is_played_by_single_environments() -> None:
     text = (
-        "scenario s extends academy { ball at (0.9, 0)  team left { CB at (0.89, 0) }  record shots = count of shot }"
+        "scenario s extends academy { ball at (0.9, 0)  team left { CB at (0.89, 0) }"
+        "  record shots = count of shot }"
     )
     for vec, action, kind in (
         (make_vec(setpiece.compile(text), 2, seed=1), Action.SHOT, FootballVectorEnv),
@@ -159,7 +162,10 @@ def test_what_it_can_not_be_made_of() -> None:
     with pytest.raises(setpiece.ParameterError, match="trains one agent"):
         make_vec(THREE, 2, left=3)
     assert (
-        make_vec(THREE, 2, left=3, right=1, opponents={"right": "bot", "left_0": "bot", "left_1": "bot"}).num_envs == 2
+        make_vec(
+            THREE, 2, left=3, right=1, opponents={"right": "bot", "left_0": "bot", "left_1": "bot"}
+        ).num_envs
+        == 2
     )
 
 

@@ -11,7 +11,13 @@ pytest.importorskip("tensorboard")
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CLOSE = ["--scenario", "academy_empty_goal_close", "--threads", "1"]
-CURVES = {"episode/score", "episode/return", "episode/length", "terms/scoring/goal", "terms/scoring/conceded"}
+CURVES = {
+    "episode/score",
+    "episode/return",
+    "episode/length",
+    "terms/scoring/goal",
+    "terms/scoring/conceded",
+}
 
 pytestmark = pytest.mark.filterwarnings("default")
 
@@ -39,7 +45,15 @@ def test_plain_ppo_scores(example: Any, tmp_path: Path) -> None:
 
 
 def test_plain_ppo_with_masks_and_other_rewards(example: Any, tmp_path: Path) -> None:
-    options = ["--steps", "8192", "--masks", "--rewards", "scoring,checkpoints", "--out", str(tmp_path)]
+    options = [
+        "--steps",
+        "8192",
+        "--masks",
+        "--rewards",
+        "scoring,checkpoints",
+        "--out",
+        str(tmp_path),
+    ]
     assert -1 <= example("train_cleanrl").main([*CLOSE, *options]) <= 1
     assert curves(tmp_path) >= {*CURVES, "terms/checkpoints/carried", "terms/checkpoints/goal"}
 
@@ -60,7 +74,10 @@ def test_rllib(tmp_path: Path) -> None:
     # Separate, because Ray's runners import the program's module.
     command = [*CLOSE, "--steps", "4000", "--envs", "8", "--out", str(tmp_path)]
     run = subprocess.run(
-        [sys.executable, str(EXAMPLES / "train_rllib.py"), *command], capture_output=True, text=True, timeout=300
+        [sys.executable, str(EXAMPLES / "train_rllib.py"), *command],
+        capture_output=True,
+        text=True,
+        timeout=300,
     )
     assert run.returncode == 0, run.stderr
     assert "mean score of 100 episodes: " in run.stdout

@@ -15,7 +15,10 @@ const COMES_STEPS: f32 = 2.0;
 pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, unit: f32) {
     let recent = scene.news.iter().filter(|news| news.age_steps < STAYS_STEPS);
     // Of equals, the latest.
-    let Some(news) = recent.max_by_key(|news| (news.kind, std::cmp::Reverse(news.age_steps))) else { return };
+    let Some(news) = recent.max_by_key(|news| (news.kind, std::cmp::Reverse(news.age_steps)))
+    else {
+        return;
+    };
     let age = news.age_steps as f32 + crate::math::within(scene.between, 0.0, 1.0);
     let open = smooth((age + 1.0) / COMES_STEPS);
     strip(canvas, *news, unit, open);

@@ -11,12 +11,15 @@ pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, pitch: &Pitch, unit: 
     let scale = (206.0 * unit / field.x).min(150.0 * unit / field.y);
     let half = field * (0.5 * scale);
     let margin = 7.0 * unit;
-    let middle = Vec2::new(canvas.width as f32 * 0.5, canvas.height as f32 - half.y - margin - 14.0 * unit);
+    let middle =
+        Vec2::new(canvas.width as f32 * 0.5, canvas.height as f32 - half.y - margin - 14.0 * unit);
     let at = |x: f32, y: f32| middle + Vec2::new(x, y) * scale;
     canvas.panel(middle - half - margin, middle + half + margin, 6.0 * unit, [10, 34, 20], 0.74);
     let (x, y) = (pitch.length_m * 0.5, pitch.width_m * 0.5);
     let width = (0.65 * unit).max(0.4);
-    let mut line = |ax: f32, ay: f32, bx: f32, by: f32| canvas.stroke(at(ax, ay), at(bx, by), width, LINE, 0.6);
+    let mut line = |ax: f32, ay: f32, bx: f32, by: f32| {
+        canvas.stroke(at(ax, ay), at(bx, by), width, LINE, 0.6)
+    };
     for side in [-1.0, 1.0] {
         line(-x, side * y, x, side * y);
         line(side * x, -y, side * x, y);

@@ -29,7 +29,13 @@ pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, unit: f32) {
         [0, 0, 0],
         0.35,
     );
-    canvas.panel(Vec2::new(left, top), Vec2::new(left + whole, top + high), 4.0 * unit, PANEL, 0.94);
+    canvas.panel(
+        Vec2::new(left, top),
+        Vec2::new(left + whole, top + high),
+        4.0 * unit,
+        PANEL,
+        0.94,
+    );
     let mut x = left;
     canvas.panel(Vec2::new(x, top), Vec2::new(x + bar, top + high), 2.0 * unit, ACCENTS[0], 1.0);
     x += bar;
@@ -62,7 +68,13 @@ fn write_score(canvas: &mut Raster<'_>, style: &Lettering, score: &[Digits; 2], 
     style.write(canvas, first, Vec2::new(middle.x - gap - style.width(first), top));
     style.write(canvas, score[1].as_str(), Vec2::new(middle.x + gap, top));
     let dash = style.size * 0.2;
-    canvas.stroke(middle - Vec2::new(dash, 0.0), middle + Vec2::new(dash, 0.0), style.size * 0.09, FAINT, 1.0);
+    canvas.stroke(
+        middle - Vec2::new(dash, 0.0),
+        middle + Vec2::new(dash, 0.0),
+        style.size * 0.09,
+        FAINT,
+        1.0,
+    );
 }
 
 /// Minutes and seconds.
@@ -72,7 +84,11 @@ fn clock(canvas: &mut Raster<'_>, seconds: f32, middle: Vec2, unit: f32) {
     let style = Lettering::plain(18.0 * unit, INK);
     let half = 5.0 * unit;
     let top = middle.y - style.size * 0.5;
-    style.write(canvas, minutes.as_str(), Vec2::new(middle.x - half - style.width(minutes.as_str()), top));
+    style.write(
+        canvas,
+        minutes.as_str(),
+        Vec2::new(middle.x - half - style.width(minutes.as_str()), top),
+    );
     style.write(canvas, seconds.as_str(), Vec2::new(middle.x + half, top));
     for dot in [-0.22, 0.22] {
         canvas.disc(middle + Vec2::new(0.0, dot * style.size), style.size * 0.085, INK, 1.0);

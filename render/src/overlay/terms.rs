@@ -28,7 +28,11 @@ pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, unit: f32) {
         let y = corner.y + 7.0 * unit + (i as f32 + 0.5) * line;
         let style = Lettering::plain(11.0 * unit, INK);
         let end = term.name.char_indices().nth(LETTERS).map_or(term.name.len(), |(end, _)| end);
-        style.write(canvas, &term.name[..end], Vec2::new(corner.x + 12.0 * unit, y - style.size * 0.5));
+        style.write(
+            canvas,
+            &term.name[..end],
+            Vec2::new(corner.x + 12.0 * unit, y - style.size * 0.5),
+        );
         let ink = if term.value > 0.0 {
             GAIN
         } else if term.value < 0.0 {
@@ -36,7 +40,12 @@ pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, unit: f32) {
         } else {
             FAINT
         };
-        value(canvas, term.value, Vec2::new(corner.x + size.x - 12.0 * unit, y), Lettering { color: ink, ..style });
+        value(
+            canvas,
+            term.value,
+            Vec2::new(corner.x + size.x - 12.0 * unit, y),
+            Lettering { color: ink, ..style },
+        );
     }
 }
 

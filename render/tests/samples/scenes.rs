@@ -26,8 +26,10 @@ fn player(team: Side, slot: usize, shift: f32) -> ScenePlayer {
     let x = if role == Role::GK { x } else { x + shift * sign };
     let run = 1.0 + (slot * 7 % 11) as f32 * 0.6;
     // Directions all around, by the half-angle formula: a sample must be the same on every machine.
-    let half = [0.2, 1.4, -3.0, -0.9, 0.5, 6.0, -0.3, 2.2, -1.6, 0.05, -0.6][(slot * 3 + team.index() * 5) % 11];
-    let (x_way, y_way) = ((1.0 - half * half) / (1.0 + half * half), 2.0 * half / (1.0 + half * half));
+    let half = [0.2, 1.4, -3.0, -0.9, 0.5, 6.0, -0.3, 2.2, -1.6, 0.05, -0.6]
+        [(slot * 3 + team.index() * 5) % 11];
+    let (x_way, y_way) =
+        ((1.0 - half * half) / (1.0 + half * half), 2.0 * half / (1.0 + half * half));
     let vel = if role == Role::GK { [0.0; 2] } else { [run * x_way, run * y_way] };
     ScenePlayer {
         id: Id { team, slot: slot as u8 },
@@ -47,7 +49,8 @@ pub(crate) fn squads(shift: f32) -> Vec<ScenePlayer> {
 }
 
 fn base(step: u32, shift: f32, ball: [f32; 3]) -> Scene {
-    let mut scene = Scene { step, clock_s: step as f32 * 0.1, players: squads(shift), ..Scene::default() };
+    let mut scene =
+        Scene { step, clock_s: step as f32 * 0.1, players: squads(shift), ..Scene::default() };
     scene.ball.pos = ball;
     scene
 }
@@ -72,7 +75,8 @@ pub(crate) fn kick_off() -> Scene {
         player.vel = [0.0; 2];
         player.facing = [sign, 0.0];
         player.pos[0] = sign * (player.pos[0] * sign - 4.0).min(-2.5);
-        if player.pos[0].abs() < 10.0 && player.pos[1].abs() < 9.0 && player.id.team == Side::Right {
+        if player.pos[0].abs() < 10.0 && player.pos[1].abs() < 9.0 && player.id.team == Side::Right
+        {
             player.pos[0] = 10.5;
         }
     }
@@ -93,7 +97,8 @@ pub(crate) fn corner() -> Scene {
     scene.ball.spin = [10.0, 0.0, 40.0];
     at(&mut scene, 10, [54.6, -35.6], [-0.4, 1.5]).posture = Posture::Kicking;
     scene.players[10].progress = 0.8;
-    let box_places = [(48.5, -4.0), (46.0, 2.0), (49.5, 4.0), (43.5, -1.5), (45.0, 7.0), (38.0, 3.0)];
+    let box_places =
+        [(48.5, -4.0), (46.0, 2.0), (49.5, 4.0), (43.5, -1.5), (45.0, 7.0), (38.0, 3.0)];
     for (i, (x, y)) in box_places.into_iter().enumerate() {
         at(&mut scene, 4 + i, [x, y], [2.5, -1.0 - 0.3 * i as f32]);
         at(&mut scene, 14 + i, [x + 1.1, y - 0.5], [0.5, -1.5]);
@@ -121,7 +126,12 @@ pub(crate) fn shot() -> Scene {
     striker.posture = Posture::Kicking;
     striker.progress = 0.66;
     striker.agent = true;
-    let places = [(46.5, 1.0, -2.0, 2.5), (42.0, 8.0, 5.0, -3.0), (47.5, 6.5, -3.0, -1.0), (38.0, -6.0, 6.0, 2.0)];
+    let places = [
+        (46.5, 1.0, -2.0, 2.5),
+        (42.0, 8.0, 5.0, -3.0),
+        (47.5, 6.5, -3.0, -1.0),
+        (38.0, -6.0, 6.0, 2.0),
+    ];
     for (i, (x, y, u, v)) in places.into_iter().enumerate() {
         at(&mut scene, 12 + i, [x, y], [u, v]);
     }
@@ -145,7 +155,8 @@ pub(crate) fn goal() -> Scene {
     scene.score = [2, 0];
     scene.ball.pos = [57.25, -1.6, 1.1];
     scene.ball.vel = [6.0, -1.0, 0.0];
-    scene.news = vec![News { kind: NewsKind::Goal, team: Side::Left, number: Some(9), age_steps: 5 }];
+    scene.news =
+        vec![News { kind: NewsKind::Goal, team: Side::Left, number: Some(9), age_steps: 5 }];
     at(&mut scene, 9, [46.0, 3.0], [5.0, -3.0]).posture = Posture::Upright;
     let keeper = at(&mut scene, 11, [53.9, -1.0], [-0.3, -3.0]);
     keeper.posture = Posture::Diving;
@@ -171,7 +182,8 @@ pub(crate) fn slide() -> Scene {
     fallen.facing = [0.8, 0.5];
     at(&mut scene, 15, [19.0, 3.0], [-4.0, 3.0]);
     at(&mut scene, 18, [17.0, 17.0], [-3.0, -5.0]).posture = Posture::Stumbling;
-    scene.news = vec![News { kind: NewsKind::YellowCard, team: Side::Right, number: Some(4), age_steps: 8 }];
+    scene.news =
+        vec![News { kind: NewsKind::YellowCard, team: Side::Right, number: Some(4), age_steps: 8 }];
     scene
 }
 

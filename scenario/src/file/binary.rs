@@ -16,7 +16,8 @@ pub fn to_bytes(scenario: &Scenario) -> Result<Vec<u8>, FormatError> {
     // What one form can't hold, the other mustn't either.
     to_json(scenario)?;
     let mut file = Container::begin(0);
-    ciborium::into_writer(scenario, &mut file).map_err(|error| FormatError::Write(error.to_string()))?;
+    ciborium::into_writer(scenario, &mut file)
+        .map_err(|error| FormatError::Write(error.to_string()))?;
     Ok(CONTAINER.seal(file))
 }
 
@@ -27,7 +28,8 @@ pub fn to_bytes(scenario: &Scenario) -> Result<Vec<u8>, FormatError> {
 pub fn from_bytes(file: &[u8]) -> Result<Scenario, FormatError> {
     check_size(file.len(), FormatError::NotAScenario)?;
     let body = CONTAINER.open(file)?;
-    let scenario: Scenario = ciborium::from_reader(body).map_err(|error| FormatError::Corrupt(error.to_string()))?;
+    let scenario: Scenario =
+        ciborium::from_reader(body).map_err(|error| FormatError::Corrupt(error.to_string()))?;
     verify(&scenario).map_err(FormatError::Corrupt)?;
     Ok(scenario)
 }

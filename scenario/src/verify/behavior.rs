@@ -21,9 +21,13 @@ pub(super) fn verify_nodes(behavior: &Behavior, n_scripts: usize) -> Result<(), 
             if ahead { Ok(()) } else { Err(format!("node {at} jumps to {to}, which is not ahead")) }
         };
         match node {
-            Node::Do(Do { act: Act::Script { script, .. }, .. }) => below("script", *script, n_scripts)?,
+            Node::Do(Do { act: Act::Script { script, .. }, .. }) => {
+                below("script", *script, n_scripts)?
+            }
             Node::Do(_) | Node::Return => {}
-            Node::Let(pairs) | Node::Assign(pairs) => pairs.iter().try_for_each(|(to, _)| cell(*to))?,
+            Node::Let(pairs) | Node::Assign(pairs) => {
+                pairs.iter().try_for_each(|(to, _)| cell(*to))?
+            }
             Node::Draw { cell: to, count, .. } => cell(*to).and_then(|()| cell(*count))?,
             Node::Branch { otherwise, .. } => forward(*otherwise)?,
             Node::Jump(to) => forward(*to)?,

@@ -58,7 +58,9 @@ impl EventKind {
     /// The qualifiers that the event can have.
     pub const fn qualifiers(self) -> &'static [Qualifier] {
         match self {
-            EventKind::Pass => &[Qualifier::Attempted, Qualifier::Completed, Qualifier::Intercepted],
+            EventKind::Pass => {
+                &[Qualifier::Attempted, Qualifier::Completed, Qualifier::Intercepted]
+            }
             EventKind::Shot => &[Qualifier::OnTarget, Qualifier::OffTarget, Qualifier::Blocked],
             EventKind::ThrowIn
             | EventKind::Corner

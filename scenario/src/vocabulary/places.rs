@@ -2,8 +2,8 @@
 
 use super::words;
 use crate::pitch::{
-    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M,
-    SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
+    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M,
+    PENALTY_SPOT_M, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
 };
 
 words! {
@@ -58,7 +58,9 @@ pub enum RegionShape {
 impl RegionName {
     /// The shape at the left team's end; the right team's is rotated by 180°.
     pub fn left_shape_m(self) -> RegionShape {
-        let end = |depth: f64, half_width: f64| (-HALF_LENGTH_M, -half_width, depth - HALF_LENGTH_M, half_width);
+        let end = |depth: f64, half_width: f64| {
+            (-HALF_LENGTH_M, -half_width, depth - HALF_LENGTH_M, half_width)
+        };
         let (x0, y0, x1, y1) = match self {
             RegionName::Box => end(BOX_DEPTH_M, BOX_HALF_WIDTH_M),
             RegionName::SixYard => end(SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M),
@@ -96,7 +98,9 @@ impl PitchRegion {
         match self {
             PitchRegion::Pitch => lane(-HALF_WIDTH_M, HALF_WIDTH_M),
             PitchRegion::CentreCircle => None,
-            PitchRegion::MiddleThird => Some((-HALF_LENGTH_M / 3.0, -HALF_WIDTH_M, HALF_LENGTH_M / 3.0, HALF_WIDTH_M)),
+            PitchRegion::MiddleThird => {
+                Some((-HALF_LENGTH_M / 3.0, -HALF_WIDTH_M, HALF_LENGTH_M / 3.0, HALF_WIDTH_M))
+            }
             PitchRegion::FlankTop => lane(-HALF_WIDTH_M, -BOX_HALF_WIDTH_M),
             PitchRegion::FlankBottom => lane(BOX_HALF_WIDTH_M, HALF_WIDTH_M),
             PitchRegion::HalfSpaceTop => lane(-BOX_HALF_WIDTH_M, -SIX_YARD_HALF_WIDTH_M),

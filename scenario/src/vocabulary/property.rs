@@ -100,7 +100,12 @@ pub const PROPERTIES: &[Property] = &[
     property(Owner::Player, "y", Type::Number, "normalised y in the reader's frame"),
     property(Owner::Player, "speed", Type::Speed, "along the ground"),
     property(Owner::Player, "velocity", Type::Vector, "along the ground, m/s"),
-    property(Owner::Player, "heading", Type::Angle, "the direction the player faces, in the reader's frame"),
+    property(
+        Owner::Player,
+        "heading",
+        Type::Angle,
+        "the direction the player faces, in the reader's frame",
+    ),
     property(Owner::Player, "fatigue", Type::Number, "0 fresh to 1 exhausted"),
     property(Owner::Player, "yellow_cards", Type::Int, "cards so far"),
     property(Owner::Player, "role", Type::Role, "the player's role"),

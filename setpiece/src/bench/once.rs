@@ -22,15 +22,21 @@ const RUNS: u32 = 20;
 /// - `to_bytes`, `from_bytes`: taking and restoring a snapshot;
 /// - `simple115v2`, `smm`: writing the first agent's observation, 115 floats or 72 by 96 by 4
 ///   bytes; 0 without agents.
-pub const ONCE_NAMES: [&str; 7] = ["create", "reset", "memory", "to_bytes", "from_bytes", "simple115v2", "smm"];
+pub const ONCE_NAMES: [&str; 7] =
+    ["create", "reset", "memory", "to_bytes", "from_bytes", "simple115v2", "smm"];
 
 /// Microseconds of each of [`ONCE_NAMES`]: the least of several runs' means, wall time on one
 /// thread.
 ///
 /// # Errors
 /// Like [`super::measure`].
-pub fn once(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<[f64; ONCE_NAMES.len()], Error> {
-    let create = || Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment);
+pub fn once(
+    scenario: &Arc<Scenario>,
+    options: &BenchOptions,
+) -> Result<[f64; ONCE_NAMES.len()], Error> {
+    let create = || {
+        Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)
+    };
     let failed = |why: EpisodeError| Error::Episode(Box::new(why));
     let mut played = create()?;
     let mut seed = options.seed;
@@ -63,7 +69,9 @@ pub fn once(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<[f64; ON
             black_box((&kept, &played));
             Ok(())
         })?,
-        timed(each, || played.snapshot().map(|bytes| drop(black_box(bytes))).map_err(Error::Snapshot))?,
+        timed(each, || {
+            played.snapshot().map(|bytes| drop(black_box(bytes))).map_err(Error::Snapshot)
+        })?,
         timed(each, || kept.restore(black_box(&bytes)).map_err(Error::Snapshot))?,
         timed(if looks { each } else { Duration::ZERO }, || {
             // The buffer has the size of the observation.

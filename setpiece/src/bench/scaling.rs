@@ -39,7 +39,9 @@ fn arithmetic(threads: usize, duration: Duration) -> f64 {
         let (begun, mut rounds, mut value) = (Instant::now(), 0u64, 1u64);
         while begun.elapsed() < duration {
             for _ in 0..10_000 {
-                value = value.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                value = value
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1_442_695_040_888_963_407);
             }
             black_box(value);
             rounds += 1;

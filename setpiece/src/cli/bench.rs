@@ -4,7 +4,9 @@ use super::FINE;
 use super::out::{Out, StyledText};
 use super::playing::AgentName;
 use crate::Error;
-use crate::bench::{BenchObservation, BenchOptions, Measured, ONCE_NAMES, measure, once, phases, scaling};
+use crate::bench::{
+    BenchObservation, BenchOptions, Measured, ONCE_NAMES, measure, once, phases, scaling,
+};
 use crate::engine::environment::EnvironmentOptions;
 use crate::files::{SOURCE_MAX_BYTES, into_text, read_file};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
@@ -15,7 +17,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The default scenarios: the game of eleven, a small one, an empty one.
-const SCENARIOS: [&str; 3] = ["11_vs_11_stochastic", "academy_3_vs_1_with_keeper", "academy_empty_goal_close"];
+const SCENARIOS: [&str; 3] =
+    ["11_vs_11_stochastic", "academy_3_vs_1_with_keeper", "academy_empty_goal_close"];
 
 #[derive(Args, Debug)]
 pub(crate) struct BenchArgs {
@@ -95,7 +98,13 @@ struct BenchRow {
 impl BenchRow {
     fn compares_with(&self, other: &BenchRow) -> bool {
         let key = |row: &BenchRow| {
-            (row.scenario.clone(), row.threads, row.matches, row.observation.clone(), row.agent.clone())
+            (
+                row.scenario.clone(),
+                row.threads,
+                row.matches,
+                row.observation.clone(),
+                row.agent.clone(),
+            )
         };
         key(self) == key(other)
     }
@@ -116,16 +125,29 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
     if threads.is_empty() {
         threads = if cores == 1 { vec![1] } else { vec![1, cores] };
     }
-    let names: Vec<OsString> =
-        if args.scenarios.is_empty() { SCENARIOS.map(OsString::from).to_vec() } else { args.scenarios.clone() };
-    let loaded = names.iter().map(|name| crate::load_with(name, &out.loading())).collect::<Result<Vec<_>, _>>()?;
-    let observation =
-        args.observation.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
-    let agent = args.agent.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
+    let names: Vec<OsString> = if args.scenarios.is_empty() {
+        SCENARIOS.map(OsString::from).to_vec()
+    } else {
+        args.scenarios.clone()
+    };
+    let loaded = names
+        .iter()
+        .map(|name| crate::load_with(name, &out.loading()))
+        .collect::<Result<Vec<_>, _>>()?;
+    let observation = args
+        .observation
+        .to_possible_value()
+        .map_or_else(String::new, |value| value.get_name().to_owned());
+    let agent = args
+        .agent
+        .to_possible_value()
+        .map_or_else(String::new, |value| value.get_name().to_owned());
     let mut rows = Vec::new();
     for loaded in &loaded {
         out.warnings(loaded);
-        for (&threads, &matches) in threads.iter().flat_map(|threads| args.matches.iter().map(move |m| (threads, m))) {
+        for (&threads, &matches) in
+            threads.iter().flat_map(|threads| args.matches.iter().map(move |m| (threads, m)))
+        {
             let options = BenchOptions {
                 matches: matches as usize,
                 threads,
@@ -144,15 +166,18 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
             if threads == 1 {
                 let phases = phases(&loaded.scenario, &options)?;
                 let named = crate::engine::laps::Phase::NAMED.iter().zip(phases);
-                row.microseconds =
-                    named.map(|((_, name), (_, microseconds))| ((*name).to_owned(), microseconds)).collect();
+                row.microseconds = named
+                    .map(|((_, name), (_, microseconds))| ((*name).to_owned(), microseconds))
+                    .collect();
                 let once = ONCE_NAMES.iter().zip(once(&loaded.scenario, &options)?);
-                row.once_microseconds = once.map(|(name, took)| ((*name).to_owned(), took)).collect();
+                row.once_microseconds =
+                    once.map(|(name, took)| ((*name).to_owned(), took)).collect();
             } else {
                 row.scaling = Some(scaling(&loaded.scenario, &options)?);
             }
             let earlier = before.iter().find(|earlier| row.compares_with(earlier));
-            row.ratio = earlier.map(|earlier| row.steps_per_cpu_second / earlier.steps_per_cpu_second);
+            row.ratio =
+                earlier.map(|earlier| row.steps_per_cpu_second / earlier.steps_per_cpu_second);
             if args.format == BenchFormat::Jsonl {
                 out.line(serde_json::to_string(&row).unwrap_or_default());
             }
@@ -173,7 +198,12 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
     Ok(FINE)
 }
 
-fn row(scenario: &str, options: &BenchOptions, measured: &Measured, words: (&str, &str)) -> BenchRow {
+fn row(
+    scenario: &str,
+    options: &BenchOptions,
+    measured: &Measured,
+    words: (&str, &str),
+) -> BenchRow {
     BenchRow {
         scenario: scenario.to_owned(),
         threads: options.threads,
@@ -198,7 +228,8 @@ fn print(rows: &[BenchRow], compared: bool, words: (&str, &str), out: &Out) {
     let scales = rows.iter().any(|row| row.scaling.is_some());
     let scaling = if scales { "       scaling" } else { "" };
     let against = if compared { "   ratio" } else { "" };
-    let head = format!("{:width$}  threads  matches  steps/s  steps/CPU-s{scaling}{against}", "scenario");
+    let head =
+        format!("{:width$}  threads  matches  steps/s  steps/CPU-s{scaling}{against}", "scenario");
     out.line(StyledText::default().dim(&head));
     for row in rows {
         let ratio = match row.ratio {
@@ -217,12 +248,24 @@ fn print(rows: &[BenchRow], compared: bool, words: (&str, &str), out: &Out) {
         ));
     }
     let alone: Vec<&BenchRow> = rows.iter().filter(|row| row.threads == 1).collect();
-    times(&alone, "µs a step", &crate::engine::laps::Phase::NAMED.map(|(_, name)| name), |row| &row.microseconds, out);
+    times(
+        &alone,
+        "µs a step",
+        &crate::engine::laps::Phase::NAMED.map(|(_, name)| name),
+        |row| &row.microseconds,
+        out,
+    );
     times(&alone, "µs each time", &ONCE_NAMES, |row| &row.once_microseconds, out);
 }
 
 /// A table of microseconds by name.
-fn times(rows: &[&BenchRow], title: &str, names: &[&str], of: impl Fn(&BenchRow) -> &BTreeMap<String, f64>, out: &Out) {
+fn times(
+    rows: &[&BenchRow],
+    title: &str,
+    names: &[&str],
+    of: impl Fn(&BenchRow) -> &BTreeMap<String, f64>,
+    out: &Out,
+) {
     if rows.is_empty() {
         return;
     }
@@ -242,7 +285,9 @@ fn read(path: &Path) -> Result<Vec<BenchRow>, Error> {
     let row = |line: &str| {
         serde_json::from_str(line).map_err(|why| Error::File {
             path: path.to_owned(),
-            why: crate::error::FileFault::Io(format!("it is no table of `setpiece bench --format jsonl`: {why}")),
+            why: crate::error::FileFault::Io(format!(
+                "it is no table of `setpiece bench --format jsonl`: {why}"
+            )),
         })
     };
     text.lines().filter(|line| !line.trim().is_empty()).map(row).collect()

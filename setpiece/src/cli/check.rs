@@ -31,33 +31,44 @@ pub(crate) fn watch(files: &[OsString], format: MessageFormat, out: &Out) -> Res
 }
 
 /// Compiles each file and prints its problems; adds the files that were read to `inputs`.
-pub(crate) fn check(files: &[OsString], format: MessageFormat, out: &Out, inputs: &mut Vec<PathBuf>) -> u8 {
+pub(crate) fn check(
+    files: &[OsString],
+    format: MessageFormat,
+    out: &Out,
+    inputs: &mut Vec<PathBuf>,
+) -> u8 {
     let mut failed = false;
     let mut array = Vec::new();
     for file in files {
         let name = file.to_string_lossy();
-        let Checked { problems, sources, inputs: read } = match crate::check_with(file, &out.loading()) {
-            Ok(found) => found,
-            Err(error) => {
-                failed = true;
-                match format {
-                    MessageFormat::Human => out.error(&error),
-                    MessageFormat::Json => array.push(bare(&error, &name)),
+        let Checked { problems, sources, inputs: read } =
+            match crate::check_with(file, &out.loading()) {
+                Ok(found) => found,
+                Err(error) => {
+                    failed = true;
+                    match format {
+                        MessageFormat::Human => out.error(&error),
+                        MessageFormat::Json => array.push(bare(&error, &name)),
+                    }
+                    // A missing file may appear later.
+                    inputs.push(PathBuf::from(file));
+                    continue;
                 }
-                // A missing file may appear later.
-                inputs.push(PathBuf::from(file));
-                continue;
-            }
-        };
+            };
         inputs.extend(read);
-        let errors = problems.iter().filter(|problem| problem.severity() == Severity::Error).count();
+        let errors =
+            problems.iter().filter(|problem| problem.severity() == Severity::Error).count();
         failed |= errors > 0;
         match format {
             MessageFormat::Human if problems.is_empty() => out.line(format!("{name}: no problems")),
             MessageFormat::Human => {
                 out.problems(&problems, &sources);
                 let warnings = problems.len() - errors;
-                out.line(format!("{name}: {} and {}", count(errors, "error"), count(warnings, "warning")));
+                out.line(format!(
+                    "{name}: {} and {}",
+                    count(errors, "error"),
+                    count(warnings, "warning")
+                ));
             }
             MessageFormat::Json => {
                 let text = render(&problems, &sources, Format::Json);

@@ -28,7 +28,9 @@ pub(crate) struct DocArgs {
 
 /// Writes the page and the picture.
 pub(crate) fn doc(args: &DocArgs, out: &Out) -> Result<u8, Error> {
-    if let Some(path) = args.picture.as_ref().filter(|path| path.extension().is_none_or(|ending| ending != "svg")) {
+    if let Some(path) =
+        args.picture.as_ref().filter(|path| path.extension().is_none_or(|ending| ending != "svg"))
+    {
         let message = format!("a picture is written as SVG, not as `{}`", path.display());
         let help = format!("name it `{}`", path.with_extension("svg").display());
         out.fault(&Code::NoPicture.to_string(), &message, Some(&help));
@@ -40,7 +42,8 @@ pub(crate) fn doc(args: &DocArgs, out: &Out) -> Result<u8, Error> {
         refuse_overwriting(path, &loaded.inputs)?;
     }
     let options = EnvironmentOptions::default();
-    let mut environment = Environment::new(loaded.scenario.clone(), options).map_err(Error::Environment)?;
+    let mut environment =
+        Environment::new(loaded.scenario.clone(), options).map_err(Error::Environment)?;
     let drawn = environment.reset(Some(args.seed), Some(0)).and_then(|()| environment.start());
     let start = &drawn.map_err(|why| Error::Episode(Box::new(EpisodeError::Draw(why))))?;
     if let Some(path) = &args.picture {

@@ -18,7 +18,11 @@ pub(crate) fn explain(wanted: Option<&str>, out: &Out) -> u8 {
     let Some(text) = Code::from_text(wanted).and_then(page) else {
         let help = similar(wanted).map(|code| format!("did you mean `{code}`?"));
         let help = help.unwrap_or_else(|| "`setpiece explain` lists the codes".to_owned());
-        out.fault(&Code::UnknownCode.to_string(), &format!("no report has the code `{wanted}`"), Some(&help));
+        out.fault(
+            &Code::UnknownCode.to_string(),
+            &format!("no report has the code `{wanted}`"),
+            Some(&help),
+        );
         return FAULT;
     };
     let mut in_block = false;

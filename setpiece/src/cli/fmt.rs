@@ -52,8 +52,11 @@ pub(crate) fn fmt(args: &FmtArgs, out: &Out) -> u8 {
 fn one(path: &Path, check: bool, out: &Out) -> Result<bool, Error> {
     let piped = path.as_os_str() == "-";
     let name = if piped { PathBuf::from("<stdin>") } else { path.to_owned() };
-    let text =
-        if piped { read(std::io::stdin(), &name, SOURCE_MAX_BYTES)? } else { read_text(path, SOURCE_MAX_BYTES)? };
+    let text = if piped {
+        read(std::io::stdin(), &name, SOURCE_MAX_BYTES)?
+    } else {
+        read_text(path, SOURCE_MAX_BYTES)?
+    };
     let source = Source { name: name.to_string_lossy().into_owned(), text: text.into() };
     let formatted = format(&source).map_err(|problems| {
         let mut sources = Sources::default();
@@ -76,7 +79,10 @@ fn one(path: &Path, check: bool, out: &Out) -> Result<bool, Error> {
 
 /// Every `.pitch` file below a folder, except in hidden folders, sorted.
 fn pitch_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    let fault = |why: std::io::Error| Error::File { path: folder.to_owned(), why: FileFault::Io(why.to_string()) };
+    let fault = |why: std::io::Error| Error::File {
+        path: folder.to_owned(),
+        why: FileFault::Io(why.to_string()),
+    };
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(fault)? {
         let entry = entry.map_err(fault)?;

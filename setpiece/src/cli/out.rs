@@ -24,7 +24,9 @@ impl Out {
         let wanted = |terminal: bool| match colour {
             ColourChoice::Always => true,
             ColourChoice::Never => false,
-            ColourChoice::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+            ColourChoice::Auto => {
+                terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+            }
         };
         Out {
             stdout_colour: wanted(std::io::stdout().is_terminal()),
@@ -44,8 +46,8 @@ impl Out {
         self.text(text.into().text("\n"));
     }
 
-    /// Prints a text. On a terminal the styles that it was given are all that reaches it: control characters of authors
-    /// become their pictures.
+    /// Prints a text. On a terminal the styles that it was given are all that reaches it: control
+    /// characters of authors become their pictures.
     pub(crate) fn text(&self, text: impl Into<StyledText>) {
         let mut stdout = std::io::stdout();
         // A file or another program gets what was written.
@@ -88,7 +90,8 @@ impl Out {
 
     /// Prints reports.
     pub(crate) fn problems(&self, problems: &[Problem], sources: &Sources) {
-        let text = render(problems, sources, Format::Human { color: self.stderr_colour, width: 100 });
+        let text =
+            render(problems, sources, Format::Human { color: self.stderr_colour, width: 100 });
         // Steady already, with colours of its own.
         let _ = writeln!(std::io::stderr(), "{}", text.trim_end());
     }
@@ -101,7 +104,8 @@ impl Out {
     }
 }
 
-/// A text in parts, some of them in a style. Styles are given here alone: what a part contains sets none.
+/// A text in parts, some of them in a style. Styles are given here alone: what a part contains sets
+/// none.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StyledText(Vec<(String, Option<Style>)>);
 

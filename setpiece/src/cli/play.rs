@@ -56,7 +56,9 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     out.warnings(&loaded);
     let options = options(args, &loaded)?;
     let summary = with_progress(&loaded, &options)?;
-    if let Some(error) = first_error(&summary).filter(|_| summary.episodes.iter().all(Result::is_err)) {
+    if let Some(error) =
+        first_error(&summary).filter(|_| summary.episodes.iter().all(Result::is_err))
+    {
         return Err(error);
     }
     match args.format {
@@ -88,13 +90,15 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
     if !std::io::stderr().is_terminal() {
         return run(&loaded.scenario, options, |_| {});
     }
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} episodes  {msg} steps  {eta} left");
+    let style =
+        ProgressStyle::with_template("{bar:40} {pos}/{len} episodes  {msg} steps  {eta} left");
     let bar = ProgressBar::new(options.episodes.end - options.episodes.start);
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar.enable_steady_tick(TICK);
     let steps = std::sync::atomic::AtomicU64::new(0);
     let summary = run(&loaded.scenario, options, |length| {
-        let total = steps.fetch_add(length.into(), std::sync::atomic::Ordering::Relaxed) + u64::from(length);
+        let total = steps.fetch_add(length.into(), std::sync::atomic::Ordering::Relaxed)
+            + u64::from(length);
         bar.set_message(total.to_string());
         bar.inc(1);
     });
@@ -140,7 +144,12 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
 }
 
 /// Loads a changed file. If it is broken, reports why and keeps the last good scenario.
-fn reload(args: &RunArgs, live: &mut Live, timeout: Duration, out: &Out) -> Option<(Arc<Scenario>, RunOptions)> {
+fn reload(
+    args: &RunArgs,
+    live: &mut Live,
+    timeout: Duration,
+    out: &Out,
+) -> Option<(Arc<Scenario>, RunOptions)> {
     let fresh = live.poll(timeout)?.and_then(|fresh| Ok((fresh, options(args, fresh)?)));
     match fresh {
         Ok((fresh, options)) => {

@@ -55,7 +55,9 @@ enum PhysicsName {
 
 fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
-        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.trim().to_owned())),
+        Some((name, value)) if !name.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
         _ => Err("write it as name=value".to_owned()),
     }
 }
@@ -93,7 +95,12 @@ impl Playing {
                 PhysicsName::Full => Physics::Full,
             }),
             agents: None,
-            from: self.from.as_ref().map(|path| read_file(path, SNAPSHOT_MAX_BYTES)).transpose()?.map(Arc::from),
+            from: self
+                .from
+                .as_ref()
+                .map(|path| read_file(path, SNAPSHOT_MAX_BYTES))
+                .transpose()?
+                .map(Arc::from),
         })
     }
 }

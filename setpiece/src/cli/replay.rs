@@ -47,8 +47,15 @@ pub(crate) fn replay(args: &ReplayArgs, out: &Out) -> Result<u8, Error> {
 
 fn summary(replay: &Replay, environment: &Environment, out: &Out) {
     let [left, right] = environment.score();
-    let outcome = environment.outcome().map_or_else(|| "not ended".to_owned(), |outcome| outcome.label.to_string());
-    out.line(format!("{}  seed {}, episode {}", environment.scenario().name, replay.seed, replay.index));
+    let outcome = environment
+        .outcome()
+        .map_or_else(|| "not ended".to_owned(), |outcome| outcome.label.to_string());
+    out.line(format!(
+        "{}  seed {}, episode {}",
+        environment.scenario().name,
+        replay.seed,
+        replay.index
+    ));
     out.line(format!("  {outcome} after {} steps, {left} : {right}", replay.length));
     for (agent, id) in environment.agent_ids().iter().enumerate() {
         let sums = environment.term_names().iter().zip(environment.term_sums(agent));
@@ -75,8 +82,12 @@ fn moment(environment: &Environment, actions: &[Action]) -> Value {
         }
     }
     let [x, y] = place(game.ball.pos.x, game.ball.pos.y);
-    let pressed: Map<String, Value> =
-        environment.agent_ids().iter().zip(actions).map(|(id, action)| (id.clone(), json!(action.name()))).collect();
+    let pressed: Map<String, Value> = environment
+        .agent_ids()
+        .iter()
+        .zip(actions)
+        .map(|(id, action)| (id.clone(), json!(action.name())))
+        .collect();
     let events: Vec<Value> = environment
         .events()
         .iter()

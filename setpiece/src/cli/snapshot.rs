@@ -31,9 +31,12 @@ pub(crate) fn snapshot(args: &SnapshotArgs, out: &Out) -> Result<u8, Error> {
     out.warnings(&loaded);
     refuse_overwriting(&args.output, &loaded.inputs)?;
     let options = args.playing.environment(&loaded)?;
-    let mut environment = Environment::new(loaded.scenario.clone(), options).map_err(Error::Environment)?;
+    let mut environment =
+        Environment::new(loaded.scenario.clone(), options).map_err(Error::Environment)?;
     let broken = |why: EpisodeError| Error::Episode(Box::new(why));
-    environment.reset(Some(args.playing.seed), Some(args.episode)).map_err(|why| broken(why.into()))?;
+    environment
+        .reset(Some(args.playing.seed), Some(args.episode))
+        .map_err(|why| broken(why.into()))?;
     play(&mut environment, args.playing.agent(), args.step).map_err(broken)?;
     if environment.steps() < args.step {
         return Err(Error::NoStep { step: args.step, length: environment.steps() });

@@ -68,20 +68,35 @@ pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary)
 }
 
 /// Prints the table, below a drawing of the first episode's start.
-pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Summary, out: &Out) -> Result<(), Error> {
+pub(crate) fn print(
+    scenario: &Arc<Scenario>,
+    options: &RunOptions,
+    summary: &Summary,
+    out: &Out,
+) -> Result<(), Error> {
     out.line(StyledText::default().bold(&scenario.name).text("  ").text(scenario.title()));
-    let mut environment =
-        Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
+    let mut environment = Environment::new(scenario.clone(), options.environment.clone())
+        .map_err(Error::Environment)?;
     if environment.reset(Some(options.seed), Some(0)).is_ok() {
         let signs = drawn(environment.state()).into_iter();
-        out.line(signs.fold(StyledText::default(), |text, (sign, paint)| text.paint(&sign.to_string(), paint)));
+        out.line(signs.fold(StyledText::default(), |text, (sign, paint)| {
+            text.paint(&sign.to_string(), paint)
+        }));
     }
     out.line(StyledText::default().dim("  left team 0-9 attacks →, right team a-k ←, ball o"));
     out.line("");
-    let agent = Agent::NAMED.iter().find(|(_, agent)| *agent == options.agent).map_or("", |(name, _)| *name);
-    out.line(format!("  {} episodes · agent {agent} · seed {}", summary.episodes.len(), options.seed));
+    let agent = Agent::NAMED
+        .iter()
+        .find(|(_, agent)| *agent == options.agent)
+        .map_or("", |(name, _)| *name);
+    out.line(format!(
+        "  {} episodes · agent {agent} · seed {}",
+        summary.episodes.len(),
+        options.seed
+    ));
     out.line("");
-    let width = summary.outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(11);
+    let width =
+        summary.outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(11);
     for (label, verdict, count) in &summary.outcomes {
         let share = f64::from(*count) / summary.episodes.len() as f64;
         let bar = "█".repeat((share * BAR as f64).round() as usize);
@@ -101,12 +116,18 @@ pub(crate) fn print(scenario: &Arc<Scenario>, options: &RunOptions, summary: &Su
         out.line(format!("  {:width$}    {mean:+.3}  {name}", ""));
     }
     if summary.faults > 0 {
-        let report = format!("{} values were not finite and were not paid: a division by zero?", summary.faults);
+        let report = format!(
+            "{} values were not finite and were not paid: a division by zero?",
+            summary.faults
+        );
         out.line(StyledText::from(format!("  {:width$}    ", "")).paint(&report, Paint::Failure));
     }
     out.line(format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
     for (index, (name, mean)) in summary.records.iter().enumerate() {
-        out.line(format!("  {:width$}  {mean:.3}  {name}", if index == 0 { "records" } else { "" }));
+        out.line(format!(
+            "  {:width$}  {mean:.3}  {name}",
+            if index == 0 { "records" } else { "" }
+        ));
     }
     if scenario.endings.list.is_empty() {
         let m = &summary.match_stats;

@@ -27,7 +27,12 @@ pub fn draw(canvas: &mut Canvas<'_>, view: &View, scenes: &[SheetScene]) {
     let height = height_m(now);
     let (shadow, middle) = (view.point(now.ball[0], now.ball[1]), lifted(view, now));
     let size = radius * (1.0 + GROWTH * height);
-    canvas.ellipse(at(shadow.x + radius * 0.2, shadow.y + radius * 0.35), radius * 1.1, radius * 0.8, SHADOW);
+    canvas.ellipse(
+        at(shadow.x + radius * 0.2, shadow.y + radius * 0.35),
+        radius * 1.1,
+        radius * 0.8,
+        SHADOW,
+    );
     if height > TOLD_M {
         canvas.ellipse(shadow, radius * 0.9, radius * 0.65, faded(DARK, 0.55));
         canvas.line(&[shadow, middle], (radius * 0.2).max(1.0), faded(BALL, 0.7));
@@ -54,7 +59,8 @@ fn lifted(view: &View, scene: &SheetScene) -> Point {
 /// The path through the air, and its shadow on the grass.
 fn trail(canvas: &mut Canvas<'_>, view: &View, scenes: &[SheetScene], radius: f32) {
     if scenes.iter().any(|scene| height_m(scene) > TOLD_M) {
-        let ground: Vec<Point> = scenes.iter().map(|scene| view.point(scene.ball[0], scene.ball[1])).collect();
+        let ground: Vec<Point> =
+            scenes.iter().map(|scene| view.point(scene.ball[0], scene.ball[1])).collect();
         canvas.tail(&ground, radius * 0.8, SHADOW);
     }
     let air: Vec<Point> = scenes.iter().map(|scene| lifted(view, scene)).collect();
@@ -69,7 +75,11 @@ fn spots(canvas: &mut Canvas<'_>, middle: Point, size: f32) {
     canvas.disc(middle, size * 0.3, DARK);
     for spot in 0..5 {
         let turn = (spot as f32 * 72.0 - 90.0).to_radians();
-        canvas.disc(at(middle.x + size * 0.76 * turn.cos(), middle.y + size * 0.76 * turn.sin()), size * 0.17, DARK);
+        canvas.disc(
+            at(middle.x + size * 0.76 * turn.cos(), middle.y + size * 0.76 * turn.sin()),
+            size * 0.17,
+            DARK,
+        );
     }
 }
 
@@ -79,8 +89,15 @@ fn label(canvas: &mut Canvas<'_>, view: &View, middle: Point, size: f32, height:
     let (room, pad) = (width(&text, style), style.size * 0.3);
     let (picture, _) = canvas.size();
     let right = middle.x + size + pad;
-    let left = if right + room + 2.0 * pad > picture { middle.x - size - room - 3.0 * pad } else { right };
+    let left =
+        if right + room + 2.0 * pad > picture { middle.x - size - room - 3.0 * pad } else { right };
     let height = style.size * 1.25;
-    canvas.card(at(left, middle.y - height / 2.0), room + 2.0 * pad, height, height / 3.0, faded(DARK, 0.7));
+    canvas.card(
+        at(left, middle.y - height / 2.0),
+        room + 2.0 * pad,
+        height,
+        height / 3.0,
+        faded(DARK, 0.7),
+    );
     canvas.write(&text, at(left + pad, middle.y), style);
 }

@@ -4,8 +4,8 @@
 
 use super::colours::{Colour, faded};
 use tiny_skia::{
-    Color, FillRule, GradientStop, LineCap, LineJoin, LinearGradient, Paint, Path, PathBuilder, PixmapMut, Point, Rect,
-    SpreadMode, Stroke, Transform,
+    Color, FillRule, GradientStop, LineCap, LineJoin, LinearGradient, Paint, Path, PathBuilder,
+    PixmapMut, Point, Rect, SpreadMode, Stroke, Transform,
 };
 
 /// The constant with which four cubic curves approximate a circle.
@@ -30,7 +30,12 @@ impl Canvas<'_> {
 
     /// Draws along a path, with round ends and corners.
     pub fn stroke(&mut self, path: &Path, width: f32, colour: Colour) {
-        let stroke = Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+        let stroke = Stroke {
+            width,
+            line_cap: LineCap::Round,
+            line_join: LineJoin::Round,
+            ..Stroke::default()
+        };
         self.pixels.stroke_path(path, &paint(colour), &stroke, Transform::identity(), None);
     }
 
@@ -50,7 +55,12 @@ impl Canvas<'_> {
 
     /// A filled ellipse with horizontal and vertical axes.
     pub fn ellipse(&mut self, at: Point, half_width: f32, half_height: f32, colour: Colour) {
-        let corners = Rect::from_ltrb(at.x - half_width, at.y - half_height, at.x + half_width, at.y + half_height);
+        let corners = Rect::from_ltrb(
+            at.x - half_width,
+            at.y - half_height,
+            at.x + half_width,
+            at.y + half_height,
+        );
         if let Some(path) = corners.and_then(PathBuilder::from_oval) {
             self.fill(&path, colour);
         }
@@ -76,7 +86,8 @@ impl Canvas<'_> {
         let stops = [(0.0, 0.0), (1.0, 1.0)]
             .map(|(place, share)| GradientStop::new(place, tiny_colour(faded(colour, share))))
             .to_vec();
-        let shader = LinearGradient::new(*first, *last, stops, SpreadMode::Pad, Transform::identity());
+        let shader =
+            LinearGradient::new(*first, *last, stops, SpreadMode::Pad, Transform::identity());
         let (Some(path), Some(shader)) = (ribbon(points, width), shader) else { return };
         let paint = Paint { shader, ..Paint::default() };
         self.pixels.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), None);
@@ -90,7 +101,14 @@ impl Canvas<'_> {
     }
 
     /// The outline of such a rectangle.
-    pub fn outline(&mut self, corner: Point, size: (f32, f32), radius: f32, width: f32, colour: Colour) {
+    pub fn outline(
+        &mut self,
+        corner: Point,
+        size: (f32, f32),
+        radius: f32,
+        width: f32,
+        colour: Colour,
+    ) {
         if let Some(path) = round_rect(corner, size.0, size.1, radius) {
             self.stroke(&path, width, colour);
         }
@@ -123,7 +141,8 @@ fn ribbon(points: &[Point], width: f32) -> Option<Path> {
         [at(here.x - y * half, here.y + x * half), at(here.x + y * half, here.y - x * half)]
     };
     let pairs: Vec<[Point; 2]> = (0..points.len()).map(sides).collect();
-    let outline: Vec<Point> = pairs.iter().map(|pair| pair[0]).chain(pairs.iter().rev().map(|pair| pair[1])).collect();
+    let outline: Vec<Point> =
+        pairs.iter().map(|pair| pair[0]).chain(pairs.iter().rev().map(|pair| pair[1])).collect();
     through(&outline, true)
 }
 

@@ -36,10 +36,18 @@ impl<'a> Caption<'a> {
     /// - `size`, `room`: of the text and of its place, pixels. What doesn't fit is only counted,
     ///   starting with the least important.
     /// - `events`: what happened since the last frame.
-    pub fn new(film: &'a Film, scene: &'a SheetScene, size: f32, room: f32, events: &[Event]) -> Caption<'a> {
-        let mut caption = Caption { film, scene, size, room, sentences: words::tell(events), dropped: 0 };
+    pub fn new(
+        film: &'a Film,
+        scene: &'a SheetScene,
+        size: f32,
+        room: f32,
+        events: &[Event],
+    ) -> Caption<'a> {
+        let mut caption =
+            Caption { film, scene, size, room, sentences: words::tell(events), dropped: 0 };
         while caption.lines() > LINES_MAX {
-            let least = caption.sentences.iter().enumerate().min_by_key(|(_, sentence)| sentence.weight);
+            let least =
+                caption.sentences.iter().enumerate().min_by_key(|(_, sentence)| sentence.weight);
             let Some((index, _)) = least else { break };
             caption.sentences.remove(index);
             caption.dropped += 1;
@@ -69,8 +77,13 @@ impl<'a> Caption<'a> {
         let (left, right) = (corner.x + self.pad(), corner.x + self.room - self.pad());
         let middle = corner.y + size * (LEADING / 2.0 + 0.45);
         let mut x = left;
-        x += canvas.write(&format!("step {}", self.scene.step), at(x, middle), Style::bold(size, INK)) + size * 0.6;
-        x += canvas.write(&clock(self.scene.clock_steps), at(x, middle), Style::plain(size, FAINT)) + size * 1.1;
+        x += canvas.write(
+            &format!("step {}", self.scene.step),
+            at(x, middle),
+            Style::bold(size, INK),
+        ) + size * 0.6;
+        x += canvas.write(&clock(self.scene.clock_steps), at(x, middle), Style::plain(size, FAINT))
+            + size * 1.1;
         for piece in ball_of(self.scene) {
             x += self.piece(canvas, &piece, at(x, middle), Style::plain(size, FAINT)) + size * 0.35;
         }
@@ -102,13 +115,18 @@ pub fn clock(steps: u32) -> String {
 pub fn score(canvas: &mut Canvas<'_>, end: Point, size: f32, score: [u16; 2]) {
     let texts = score.map(|goals| goals.to_string());
     let style = Style::bold(size, INK);
-    let box_width = texts.iter().map(|text| width(text, style)).fold(size * 0.7, f32::max) + size * 0.6;
+    let box_width =
+        texts.iter().map(|text| width(text, style)).fold(size * 0.7, f32::max) + size * 0.6;
     let mut left = end.x - 2.0 * box_width - size * 0.2;
     for (text, team) in texts.iter().zip(Team::ALL) {
         let shirt = shirt(*team, false);
         let height = size * 1.35;
         canvas.card(at(left, end.y - height / 2.0), box_width, height, size * 0.25, shirt.cloth);
-        canvas.write_centred(text, at(left + box_width / 2.0, end.y), Style::bold(size, shirt.number));
+        canvas.write_centred(
+            text,
+            at(left + box_width / 2.0, end.y),
+            Style::bold(size, shirt.number),
+        );
         left += box_width + size * 0.2;
     }
 }
@@ -149,7 +167,13 @@ impl Caption<'_> {
                 canvas.write(text, start, style);
             }
             Piece::Player(id) => {
-                people::badge(canvas, at(start.x + size * 0.6, start.y), size * 0.6, *id, self.film.is_keeper(*id));
+                people::badge(
+                    canvas,
+                    at(start.x + size * 0.6, start.y),
+                    size * 0.6,
+                    *id,
+                    self.film.is_keeper(*id),
+                );
                 canvas.write(&self.name(*id), at(start.x + size * 1.5, start.y), style);
             }
             Piece::Team(team) => {
@@ -198,7 +222,11 @@ impl Caption<'_> {
             pen.x += room + self.gap();
         }
         if self.dropped > 0 {
-            canvas.write_before(&format!("+{}", self.dropped), at(right, pen.y), Style::plain(self.size, FAINT));
+            canvas.write_before(
+                &format!("+{}", self.dropped),
+                at(right, pen.y),
+                Style::plain(self.size, FAINT),
+            );
         }
     }
 }

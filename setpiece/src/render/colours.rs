@@ -53,10 +53,18 @@ pub const fn shirt(team: Team, keeper: bool) -> Shirt {
     const BLACK: Colour = [30, 18, 0, 255];
     const WHITE: Colour = [255, 255, 255, 255];
     match (team, keeper) {
-        (Team::Left, false) => Shirt { cloth: [255, 176, 0, 255], edge: [92, 58, 0, 255], number: BLACK },
-        (Team::Left, true) => Shirt { cloth: [226, 74, 28, 255], edge: [84, 22, 4, 255], number: WHITE },
-        (Team::Right, false) => Shirt { cloth: [47, 109, 246, 255], edge: [10, 34, 100, 255], number: WHITE },
-        (Team::Right, true) => Shirt { cloth: [96, 224, 236, 255], edge: [6, 66, 78, 255], number: [0, 34, 42, 255] },
+        (Team::Left, false) => {
+            Shirt { cloth: [255, 176, 0, 255], edge: [92, 58, 0, 255], number: BLACK }
+        }
+        (Team::Left, true) => {
+            Shirt { cloth: [226, 74, 28, 255], edge: [84, 22, 4, 255], number: WHITE }
+        }
+        (Team::Right, false) => {
+            Shirt { cloth: [47, 109, 246, 255], edge: [10, 34, 100, 255], number: WHITE }
+        }
+        (Team::Right, true) => {
+            Shirt { cloth: [96, 224, 236, 255], edge: [6, 66, 78, 255], number: [0, 34, 42, 255] }
+        }
     }
 }
 

@@ -76,18 +76,25 @@ impl Film {
 /// start, a script fails, or nothing ends it.
 pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Error> {
     let fault = |why| Error::Episode(Box::new(why));
-    if options.until_step.is_none() && scenario.endings.list.is_empty() && scenario.start.limit.is_none() {
+    if options.until_step.is_none()
+        && scenario.endings.list.is_empty()
+        && scenario.start.limit.is_none()
+    {
         return Err(fault(EpisodeError::Endless(0)));
     }
-    let mut environment =
-        Environment::new(scenario.clone(), options.environment.clone()).map_err(Error::Environment)?;
-    environment.reset(Some(options.seed), Some(options.episode)).map_err(|why| fault(EpisodeError::Draw(why)))?;
+    let mut environment = Environment::new(scenario.clone(), options.environment.clone())
+        .map_err(Error::Environment)?;
+    environment
+        .reset(Some(options.seed), Some(options.episode))
+        .map_err(|why| fault(EpisodeError::Draw(why)))?;
     let mut policy = ReadyMade::new(options.agent);
     policy.begin(&environment);
     let mut film = Film::begun(&environment, origin(&environment, Some(options.agent)));
     let mut scratch = Scratch::default();
     let mut actions = vec![Action::Idle; environment.n_agents()];
-    while environment.is_running() && options.until_step.is_none_or(|step| environment.steps() < step) {
+    while environment.is_running()
+        && options.until_step.is_none_or(|step| environment.steps() < step)
+    {
         for (agent, action) in actions.iter_mut().enumerate() {
             *action = policy.act(&environment, agent);
         }
@@ -175,7 +182,8 @@ fn origin(environment: &Environment, agent: Option<Agent>) -> String {
 }
 
 fn names(scenario: &Scenario) -> [String; PLAYERS_MAX] {
-    let mut names: [String; PLAYERS_MAX] = std::array::from_fn(|index| PlayerId(index as u8).in_team().to_string());
+    let mut names: [String; PLAYERS_MAX] =
+        std::array::from_fn(|index| PlayerId(index as u8).in_team().to_string());
     for team in Team::ALL {
         for (id, slot) in scenario.team(*team) {
             if let Some(name) = names.get_mut(id) {
@@ -224,11 +232,16 @@ mod tests {
     #[test]
     fn a_stop_is_kept_and_so_is_the_restart() {
         let film = played(&ROLLS_OUT.replace("END", "end limit 2s"), None).unwrap();
-        let (out, _) = film.events.iter().find(|(_, event)| event.kind == EventKind::OutOfPlay).unwrap();
-        let (award, _) = film.events.iter().find(|(_, event)| event.kind == EventKind::ThrowIn).unwrap();
+        let (out, _) =
+            film.events.iter().find(|(_, event)| event.kind == EventKind::OutOfPlay).unwrap();
+        let (award, _) =
+            film.events.iter().find(|(_, event)| event.kind == EventKind::ThrowIn).unwrap();
         let (stop, restart) = (&film.scenes[*out], &film.scenes[*award]);
         assert!(stop.ball[1] > 36.0 && !stop.placed, "{stop:?}");
-        assert!(restart.ball[1] <= 36.0 && restart.placed && restart.mode == GameMode::ThrowIn, "{restart:?}");
+        assert!(
+            restart.ball[1] <= 36.0 && restart.placed && restart.mode == GameMode::ThrowIn,
+            "{restart:?}"
+        );
         assert_eq!((stop.step, *award), (restart.step, out + 1));
         assert_eq!((film.moment_of(stop.step), film.length()), (Some(*out), 20));
         assert_eq!(film.moment_of(21), None);
@@ -236,7 +249,8 @@ mod tests {
 
     #[test]
     fn the_stop_that_ends_an_episode_is_its_last_moment() {
-        let film = played(&ROLLS_OUT.replace("END", "end failure out when out_of_play"), None).unwrap();
+        let film =
+            played(&ROLLS_OUT.replace("END", "end failure out when out_of_play"), None).unwrap();
         let last = film.scenes.last().unwrap();
         assert!(last.ball[1] > 36.0 && !last.placed, "{last:?}");
         assert_eq!(&*film.outcome.unwrap().label, "out");

@@ -34,7 +34,10 @@ pub fn draw(canvas: &mut Canvas<'_>, film: &Film, margin: f32) {
             Some(Verdict::Failure) => VERDICTS[1],
             None => INK,
         };
-        before(&fitted(&outcome.label, Style::bold(24.0, colour), 400.0), Style::bold(24.0, colour));
+        before(
+            &fitted(&outcome.label, Style::bold(24.0, colour), 400.0),
+            Style::bold(24.0, colour),
+        );
     }
     let style = Style::bold(34.0, INK);
     let mut x = left;
@@ -61,10 +64,13 @@ fn legend(canvas: &mut Canvas<'_>, right: f32, y: f32) -> f32 {
         canvas.disc(middle, 6.0, FAINT);
     };
     let cloth = |team, keeper| {
-        move |canvas: &mut Canvas<'_>, middle: Point| canvas.disc(middle, 9.0, shirt(team, keeper).cloth)
+        move |canvas: &mut Canvas<'_>, middle: Point| {
+            canvas.disc(middle, 9.0, shirt(team, keeper).cloth)
+        }
     };
     let [left, left_keeper, right_team, right_keeper] =
-        [(Left, false), (Left, true), (Right, false), (Right, true)].map(|(team, keeper)| cloth(team, keeper));
+        [(Left, false), (Left, true), (Right, false), (Right, true)]
+            .map(|(team, keeper)| cloth(team, keeper));
     // From the right.
     let signs: [(&str, Sign<'_>); 6] = [
         ("has the ball", &owner),

@@ -27,9 +27,14 @@ pub fn choose(moments: usize, happenings: &[Happening], columns: usize) -> Vec<u
     let mut groups = grouped(happenings);
     while chosen.len() < FRAMES_MAX {
         // Among equals, the one farthest from the moments already chosen.
-        let far = |group: &Happening| chosen.iter().map(|at| at.abs_diff(group.at)).min().unwrap_or_default();
+        let far = |group: &Happening| {
+            chosen.iter().map(|at| at.abs_diff(group.at)).min().unwrap_or_default()
+        };
         groups.retain(|group| far(group) >= CLOSE);
-        let Some(best) = groups.iter().max_by_key(|group| (group.weight, far(group))).copied() else { break };
+        let Some(best) = groups.iter().max_by_key(|group| (group.weight, far(group))).copied()
+        else {
+            break;
+        };
         chosen.push(best.at);
     }
     chosen.sort_unstable();
@@ -43,7 +48,9 @@ fn grouped(happenings: &[Happening]) -> Vec<Happening> {
     let mut groups: Vec<(usize, usize, Happening)> = Vec::new();
     for happening in happenings.iter().filter(|happening| happening.weight > 0) {
         match groups.last_mut() {
-            Some((first, last, group)) if happening.at - *last <= CLOSE && happening.at - *first <= LONG => {
+            Some((first, last, group))
+                if happening.at - *last <= CLOSE && happening.at - *first <= LONG =>
+            {
                 *last = happening.at;
                 if happening.weight >= group.weight {
                     *group = *happening;
@@ -61,7 +68,10 @@ fn fill(chosen: &mut Vec<usize>, columns: usize) {
     while chosen.len() < wanted {
         let widest = chosen.windows(2).enumerate().map(|(index, pair)| (pair[1] - pair[0], index));
         // The first of equals, so that ties are resolved from the start.
-        let Some((gap, index)) = widest.max_by_key(|&(gap, index)| (gap, usize::MAX - index)) else { break };
+        let Some((gap, index)) = widest.max_by_key(|&(gap, index)| (gap, usize::MAX - index))
+        else {
+            break;
+        };
         if gap < 2 {
             break;
         }

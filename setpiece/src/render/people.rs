@@ -30,7 +30,11 @@ pub fn draw_trails(canvas: &mut Canvas<'_>, view: &View, scenes: &[SheetScene]) 
     for person in &now.people {
         let places = scenes.iter().filter_map(|scene| scene.person(person.id));
         let points: Vec<Point> = places.map(|then| view.point(then.pos[0], then.pos[1])).collect();
-        canvas.tail(&points, radius(view) * 1.1, faded(shirt(person.id.team(), person.keeper).cloth, 0.85));
+        canvas.tail(
+            &points,
+            radius(view) * 1.1,
+            faded(shirt(person.id.team(), person.keeper).cloth, 0.85),
+        );
     }
 }
 
@@ -59,7 +63,10 @@ fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, scene: &SheetSc
         _ => person.facing,
     };
     let along = |forward: f32, left: f32| {
-        at(middle.x + radius * (forward * x + left * y), middle.y + radius * (forward * y - left * x))
+        at(
+            middle.x + radius * (forward * x + left * y),
+            middle.y + radius * (forward * y - left * x),
+        )
     };
     let shade = at(middle.x + radius * 0.16, middle.y + radius * 0.28);
     canvas.disc(shade, radius * 1.08, SHADOW);
@@ -79,7 +86,11 @@ fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, scene: &SheetSc
         Pose::Sliding => {
             // Skid marks behind, the leg ahead.
             for left in [-0.45, 0.45] {
-                canvas.line(&[along(-1.0, left), along(-2.9, left)], radius * 0.16, faded(AGENT, 0.55));
+                canvas.line(
+                    &[along(-1.0, left), along(-2.9, left)],
+                    radius * 0.16,
+                    faded(AGENT, 0.55),
+                );
             }
             body(canvas, 0.0, 2.1, 0.62);
         }
@@ -93,7 +104,8 @@ fn player(canvas: &mut Canvas<'_>, view: &View, person: &Person, scene: &SheetSc
         }
     }
     canvas.disc(middle, radius, shirt.edge);
-    let cloth = if person.pose == Pose::Down { mixed(shirt.cloth, shirt.edge) } else { shirt.cloth };
+    let cloth =
+        if person.pose == Pose::Down { mixed(shirt.cloth, shirt.edge) } else { shirt.cloth };
     canvas.disc(middle, radius - edge, cloth);
     if person.agent {
         canvas.ring(middle, radius + edge * 0.9, edge * 2.2, DARK);

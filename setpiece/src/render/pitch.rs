@@ -4,8 +4,8 @@ use super::canvas::{Canvas, at};
 use super::colours::{GRASS, LINE, VERGE, WOOD, faded};
 use super::view::View;
 use crate::scenario::pitch::{
-    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M,
-    PENALTY_SPOT_M, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
+    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M,
+    HALF_WIDTH_M, PENALTY_SPOT_M, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
 };
 use tiny_skia::Point;
 
@@ -23,7 +23,8 @@ pub fn draw(canvas: &mut Canvas<'_>, view: &View) {
     lawn(canvas, view);
     let width = view.length(LINE_M).max(1.0);
     let mut line = |points: &[(f64, f64)]| {
-        let points: Vec<Point> = points.iter().map(|&(x, y)| view.point(x as f32, y as f32)).collect();
+        let points: Vec<Point> =
+            points.iter().map(|&(x, y)| view.point(x as f32, y as f32)).collect();
         canvas.line(&points, width, LINE);
     };
     let (x, y) = (HALF_LENGTH_M, HALF_WIDTH_M);
@@ -33,14 +34,18 @@ pub fn draw(canvas: &mut Canvas<'_>, view: &View) {
     let (spot, edge) = (x - PENALTY_SPOT_M, x - BOX_DEPTH_M);
     let half = ((spot - edge) / CIRCLE_RADIUS_M).acos();
     for side in [1.0, -1.0] {
-        let turned = |points: &[(f64, f64)]| points.iter().map(|(x, y)| (x * side, *y)).collect::<Vec<_>>();
-        for (depth, width) in [(BOX_DEPTH_M, BOX_HALF_WIDTH_M), (SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M)] {
+        let turned =
+            |points: &[(f64, f64)]| points.iter().map(|(x, y)| (x * side, *y)).collect::<Vec<_>>();
+        for (depth, width) in
+            [(BOX_DEPTH_M, BOX_HALF_WIDTH_M), (SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M)]
+        {
             line(&turned(&[(x, -width), (x - depth, -width), (x - depth, width), (x, width)]));
         }
         line(&turned(&arc(spot, std::f64::consts::PI, half)));
         for flag in [-1.0, 1.0] {
             let turns = (0..=8).map(|i| f64::from(i) / 8.0 * std::f64::consts::FRAC_PI_2);
-            let corner: Vec<_> = turns.map(|turn| (x - turn.cos(), flag * (y - turn.sin()))).collect();
+            let corner: Vec<_> =
+                turns.map(|turn| (x - turn.cos(), flag * (y - turn.sin()))).collect();
             line(&turned(&corner));
         }
     }
@@ -55,7 +60,9 @@ pub fn draw(canvas: &mut Canvas<'_>, view: &View) {
 /// Part of a circle about `(x, 0)`: the angle it is centred on, and half its opening.
 fn arc(x: f64, middle: f64, half: f64) -> Vec<(f64, f64)> {
     let turn = |i: u32| middle - half + 2.0 * half * f64::from(i) / f64::from(PIECES);
-    (0..=PIECES).map(|i| (x + CIRCLE_RADIUS_M * turn(i).cos(), CIRCLE_RADIUS_M * turn(i).sin())).collect()
+    (0..=PIECES)
+        .map(|i| (x + CIRCLE_RADIUS_M * turn(i).cos(), CIRCLE_RADIUS_M * turn(i).sin()))
+        .collect()
 }
 
 fn lawn(canvas: &mut Canvas<'_>, view: &View) {
@@ -78,7 +85,10 @@ fn goal(canvas: &mut Canvas<'_>, view: &View, side: f32) {
     let (line, half) = (HALF_LENGTH_M as f32, GOAL_HALF_WIDTH_M as f32);
     let depth = GOAL_DEPTH_M as f32;
     let point = |deep: f32, y: f32| view.point((line + deep) * side, y);
-    canvas.polygon(&[point(0.0, -half), point(depth, -half), point(depth, half), point(0.0, half)], faded(WOOD, 0.12));
+    canvas.polygon(
+        &[point(0.0, -half), point(depth, -half), point(depth, half), point(0.0, half)],
+        faded(WOOD, 0.12),
+    );
     let thread = view.length(0.06).max(0.6);
     let rows = (2.0 * half / MESH_M).round();
     for row in 1..rows as u32 {

@@ -33,8 +33,11 @@ const AROUND_GOAL_M: f32 = 10.0;
 
 /// Draws an episode as a sheet of frames. None if a picture of its size can't be allocated.
 pub fn sheet(film: &Film) -> Option<Pixmap> {
-    let happenings: Vec<Happening> =
-        film.events.iter().map(|(at, event)| Happening { at: *at, weight: words::weight(event) }).collect();
+    let happenings: Vec<Happening> = film
+        .events
+        .iter()
+        .map(|(at, event)| Happening { at: *at, weight: words::weight(event) })
+        .collect();
     let region = region(film);
     let columns = if region.aspect() < 1.2 { 5 } else { 4 };
     let chosen = choose(film.scenes.len(), &happenings, columns as usize);
@@ -54,7 +57,11 @@ pub fn sheet(film: &Film) -> Option<Pixmap> {
     head::draw(&mut canvas, film, GAP as f32);
     for (place, frame) in frames.iter().enumerate() {
         let (column, row) = (place as u32 % columns, place as u32 / columns);
-        frame.draw(&mut canvas, (GAP + column * (width + GAP), head::HEIGHT + row * (height + GAP)), height);
+        frame.draw(
+            &mut canvas,
+            (GAP + column * (width + GAP), head::HEIGHT + row * (height + GAP)),
+            height,
+        );
     }
     Some(page)
 }
@@ -62,8 +69,15 @@ pub fn sheet(film: &Film) -> Option<Pixmap> {
 /// Draws one moment of a film large, with what happened before it. None if the moment doesn't
 /// exist.
 pub fn frame(film: &Film, moment: usize) -> Option<Pixmap> {
-    let frame = Frame::new(film, moment.checked_sub(TRAIL_STEPS), moment, Region::WHOLE, (LARGE, LARGE_TEXT))?;
-    let height = frame.picture.height() + caption::height(LARGE_TEXT, frame.caption.lines()).ceil() as u32;
+    let frame = Frame::new(
+        film,
+        moment.checked_sub(TRAIL_STEPS),
+        moment,
+        Region::WHOLE,
+        (LARGE, LARGE_TEXT),
+    )?;
+    let height =
+        frame.picture.height() + caption::height(LARGE_TEXT, frame.caption.lines()).ceil() as u32;
     let mut page = Pixmap::new(LARGE + 2 * GAP, head::HEIGHT + height + GAP)?;
     let mut canvas = blank(&mut page);
     head::draw(&mut canvas, film, GAP as f32);
@@ -76,9 +90,13 @@ fn region(film: &Film) -> Region {
     let goal = [HALF_LENGTH_M as f32, 0.0];
     Region::around(film.scenes.iter().flat_map(|scene| {
         let ball = [scene.ball[0], scene.ball[1]];
-        let within = move |place: [f32; 2], most_m: f32| (place[0] - ball[0]).hypot(place[1] - ball[1]) < most_m;
-        let people = scene.people.iter().map(|person| person.pos).filter(move |&pos| within(pos, NEAR_M));
-        let goals = [goal, [-goal[0], 0.0]].into_iter().filter(move |&goal| within(goal, NEAR_GOAL_M));
+        let within = move |place: [f32; 2], most_m: f32| {
+            (place[0] - ball[0]).hypot(place[1] - ball[1]) < most_m
+        };
+        let people =
+            scene.people.iter().map(|person| person.pos).filter(move |&pos| within(pos, NEAR_M));
+        let goals =
+            [goal, [-goal[0], 0.0]].into_iter().filter(move |&goal| within(goal, NEAR_GOAL_M));
         std::iter::once((ball, AROUND_BALL_M))
             .chain(people.map(|pos| (pos, AROUND_PERSON_M)))
             .chain(goals.map(|goal| (goal, AROUND_GOAL_M)))
@@ -110,7 +128,10 @@ impl<'a> Frame<'a> {
         let mut picture = Pixmap::new(width, (width as f32 / region.aspect()).round() as u32)?;
         let first = moment.saturating_sub(TRAIL_STEPS);
         stage::draw(picture.as_mut(), film.scenes.get(first..=moment)?, region);
-        let since = film.events.iter().filter(|(at, _)| before.is_none_or(|before| *at > before) && *at <= moment);
+        let since = film
+            .events
+            .iter()
+            .filter(|(at, _)| before.is_none_or(|before| *at > before) && *at <= moment);
         let events: Vec<Event> = since.map(|(_, event)| *event).collect();
         let caption = Caption::new(film, film.scenes.get(moment)?, size, width as f32, &events);
         Some(Frame { picture, caption })
@@ -127,5 +148,12 @@ impl<'a> Frame<'a> {
 
 fn place(page: &mut PixmapMut<'_>, picture: &Pixmap, left: u32, top: u32) {
     let paint = PixmapPaint::default();
-    page.draw_pixmap(left as i32, top as i32, picture.as_ref(), &paint, Transform::identity(), None);
+    page.draw_pixmap(
+        left as i32,
+        top as i32,
+        picture.as_ref(),
+        &paint,
+        Transform::identity(),
+        None,
+    );
 }

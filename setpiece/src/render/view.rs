@@ -21,8 +21,10 @@ pub struct Region {
 
 impl Region {
     /// The pitch with its rim.
-    pub const WHOLE: Region =
-        Region { corner_m: [-RIM_X_M as f32, -RIM_Y_M as f32], size_m: [2.0 * RIM_X_M as f32, 2.0 * RIM_Y_M as f32] };
+    pub const WHOLE: Region = Region {
+        corner_m: [-RIM_X_M as f32, -RIM_Y_M as f32],
+        size_m: [2.0 * RIM_X_M as f32, 2.0 * RIM_Y_M as f32],
+    };
 
     /// Width over height.
     pub fn aspect(&self) -> f32 {
@@ -93,12 +95,18 @@ mod tests {
         let region = Region::around(points.into_iter().map(|point| (point, 8.0)));
         assert!(region.size_m[0] < 60.0, "{region:?}");
         for axis in 0..2 {
-            assert!(region.corner_m[axis] + region.size_m[axis] <= -Region::WHOLE.corner_m[axis], "{region:?}");
+            assert!(
+                region.corner_m[axis] + region.size_m[axis] <= -Region::WHOLE.corner_m[axis],
+                "{region:?}"
+            );
         }
         let view = View::new(region, 600);
         for [x, y] in points {
             let at = view.point(x, y);
-            assert!((0.0..600.0).contains(&at.x) && (0.0..600.0 / region.aspect()).contains(&at.y), "{at:?}");
+            assert!(
+                (0.0..600.0).contains(&at.x) && (0.0..600.0 / region.aspect()).contains(&at.y),
+                "{at:?}"
+            );
         }
     }
 
@@ -110,7 +118,10 @@ mod tests {
 
     #[test]
     fn a_long_way_is_shown_on_the_whole_pitch() {
-        assert_eq!(Region::around([([-50.0, 0.0], 8.0), ([50.0, 0.0], 8.0)].into_iter()), Region::WHOLE);
+        assert_eq!(
+            Region::around([([-50.0, 0.0], 8.0), ([50.0, 0.0], 8.0)].into_iter()),
+            Region::WHOLE
+        );
         assert_eq!(Region::around(std::iter::empty()), Region::WHOLE);
     }
 }

@@ -185,7 +185,17 @@ mod tests {
     fn event(kind: EventKind, qualifier: Option<Qualifier>, by: u8, to: Option<u8>) -> Event {
         let (by, to) = (Some(PlayerId(by)), to.map(PlayerId));
         let team = by.map(PlayerId::team);
-        Event { tick: 0, kind, qualifier, team, by, to, at: [0.0; 3].into(), length_m: 0.0, speed_mps: 0.0 }
+        Event {
+            tick: 0,
+            kind,
+            qualifier,
+            team,
+            by,
+            to,
+            at: [0.0; 3].into(),
+            length_m: 0.0,
+            speed_mps: 0.0,
+        }
     }
 
     fn described(events: &[Event]) -> Vec<String> {
@@ -218,8 +228,14 @@ mod tests {
     fn a_goal_says_all_of_its_shot() {
         let shot = event(EventKind::Shot, None, 9, None);
         let on_target = event(EventKind::Shot, Some(Qualifier::OnTarget), 9, None);
-        assert_eq!(described(&[shot, on_target, event(EventKind::Goal, None, 9, None)]), ["GOAL 9 ×1"]);
-        assert_eq!(described(&[shot, event(EventKind::Save, None, 11, None), on_target]), ["shot 9 ×1", "save 11 ×1"]);
+        assert_eq!(
+            described(&[shot, on_target, event(EventKind::Goal, None, 9, None)]),
+            ["GOAL 9 ×1"]
+        );
+        assert_eq!(
+            described(&[shot, event(EventKind::Save, None, 11, None), on_target]),
+            ["shot 9 ×1", "save 11 ×1"]
+        );
     }
 
     #[test]

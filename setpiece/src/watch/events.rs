@@ -95,7 +95,8 @@ impl FileEvents {
     /// Whether the thread that `notify` needs is running; it panics otherwise.
     fn is_alive(&self) -> bool {
         // Receiving a message here loses nothing, because a check follows.
-        self.process == std::process::id() && self.heard.try_recv() != Err(TryRecvError::Disconnected)
+        self.process == std::process::id()
+            && self.heard.try_recv() != Err(TryRecvError::Disconnected)
     }
 }
 

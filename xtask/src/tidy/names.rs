@@ -18,7 +18,8 @@ pub(super) fn check(breaches: &mut Vec<String>) -> Result<(), String> {
     let mut found = BTreeMap::new();
     for folder in CRATES {
         for file in rust_files(&root().join(folder)) {
-            let path = file.strip_prefix(root()).unwrap_or(&file).to_string_lossy().replace('\\', "/");
+            let path =
+                file.strip_prefix(root()).unwrap_or(&file).to_string_lossy().replace('\\', "/");
             if !path.ends_with("/tests.rs") && !path.contains("/tests/") {
                 collect(&path, &read(&file)?, &mut found);
             }
@@ -86,9 +87,17 @@ mod tests {
         for at in 0..MAY_BE_SHARED.len() * 2 {
             found.entry(MAY_BE_SHARED[at / 2].0.to_owned()).or_default().push(at.to_string());
         }
-        collect("a.rs", "//! A.\n\npub(crate) struct View<'a> {\n    of: &'a str,\n}\n", &mut found);
+        collect(
+            "a.rs",
+            "//! A.\n\npub(crate) struct View<'a> {\n    of: &'a str,\n}\n",
+            &mut found,
+        );
         collect("b.rs", "enum View {\n    Whole,\n}\npub type Other = u8;\n", &mut found);
-        collect("c.rs", "fn f() {\n    struct View;\n}\n\n#[cfg(test)]\nmod tests {\n}\nstruct View;\n", &mut found);
+        collect(
+            "c.rs",
+            "fn f() {\n    struct View;\n}\n\n#[cfg(test)]\nmod tests {\n}\nstruct View;\n",
+            &mut found,
+        );
         let mut breaches = Vec::new();
         report(&found, &mut breaches);
         assert_eq!(breaches, ["`View` names 2 types: a.rs:3, b.rs:1"]);

@@ -21,7 +21,13 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("snapshot", &["state"]),
     ("judge", &["in_place", "random", "snapshot", "state"]),
     ("draw", &["in_place", "judge", "random", "start", "state"]),
-    ("control", &["draw", "football", "in_place", "judge", "math", "physics", "random", "snapshot", "state"]),
+    (
+        "control",
+        &[
+            "draw", "football", "in_place", "judge", "math", "physics", "random", "snapshot",
+            "state",
+        ],
+    ),
     ("step", &["control", "football", "laps", "math", "physics", "start", "state"]),
     ("observe", &["control", "football", "state"]),
     (
@@ -49,7 +55,11 @@ const MAY_USE: &[(&str, &[&str])] = &[
 /// Names every use of a room that must not be used, of all files under `engine/src`.
 pub(super) fn check(source: &Path, breaches: &mut Vec<String>) -> Result<(), String> {
     for file in rust_files(source) {
-        let path = file.strip_prefix(source).map_err(|why| why.to_string())?.to_string_lossy().replace('\\', "/");
+        let path = file
+            .strip_prefix(source)
+            .map_err(|why| why.to_string())?
+            .to_string_lossy()
+            .replace('\\', "/");
         check_file(&path, &read(&file)?, breaches);
     }
     Ok(())
@@ -59,22 +69,29 @@ pub(super) fn check(source: &Path, breaches: &mut Vec<String>) -> Result<(), Str
 fn check_file(path: &str, text: &str, breaches: &mut Vec<String>) {
     let room = path.split('/').next().unwrap_or_default().trim_end_matches(".rs");
     // The crate's root uses nothing, and tests may use anything.
-    if room == "lib" || room == "testing" || path.ends_with("/tests.rs") || path.contains("/tests/") {
+    if room == "lib" || room == "testing" || path.ends_with("/tests.rs") || path.contains("/tests/")
+    {
         return;
     }
     let Some(at) = MAY_USE.iter().position(|(name, _)| *name == room) else {
-        breaches.push(format!("engine/src/{path}: `{room}` is no room yet: name it in xtask/src/tidy/rooms.rs"));
+        breaches.push(format!(
+            "engine/src/{path}: `{room}` is no room yet: name it in xtask/src/tidy/rooms.rs"
+        ));
         return;
     };
     let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
-    let code: Vec<&str> = code.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+    let code: Vec<&str> =
+        code.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
     for (used, line) in uses(&code.join("\n"), path.split('/').count()) {
         let stands = MAY_USE.iter().position(|(name, _)| *name == used);
-        let Some(stands) = stands.filter(|stands| *stands != at && !MAY_USE[at].1.contains(&used)) else {
+        let Some(stands) = stands.filter(|stands| *stands != at && !MAY_USE[at].1.contains(&used))
+        else {
             continue;
         };
         let why = if stands > at { "which stands on it" } else { "which it need not know" };
-        breaches.push(format!("engine/src/{path}:{line}: {room} → {used}: `{room}` may not use `{used}`, {why}"));
+        breaches.push(format!(
+            "engine/src/{path}:{line}: {room} → {used}: `{room}` may not use `{used}`, {why}"
+        ));
     }
 }
 
@@ -93,7 +110,9 @@ fn uses(code: &str, depth: usize) -> Vec<(&str, usize)> {
             let line = |rest: &str| code[..code.len() - rest.len()].matches('\n').count() + 1;
             match rest.strip_prefix('{') {
                 None => found.extend(word(rest).map(|word| (word, line(rest)))),
-                Some(group) => found.extend(members(group).filter_map(|rest| Some((word(rest)?, line(rest))))),
+                Some(group) => {
+                    found.extend(members(group).filter_map(|rest| Some((word(rest)?, line(rest)))))
+                }
             }
         }
     }
@@ -154,7 +173,9 @@ mod tests {
         let found = breaches("state/play.rs", "//! Memory.\n\nuse crate::football::kick;\n");
         assert_eq!(
             found,
-            ["engine/src/state/play.rs:3: state → football: `state` may not use `football`, which stands on it"]
+            [
+                "engine/src/state/play.rs:3: state → football: `state` may not use `football`, which stands on it"
+            ]
         );
         // In every notation.
         for text in [
@@ -168,15 +189,23 @@ mod tests {
         ] {
             assert_eq!(breaches("state/play.rs", text).len(), 1, "{text}");
         }
-        assert!(breaches("state/play.rs", "use crate::{\n    random,\n    football,\n};")[0].contains("play.rs:3:"));
-        assert!(breaches("football/kick.rs", "use crate::control;")[0].contains("football → control"));
+        assert!(
+            breaches("state/play.rs", "use crate::{\n    random,\n    football,\n};")[0]
+                .contains("play.rs:3:")
+        );
+        assert!(
+            breaches("football/kick.rs", "use crate::control;")[0].contains("football → control")
+        );
         assert!(breaches("football.rs", "use super::step;")[0].contains("football → step"));
     }
 
     #[test]
     fn a_use_of_a_room_below_is_named_where_the_table_lacks_it() {
         let found = breaches("football/kick.rs", "use crate::digest;");
-        assert!(found[0].ends_with("`football` may not use `digest`, which it need not know"), "{found:?}");
+        assert!(
+            found[0].ends_with("`football` may not use `digest`, which it need not know"),
+            "{found:?}"
+        );
     }
 
     #[test]

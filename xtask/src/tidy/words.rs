@@ -3,7 +3,6 @@
 use super::read;
 use crate::ci::root;
 use std::collections::BTreeMap;
-use std::process::Command;
 
 /// Words and phrases that no text needs, in lower case. Line breaks and comment marks don't split a
 /// phrase.
@@ -67,29 +66,24 @@ const AT_MOST: &[(&str, usize)] = &[
 
 /// Endings of the files that people read.
 const TEXTS: &[&str] = &[
-    "csv", "ipynb", "js", "json", "md", "pest", "pitch", "py", "pyi", "rhai", "rs", "scm", "sh", "snap", "toml", "txt",
+    "csv", "ipynb", "js", "json", "md", "pest", "pitch", "py", "pyi", "rhai", "rs", "scm", "sh",
+    "snap", "toml", "txt",
 ];
 
 /// This file lists the words, and the licence's text isn't ours.
 const EXEMPT: &[&str] = &["xtask/src/tidy/words.rs", "setpiece/fonts/LICENSE"];
 
 /// Counts every tracked text and reports each folder with more than its limit.
-pub(super) fn check(breaches: &mut Vec<String>) -> Result<(), String> {
-    let output = Command::new("git")
-        .args(["ls-files", "-z"])
-        .current_dir(root())
-        .output()
-        .map_err(|why| format!("git ls-files can't be run: {why}"))?;
-    if !output.status.success() {
-        return Err(format!("git ls-files failed: {}", String::from_utf8_lossy(&output.stderr).trim()));
-    }
+pub(super) fn check(tracked: &[String], breaches: &mut Vec<String>) -> Result<(), String> {
     let mut found: BTreeMap<&str, WordCounts> = BTreeMap::new();
-    for path in String::from_utf8_lossy(&output.stdout).split('\0') {
+    for path in tracked {
         let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
-        if !TEXTS.contains(&ending) || EXEMPT.contains(&path) || !root().join(path).is_file() {
+        if !TEXTS.contains(&ending) || EXEMPT.contains(&path.as_str()) {
             continue;
         }
-        let Some(folder) = folder(path) else { return Err(format!("no folder of the words' table holds {path}")) };
+        let Some(folder) = folder(path) else {
+            return Err(format!("no folder of the words' table holds {path}"));
+        };
         found.entry(folder).or_default().add(path, count(&read(&root().join(path))?));
     }
     for (folder, most) in AT_MOST {
@@ -103,7 +97,9 @@ pub(super) fn check(breaches: &mut Vec<String>) -> Result<(), String> {
             found => {
                 let total = found.map_or(0, WordCounts::total);
                 if total < *most {
-                    println!("tidy: {name} holds {total} banned words of {most}: lower its row in tidy/words.rs");
+                    println!(
+                        "tidy: {name} holds {total} banned words of {most}: lower its row in tidy/words.rs"
+                    );
                 }
             }
         }
@@ -130,7 +126,12 @@ impl WordCounts {
     fn worst(&self) -> String {
         let mut files: Vec<_> = self.0.iter().collect();
         files.sort_by(|(more, left), (less, right)| less.cmp(more).then(left.cmp(right)));
-        files.iter().take(5).map(|(count, path)| format!("{path} ({count})")).collect::<Vec<_>>().join(", ")
+        files
+            .iter()
+            .take(5)
+            .map(|(count, path)| format!("{path} ({count})"))
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 }
 
@@ -182,7 +183,8 @@ mod tests {
     #[test]
     fn no_folder_holds_more_than_it_may() {
         let mut breaches = Vec::new();
-        check(&mut breaches).expect("git lists the files");
+        let tracked = super::super::tracked().expect("git lists the files");
+        check(&tracked, &mut breaches).expect("git lists the files");
         assert_eq!(breaches, Vec::<String>::new());
     }
 }

@@ -73,7 +73,8 @@ impl<'w> BehaviorWriter<'_, 'w> {
 
     fn refuse_sprint(&self, stmt: &DoStmt, what: &str) {
         let Some(at) = stmt.sprinting else { return };
-        let runs: Vec<&str> = Primitive::ALL.iter().filter(|known| known.runs()).map(|known| known.name()).collect();
+        let runs: Vec<&str> =
+            Primitive::ALL.iter().filter(|known| known.runs()).map(|known| known.name()).collect();
         self.lower.report(Problem::new(at, Behaviors::NoSprint { what: what.to_owned(), runs }));
     }
 
@@ -82,7 +83,13 @@ impl<'w> BehaviorWriter<'_, 'w> {
         let until = stmt.until.as_ref().map(|condition| self.lower.condition(condition));
         let seconds = stmt.duration.as_ref().map(|duration| {
             let reg = self.lower.want_reg(duration, Ty::DURATION);
-            self.lower.check_range(reg, (0.0, LONGEST_S), "the duration", duration.span, "`0s..100000s`");
+            self.lower.check_range(
+                reg,
+                (0.0, LONGEST_S),
+                "the duration",
+                duration.span,
+                "`0s..100000s`",
+            );
             reg
         });
         (until, seconds)
@@ -103,7 +110,11 @@ impl<'w> BehaviorWriter<'_, 'w> {
             let is_player = *names == ["player"];
             self.lower.report(Problem::new(
                 span,
-                Behaviors::NoTarget { primitive: primitive.name(), is_player, signature: signature(primitive.doc()) },
+                Behaviors::NoTarget {
+                    primitive: primitive.name(),
+                    is_player,
+                    signature: signature(primitive.doc()),
+                },
             ));
             return None;
         }

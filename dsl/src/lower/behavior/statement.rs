@@ -17,7 +17,10 @@ impl<'w> BehaviorWriter<'_, 'w> {
             if self.states.iter().any(|known| known.name == state.name.node) {
                 self.lower.report(Problem::new(
                     state.name.span,
-                    Names::DeclaredTwice { what: format!("state `{}`", state.name.node), first: None },
+                    Names::DeclaredTwice {
+                        what: format!("state `{}`", state.name.node),
+                        first: None,
+                    },
                 ));
                 continue;
             }
@@ -53,7 +56,11 @@ impl<'w> BehaviorWriter<'_, 'w> {
             None => self.lower.expr(&binding.value),
         };
         // The ball as a value is where it is.
-        if value.ty == Ty::Ball { self.lower.convert(value, Ty::Point, &binding.value) } else { value }
+        if value.ty == Ty::Ball {
+            self.lower.convert(value, Ty::Point, &binding.value)
+        } else {
+            value
+        }
     }
 
     /// Writes a block: its statements, then what may interrupt them, the first written last.
@@ -66,7 +73,10 @@ impl<'w> BehaviorWriter<'_, 'w> {
         let inner = if is_top { self.around.clone() } else { scope.clone() };
         let around = std::mem::replace(&mut self.around, inner);
         let from = self.nodes.len() as u32;
-        let count = statements.iter().filter(|s| matches!(s.kind, BehaviorStmtKind::Interrupt { .. })).count();
+        let count = statements
+            .iter()
+            .filter(|s| matches!(s.kind, BehaviorStmtKind::Interrupt { .. }))
+            .count();
         let first = self.watches.len();
         let blank = Watch { from, to: from, when: Reg(0), then: Then::Leave };
         self.watches.extend(std::iter::repeat_n(blank, count));
@@ -103,9 +113,14 @@ impl<'w> BehaviorWriter<'_, 'w> {
     fn statement(&mut self, statement: &'w BehaviorStmt, is_top: bool) {
         match &statement.kind {
             BehaviorStmtKind::State(state) if !is_top => {
-                self.lower.report(Problem::new(state.name.span, Scopes::StateInBlock { of: "a behavior" }));
+                self.lower.report(Problem::new(
+                    state.name.span,
+                    Scopes::StateInBlock { of: "a behavior" },
+                ));
             }
-            BehaviorStmtKind::State(_) | BehaviorStmtKind::Interrupt { .. } | BehaviorStmtKind::Broken => {}
+            BehaviorStmtKind::State(_)
+            | BehaviorStmtKind::Interrupt { .. }
+            | BehaviorStmtKind::Broken => {}
             BehaviorStmtKind::Let(binding) => self.freeze(binding),
             BehaviorStmtKind::Assign { name, value } => self.assign(name, value),
             BehaviorStmtKind::Do(stmt) => self.do_stmt(stmt),
@@ -146,8 +161,11 @@ impl<'w> BehaviorWriter<'_, 'w> {
     }
 
     fn assign(&mut self, name: &'w Ident, value: &'w Expr) {
-        let known =
-            self.states.iter().find(|state| state.name == name.node).map(|state| (state.cells.clone(), state.ty));
+        let known = self
+            .states
+            .iter()
+            .find(|state| state.name == name.node)
+            .map(|state| (state.cells.clone(), state.ty));
         let Some((cells, ty)) = known else {
             self.not_a_state(name);
             self.drawing(|writer| writer.lower.expr(value));
@@ -195,14 +213,21 @@ impl<'w> BehaviorWriter<'_, 'w> {
     /// A counter of passes set to 0, and how many there are to be.
     fn count(&mut self, times: &'w Expr) -> (u32, Reg) {
         let wanted = self.drawing(|writer| writer.lower.want_reg(times, Ty::Int));
-        self.lower.check_range(wanted, (0.0, 1.0e9), "the number of passes", times.span, "`0..1000000000`");
+        self.lower.check_range(
+            wanted,
+            (0.0, 1.0e9),
+            "the number of passes",
+            times.span,
+            "`0..1000000000`",
+        );
         let (passed, limit) = (self.lower.code.new_cell(), self.lower.code.new_cell());
         let zero = self.lower.code.constant(0.0);
         self.nodes.push(Node::Let(vec![(passed, zero), (limit, wanted)]));
         (passed, self.lower.code.cell(limit))
     }
 
-    /// Goes on if a condition holds; the place of the node, which still needs the place to go to otherwise.
+    /// Goes on if a condition holds; the place of the node, which still needs the place to go to
+    /// otherwise.
     pub(super) fn branch(&mut self, when: Reg) -> usize {
         self.nodes.push(Node::Branch { when, otherwise: 0 });
         self.nodes.len() - 1
@@ -238,7 +263,9 @@ impl<'w> BehaviorWriter<'_, 'w> {
         let index = self.drawing(|writer| {
             let weights: Vec<(Reg, crate::source::Span)> = chances
                 .iter()
-                .map(|chance| (writer.lower.want_reg(&chance.weight, Ty::Number), chance.weight.span))
+                .map(|chance| {
+                    (writer.lower.want_reg(&chance.weight, Ty::Number), chance.weight.span)
+                })
                 .collect();
             writer.lower.check_weights(&weights, statement.span);
             let weights = weights.into_iter().map(|(reg, _)| reg).collect();

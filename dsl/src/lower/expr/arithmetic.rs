@@ -28,7 +28,8 @@ impl<'w> Lower<'_, 'w> {
         if op == ast::PrefixOp::Plus {
             return value;
         }
-        let negated: Vec<Reg> = value.regs().into_iter().map(|reg| self.code.unary(UnaryOp::Neg, reg)).collect();
+        let negated: Vec<Reg> =
+            value.regs().into_iter().map(|reg| self.code.unary(UnaryOp::Neg, reg)).collect();
         match negated.as_slice() {
             [a] => Value::one(value.ty, *a),
             [a, b] => Value::two(value.ty, (*a, *b)),
@@ -37,7 +38,13 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    pub(super) fn binary(&mut self, op: &'w Spanned<ast::InfixOp>, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
+    pub(super) fn binary(
+        &mut self,
+        op: &'w Spanned<ast::InfixOp>,
+        a: &'w Expr,
+        b: &'w Expr,
+        span: Span,
+    ) -> Value<'w> {
         use ast::InfixOp as Op;
         match op.node {
             Op::And | Op::Or => {
@@ -53,29 +60,45 @@ impl<'w> Lower<'_, 'w> {
             Op::Eq | Op::Ne => self.equality(op.node == Op::Eq, a, b),
             Op::In => self.membership(a, b),
             Op::Union | Op::Intersection => {
-                let (Some(x), Some(y)) = (self.region(a), self.region(b)) else { return Value::error() };
-                let value =
-                    if op.node == Op::Union { RegionValue::Union(x, y) } else { RegionValue::Intersection(x, y) };
+                let (Some(x), Some(y)) = (self.region(a), self.region(b)) else {
+                    return Value::error();
+                };
+                let value = if op.node == Op::Union {
+                    RegionValue::Union(x, y)
+                } else {
+                    RegionValue::Intersection(x, y)
+                };
                 Value { ty: Ty::Region, repr: Repr::Region(Rc::new(value)) }
             }
         }
     }
 
-    /// How `A or b` is written where `b` is no condition, but goes on with the end of A: `goal by left or right`.
+    /// How `A or b` is written where `b` is no condition, but goes on with the end of A:
+    /// `goal by left or right`.
     fn shared(&self, op: ast::InfixOp, a: &Expr, b: &Expr, ty: Ty) -> Option<String> {
         let last = match &a.kind {
-            ExprKind::Binary(inner, _, last) if matches!(inner.node, ast::InfixOp::And | ast::InfixOp::Or) => last,
+            ExprKind::Binary(inner, _, last)
+                if matches!(inner.node, ast::InfixOp::And | ast::InfixOp::Or) =>
+            {
+                last
+            }
             _ => a,
         };
         let is_or = op == ast::InfixOp::Or;
         let (word, sign) = if is_or { ("or", '|') } else { ("and", '&') };
         let part = match &last.kind {
-            ExprKind::Event(event) if matches!(ty, Ty::Team | Ty::Player) => event.by.as_ref()?.span,
+            ExprKind::Event(event) if matches!(ty, Ty::Team | Ty::Player) => {
+                event.by.as_ref()?.span
+            }
             ExprKind::Binary(op, _, region) if op.node == ast::InfixOp::In && ty == Ty::Region => {
                 let (region, other) = (self.world.text(region.span), self.world.text(b.span));
                 return Some(format!("{region} {sign} {other}"));
             }
-            ExprKind::Binary(op, _, part) if matches!(op.node, ast::InfixOp::Eq | ast::InfixOp::Ne) => part.span,
+            ExprKind::Binary(op, _, part)
+                if matches!(op.node, ast::InfixOp::Eq | ast::InfixOp::Ne) =>
+            {
+                part.span
+            }
             _ => return None,
         };
         let to = |end: u32| Span { end, ..last.span };
@@ -93,7 +116,13 @@ impl<'w> Lower<'_, 'w> {
         let op = if is_add { BinaryOp::Add } else { BinaryOp::Sub };
         if let (Some(left), Some(right)) = (x.ty.dim(), y.ty.dim()) {
             if left != right {
-                return self.disagree(&x, &y, a, b, if is_add { Verb::Add } else { Verb::Subtract });
+                return self.disagree(
+                    &x,
+                    &y,
+                    a,
+                    b,
+                    if is_add { Verb::Add } else { Verb::Subtract },
+                );
             }
             let (p, q) = (self.reg(&x), self.reg(&y));
             let reg = self.code.binary(op, p, q);
@@ -104,11 +133,17 @@ impl<'w> Lower<'_, 'w> {
             return Value::one(x.ty.join(y.ty).unwrap_or(Ty::Number), reg);
         }
         if x.ty == Ty::Region && y.ty == Ty::Region && !is_add {
-            let (Repr::Region(p), Repr::Region(q)) = (x.repr, y.repr) else { return Value::error() };
-            return Value { ty: Ty::Region, repr: Repr::Region(Rc::new(RegionValue::Difference(p, q))) };
+            let (Repr::Region(p), Repr::Region(q)) = (x.repr, y.repr) else {
+                return Value::error();
+            };
+            return Value {
+                ty: Ty::Region,
+                repr: Repr::Region(Rc::new(RegionValue::Difference(p, q))),
+            };
         }
-        let offset =
-            |value: &Value<'w>, expr: &Expr| value.ty == Ty::Vector || (value.ty == Ty::Point && is_tuple(expr));
+        let offset = |value: &Value<'w>, expr: &Expr| {
+            value.ty == Ty::Vector || (value.ty == Ty::Point && is_tuple(expr))
+        };
         let ty = match (x.ty, y.ty) {
             (Ty::Velocity, Ty::Velocity) => Ty::Velocity,
             (Ty::Vector, Ty::Vector) => Ty::Vector,
@@ -122,7 +157,15 @@ impl<'w> Lower<'_, 'w> {
                 };
                 return self.fail(Problem::new(span, Types::PointsAdded { offset }));
             }
-            _ => return self.disagree(&x, &y, a, b, if is_add { Verb::Add } else { Verb::Subtract }),
+            _ => {
+                return self.disagree(
+                    &x,
+                    &y,
+                    a,
+                    b,
+                    if is_add { Verb::Add } else { Verb::Subtract },
+                );
+            }
         };
         let (p, q) = (self.any_pair(&x, a.span), self.any_pair(&y, b.span));
         let pair = (self.code.binary(op, p.0, q.0), self.code.binary(op, p.1, q.1));
@@ -141,7 +184,10 @@ impl<'w> Lower<'_, 'w> {
             span: expr.span,
             is_quoted: matches!(&value.repr, Repr::Text(_)),
         };
-        self.fail(Problem::new(b.span, Types::Disagree { verb, left: operand(x, a), right: operand(y, b) }))
+        self.fail(Problem::new(
+            b.span,
+            Types::Disagree { verb, left: operand(x, a), right: operand(y, b) },
+        ))
     }
 
     fn product(&mut self, a: &'w Expr, b: &'w Expr) -> Value<'w> {
@@ -151,7 +197,11 @@ impl<'w> Lower<'_, 'w> {
         }
         if let (Some(left), Some(right)) = (x.ty.dim(), y.ty.dim()) {
             let (p, q) = (self.reg(&x), self.reg(&y));
-            let ty = if x.ty == Ty::Int && y.ty == Ty::Int { Ty::Int } else { Ty::with_dim(left.times(right)) };
+            let ty = if x.ty == Ty::Int && y.ty == Ty::Int {
+                Ty::Int
+            } else {
+                Ty::with_dim(left.times(right))
+            };
             return Value::one(ty, self.code.binary(BinaryOp::Mul, p, q));
         }
         let (vector, factor, factor_expr) = match (x.ty, y.ty) {
@@ -164,14 +214,19 @@ impl<'w> Lower<'_, 'w> {
             (Ty::Velocity, ty) if ty.is_plain() => Ty::Velocity,
             (Ty::Velocity, Ty::DURATION) => Ty::Vector,
             (Ty::Point, ty) if ty.is_plain() && (is_tuple(a) || is_tuple(b)) => Ty::Vector,
-            (Ty::Vector | Ty::Velocity, ty) => return self.fail(self.mismatch(ty, Ty::Number, factor_expr.span)),
+            (Ty::Vector | Ty::Velocity, ty) => {
+                return self.fail(self.mismatch(ty, Ty::Number, factor_expr.span));
+            }
             _ => {
                 let (ty, expr) = if x.ty.dim().is_some() { (y.ty, b) } else { (x.ty, a) };
                 return self.fail(self.mismatch(ty, Ty::Number, expr.span));
             }
         };
         let (pair, scale) = (self.pair(vector), self.reg(factor));
-        let scaled = (self.code.binary(BinaryOp::Mul, pair.0, scale), self.code.binary(BinaryOp::Mul, pair.1, scale));
+        let scaled = (
+            self.code.binary(BinaryOp::Mul, pair.0, scale),
+            self.code.binary(BinaryOp::Mul, pair.1, scale),
+        );
         Value::two(ty, scaled)
     }
 
@@ -180,12 +235,17 @@ impl<'w> Lower<'_, 'w> {
         if x.is_error() || y.is_error() {
             return Value::error();
         }
-        let Some(right) = y.ty.dim() else { return self.fail(self.mismatch(y.ty, Ty::Number, b.span)) };
+        let Some(right) = y.ty.dim() else {
+            return self.fail(self.mismatch(y.ty, Ty::Number, b.span));
+        };
         let divisor = self.reg(&y);
         self.check_divisor(divisor, b, span);
         if let Some(left) = x.ty.dim() {
             let p = self.reg(&x);
-            return Value::one(Ty::with_dim(left.over(right)), self.code.binary(BinaryOp::Div, p, divisor));
+            return Value::one(
+                Ty::with_dim(left.over(right)),
+                self.code.binary(BinaryOp::Div, p, divisor),
+            );
         }
         let ty = match (x.ty, right) {
             (Ty::Vector, Dim::NONE) => Ty::Vector,
@@ -193,7 +253,10 @@ impl<'w> Lower<'_, 'w> {
             _ => return self.fail(self.mismatch(x.ty, Ty::Number, a.span)),
         };
         let p = self.pair(&x);
-        let pair = (self.code.binary(BinaryOp::Div, p.0, divisor), self.code.binary(BinaryOp::Div, p.1, divisor));
+        let pair = (
+            self.code.binary(BinaryOp::Div, p.0, divisor),
+            self.code.binary(BinaryOp::Div, p.1, divisor),
+        );
         Value::two(ty, pair)
     }
 
@@ -251,20 +314,34 @@ impl<'w> Lower<'_, 'w> {
         }
         let known: Vec<&str> = GameMode::ALL.iter().map(|mode| mode.name()).collect();
         let guess = Guess::similar_or_all(word, &known);
-        self.fail(Problem::new(expr.span, Names::Unknown { kind: Kind::Mode, name: word.to_owned(), guess }))
+        self.fail(Problem::new(
+            expr.span,
+            Names::Unknown { kind: Kind::Mode, name: word.to_owned(), guess },
+        ))
     }
 
     /// Whether two values are equal.
-    pub(super) fn equal(&mut self, is_eq: bool, x: (&Value<'w>, &'w Expr), y: (&Value<'w>, &'w Expr)) -> Value<'w> {
+    pub(super) fn equal(
+        &mut self,
+        is_eq: bool,
+        x: (&Value<'w>, &'w Expr),
+        y: (&Value<'w>, &'w Expr),
+    ) -> Value<'w> {
         let ((x, a), (y, b)) = (x, y);
         if x.is_error() || y.is_error() {
             return Value::error();
         }
         let op = if is_eq { BinaryOp::Eq } else { BinaryOp::Ne };
         match (&x.repr, &y.repr) {
-            (Repr::Choice(reg, words), Repr::Text(text)) => return self.word_equal(op, *reg, words, text, b),
-            (Repr::Text(text), Repr::Choice(reg, words)) => return self.word_equal(op, *reg, words, text, a),
-            (Repr::Text(p), Repr::Text(q)) => return Value::one(Ty::Bool, self.code.bool((p == q) == is_eq)),
+            (Repr::Choice(reg, words), Repr::Text(text)) => {
+                return self.word_equal(op, *reg, words, text, b);
+            }
+            (Repr::Text(text), Repr::Choice(reg, words)) => {
+                return self.word_equal(op, *reg, words, text, a);
+            }
+            (Repr::Text(p), Repr::Text(q)) => {
+                return Value::one(Ty::Bool, self.code.bool((p == q) == is_eq));
+            }
             _ => {}
         }
         let comparable = match (x.ty, y.ty) {
@@ -282,7 +359,14 @@ impl<'w> Lower<'_, 'w> {
         Value::one(Ty::Bool, self.code.binary(op, p, q))
     }
 
-    fn word_equal(&mut self, op: BinaryOp, reg: Reg, words: &[String], text: &str, at: &Expr) -> Value<'w> {
+    fn word_equal(
+        &mut self,
+        op: BinaryOp,
+        reg: Reg,
+        words: &[String],
+        text: &str,
+        at: &Expr,
+    ) -> Value<'w> {
         match words.iter().position(|word| word == text) {
             Some(index) => {
                 let index = self.code.constant(index as f64);
@@ -290,19 +374,32 @@ impl<'w> Lower<'_, 'w> {
             }
             None => self.fail({
                 let guess = Guess::of(text, words.iter().map(String::as_str));
-                Problem::new(at.span, Names::NoneOfItsWords { word: text.to_owned(), parameter: None, guess })
+                Problem::new(
+                    at.span,
+                    Names::NoneOfItsWords { word: text.to_owned(), parameter: None, guess },
+                )
             }),
         }
     }
 
-    pub(super) fn if_expr(&mut self, condition: &'w Expr, then: &'w Expr, otherwise: &'w Expr) -> Value<'w> {
+    pub(super) fn if_expr(
+        &mut self,
+        condition: &'w Expr,
+        then: &'w Expr,
+        otherwise: &'w Expr,
+    ) -> Value<'w> {
         let c = self.condition(condition);
         let (x, y) = (self.expr(then), self.expr(otherwise));
         self.choose(c, (&x, then), (&y, otherwise))
     }
 
     /// One of two values, by a condition.
-    pub(super) fn choose(&mut self, c: Reg, x: (&Value<'w>, &'w Expr), y: (&Value<'w>, &'w Expr)) -> Value<'w> {
+    pub(super) fn choose(
+        &mut self,
+        c: Reg,
+        x: (&Value<'w>, &'w Expr),
+        y: (&Value<'w>, &'w Expr),
+    ) -> Value<'w> {
         let ((x, a), (y, b)) = (x, y);
         let Some(ty) = x.ty.join(y.ty) else {
             let text = self.world.text(b.span);
@@ -322,7 +419,9 @@ impl<'w> Lower<'_, 'w> {
         match (picked.as_slice(), p.len() == q.len()) {
             ([r], true) if matches!(x.repr, Repr::One(_)) => Value::one(ty, *r),
             ([r, s], true) if matches!(x.repr, Repr::Two(..)) => Value::two(ty, (*r, *s)),
-            ([r, s, t], true) if matches!(x.repr, Repr::Three(..)) => Value { ty, repr: Repr::Three(*r, *s, *t) },
+            ([r, s, t], true) if matches!(x.repr, Repr::Three(..)) => {
+                Value { ty, repr: Repr::Three(*r, *s, *t) }
+            }
             _ => self.fail(Problem::new(a.span.to(b.span), Types::NoChoiceOf { ty })),
         }
     }
@@ -336,7 +435,9 @@ impl<'w> Lower<'_, 'w> {
                 let has = self.load(Field::TeamHasBall, Some(reg), "has ball", who.span);
                 has.map_or_else(Value::error, |reg| Value::one(Ty::Bool, reg))
             }
-            (Ty::Player, _) => self.owns(reg, who.span).map_or_else(Value::error, |reg| Value::one(Ty::Bool, reg)),
+            (Ty::Player, _) => {
+                self.owns(reg, who.span).map_or_else(Value::error, |reg| Value::one(Ty::Bool, reg))
+            }
             (Ty::Set, Repr::Set(set)) => {
                 let set = *set;
                 let Some(owner) = self.load(Field::BallOwner, None, "has ball", who.span) else {
@@ -357,8 +458,14 @@ impl<'w> Lower<'_, 'w> {
         Some(self.code.binary(BinaryOp::And, same, somebody))
     }
 
-    /// `possession changes to right`: in the step in which it goes over; the first owner is no change.
-    pub(super) fn changes(&mut self, what: &'w Expr, to: Option<&'w Expr>, span: Span) -> Value<'w> {
+    /// `possession changes to right`: in the step in which it goes over; the first owner is no
+    /// change.
+    pub(super) fn changes(
+        &mut self,
+        what: &'w Expr,
+        to: Option<&'w Expr>,
+        span: Span,
+    ) -> Value<'w> {
         let now = self.expr(what);
         let Some(before) = self.before(what, span) else { return Value::error() };
         if now.is_error() || before.is_error() {

@@ -60,7 +60,8 @@ impl<'w> Lower<'_, 'w> {
             .collect();
         known.extend(Function::ALL.iter().map(|function| function.name()));
         let text = &name.node;
-        let is_value = self.scope.find(text).is_some() || (self.scope.scenario && self.world.declares(text));
+        let is_value =
+            self.scope.find(text).is_some() || (self.scope.scenario && self.world.declares(text));
         let item = library.find(name.span.file, text).map(|found| found.item.kind.noun());
         let foreign = ELSEWHERE.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours);
         let other = match (item, foreign) {
@@ -86,23 +87,33 @@ impl<'w> Lower<'_, 'w> {
         value.unwrap_or_else(Value::error)
     }
 
-    /// Calls a `region`: it lies in the world's frame, whoever calls it; a region of the scenario sees its values.
-    fn call_region(&mut self, item: &'w FnItem, args: &'w [Arg], span: Span, of_scenario: bool) -> Value<'w> {
+    /// Calls a `region`: it lies in the world's frame, whoever calls it; a region of the scenario
+    /// sees its values.
+    fn call_region(
+        &mut self,
+        item: &'w FnItem,
+        args: &'w [Arg],
+        span: Span,
+        of_scenario: bool,
+    ) -> Value<'w> {
         let mut scope = Scope::new(of_scenario, LiteralFrame::World);
         self.bind_params(&item.name.node, &item.params, args, span, &mut scope, true);
         self.turn_angles(&item.params, &mut scope);
-        let value =
-            self.inline(item.name.span, span, |lower| lower.within(scope, |lower| lower.want(&item.body, Ty::Region)));
+        let value = self.inline(item.name.span, span, |lower| {
+            lower.within(scope, |lower| lower.want(&item.body, Ty::Region))
+        });
         value.unwrap_or_else(Value::error)
     }
 
-    /// Angles that were read in the present frame are read in the one of the scope they are bound in.
+    /// Angles that were read in the present frame are read in the one of the scope they are bound
+    /// in.
     pub(crate) fn turn_angles(&mut self, params: &'w [ParamDecl], scope: &mut Scope<'w>) {
         if self.scope.frame == scope.frame {
             return;
         }
         for decl in params {
-            if let Some(LocalName::Expr { now: Some(value), .. }) = scope.find(&decl.name.node).cloned()
+            if let Some(LocalName::Expr { now: Some(value), .. }) =
+                scope.find(&decl.name.node).cloned()
                 && value.ty == Ty::ANGLE
             {
                 let read = self.reg(&value);
@@ -114,7 +125,8 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    /// Binds declared parameters to arguments (read here) or defaults (read in the declaration's scope).
+    /// Binds declared parameters to arguments (read here) or defaults (read in the declaration's
+    /// scope).
     ///
     /// With `now` the values are computed at once; otherwise wherever they are used.
     pub(crate) fn bind_params(
@@ -168,7 +180,10 @@ impl<'w> Lower<'_, 'w> {
             // What a wrong argument would do further on is no news.
             let wrong = self.world.found() > found;
             let value = value.map(|value| if wrong { Value::error() } else { value });
-            scope.bind(&param.name.node, LocalName::Expr { expr, scope: home, ty, now: value, at: param.name.span });
+            scope.bind(
+                &param.name.node,
+                LocalName::Expr { expr, scope: home, ty, now: value, at: param.name.span },
+            );
         }
     }
 
@@ -185,7 +200,13 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn check_domain(&mut self, value: &Value<'w>, domain: &'w crate::ast::Domain, expr: &Expr, name: &str) {
+    fn check_domain(
+        &mut self,
+        value: &Value<'w>,
+        domain: &'w crate::ast::Domain,
+        expr: &Expr,
+        name: &str,
+    ) {
         let crate::ast::Domain::Range(low, high) = domain else { return };
         if value.ty.dim().is_none() {
             return;
@@ -193,7 +214,9 @@ impl<'w> Lower<'_, 'w> {
         let home = Scope::new(false, LiteralFrame::World);
         let (least, greatest) = self.within(home, |lower| (lower.expr(low), lower.expr(high)));
         let (least, greatest) = (self.reg(&least), self.reg(&greatest));
-        let (Some(least), Some(greatest)) = (self.code.constant_of(least), self.code.constant_of(greatest)) else {
+        let (Some(least), Some(greatest)) =
+            (self.code.constant_of(least), self.code.constant_of(greatest))
+        else {
             return;
         };
         let shown = format!("`{}..{}`", self.world.text(low.span), self.world.text(high.span));
@@ -239,12 +262,19 @@ impl<'w> Lower<'_, 'w> {
                 Some(Some(first)) => {
                     let first = first.span;
                     let name = names.get(at).copied().unwrap_or_default();
-                    self.report(Problem::new(arg.span, Calls::GivenTwice { parameter: name.to_owned(), first }));
+                    self.report(Problem::new(
+                        arg.span,
+                        Calls::GivenTwice { parameter: name.to_owned(), first },
+                    ));
                     return None;
                 }
                 None => {
                     let names = names.iter().map(|&name| name.to_owned()).collect();
-                    let fact = Calls::TooMany { callee: callee.to_owned(), names, signature: of_builtin(callee) };
+                    let fact = Calls::TooMany {
+                        callee: callee.to_owned(),
+                        names,
+                        signature: of_builtin(callee),
+                    };
                     self.report(Problem::new(arg.span, fact));
                     return None;
                 }
@@ -253,7 +283,8 @@ impl<'w> Lower<'_, 'w> {
         let missing = given.iter().take(required).position(Option::is_none);
         if let Some(name) = missing.and_then(|at| names.get(at)) {
             let form = of_builtin(callee).map_or(Form::Unknown, Form::Builtin);
-            let fact = Calls::Missing { callee: callee.to_owned(), parameter: (*name).to_owned(), form };
+            let fact =
+                Calls::Missing { callee: callee.to_owned(), parameter: (*name).to_owned(), form };
             self.report(Problem::new(span, fact));
             return None;
         }

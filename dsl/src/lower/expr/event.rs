@@ -25,14 +25,16 @@ pub(crate) struct Matching {
 impl<'w> Lower<'_, 'w> {
     /// An event as a condition: whether it happened in this step.
     pub(super) fn event_happened(&mut self, event: &'w EventExpr) -> Value<'w> {
-        // Inside a loop over events the inner loop would hide the outer event, so the test is made before it.
+        // Inside a loop over events the inner loop would hide the outer event, so the test is made
+        // before it.
         let loops = self.code.leave_loops();
         let outer = self.event.take();
         let matching = self.open_events(event);
         let value = match matching {
             Some(matching) => {
                 let guard = matching.guard;
-                let count = self.close_events(matching, Fold { kind: FoldKind::Count, value: None, guard });
+                let count =
+                    self.close_events(matching, Fold { kind: FoldKind::Count, value: None, guard });
                 let zero = self.code.constant(0.0);
                 Value::one(Ty::Bool, self.code.binary(BinaryOp::Gt, count, zero))
             }
@@ -69,14 +71,21 @@ impl<'w> Lower<'_, 'w> {
         let Some(kind) = EventKind::from_name(name) else {
             self.report({
                 let guess = Guess::of(name, EventKind::ALL.iter().map(|kind| kind.name()));
-                Problem::new(event.name.span, Names::Unknown { kind: Kind::Event, name: name.to_owned(), guess })
+                Problem::new(
+                    event.name.span,
+                    Names::Unknown { kind: Kind::Event, name: name.to_owned(), guess },
+                )
             });
             return None;
         };
         if !self.stage.is_step() {
             self.report({
-                let is_landmark = Landmark::from_name(name).is_some() && event.span == event.name.span;
-                Problem::new(event.span, Scopes::NothingHappened { event: name.to_owned(), is_landmark })
+                let is_landmark =
+                    Landmark::from_name(name).is_some() && event.span == event.name.span;
+                Problem::new(
+                    event.span,
+                    Scopes::NothingHappened { event: name.to_owned(), is_landmark },
+                )
             });
             return None;
         }
@@ -98,9 +107,15 @@ impl<'w> Lower<'_, 'w> {
         if !kind.has_receiver()
             && let Some(to) = &event.to
         {
-            let others: Vec<&str> =
-                EventKind::ALL.iter().filter(|kind| kind.has_receiver()).map(|kind| kind.name()).collect();
-            self.report(Problem::new(to.span, Calls::ReachesNobody { event: name.to_owned(), others }));
+            let others: Vec<&str> = EventKind::ALL
+                .iter()
+                .filter(|kind| kind.has_receiver())
+                .map(|kind| kind.name())
+                .collect();
+            self.report(Problem::new(
+                to.span,
+                Calls::ReachesNobody { event: name.to_owned(), others },
+            ));
             return None;
         }
         let by = event.by.as_deref().map(|who| self.who(who));
@@ -111,7 +126,10 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    #[allow(clippy::option_option, reason = "outer: nothing was reported; inner: there is a qualifier")]
+    #[allow(
+        clippy::option_option,
+        reason = "outer: nothing was reported; inner: there is a qualifier"
+    )]
     fn qualifier(&mut self, kind: EventKind, event: &EventExpr) -> Option<Option<Qualifier>> {
         let Some(qualifier) = &event.qualifier else {
             // A bare `pass` is one that was struck.
@@ -121,7 +139,8 @@ impl<'w> Lower<'_, 'w> {
         if known.contains(&qualifier.node) {
             return Some(Some(qualifier.node));
         }
-        let (event, qualifier, span) = (event.name.node.clone(), qualifier.node.to_string(), qualifier.span);
+        let (event, qualifier, span) =
+            (event.name.node.clone(), qualifier.node.to_string(), qualifier.span);
         let known = known.iter().map(|qualifier| qualifier.name()).collect();
         self.report(Problem::new(span, Calls::NeverQualified { event, qualifier, known }));
         None
@@ -135,7 +154,10 @@ impl<'w> Lower<'_, 'w> {
             (Ty::Error, _) => None,
             (ty, _) => {
                 let text = self.world.text(expr.span);
-                self.report(Problem::new(expr.span, Types::NeitherTeamNorPlayer { found: ty, text }));
+                self.report(Problem::new(
+                    expr.span,
+                    Types::NeitherTeamNorPlayer { found: ty, text },
+                ));
                 None
             }
         }

@@ -11,14 +11,29 @@ use setpiece_scenario::vocabulary::{Field, Function};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 
 impl<'w> Lower<'_, 'w> {
-    pub(super) fn function(&mut self, function: Function, name: &'w Ident, args: &'w [Arg], span: Span) -> Value<'w> {
+    pub(super) fn function(
+        &mut self,
+        function: Function,
+        name: &'w Ident,
+        args: &'w [Arg],
+        span: Span,
+    ) -> Value<'w> {
         use Function as F;
-        let goes_through_players = args.iter().any(|arg| arg.binder.is_some() || arg.filter.is_some());
+        let goes_through_players =
+            args.iter().any(|arg| arg.binder.is_some() || arg.filter.is_some());
         match function {
-            F::Min | F::Max if !goes_through_players && args.len() > 1 => self.extreme(function, args),
-            F::Min | F::Max | F::Count | F::Any | F::All | F::Sum | F::Mean | F::MinBy | F::MaxBy => {
-                self.aggregate(function, args, span)
+            F::Min | F::Max if !goes_through_players && args.len() > 1 => {
+                self.extreme(function, args)
             }
+            F::Min
+            | F::Max
+            | F::Count
+            | F::Any
+            | F::All
+            | F::Sum
+            | F::Mean
+            | F::MinBy
+            | F::MaxBy => self.aggregate(function, args, span),
             F::Choice => self.choice(args, span),
             F::Shuffle => self.fail(Problem::new(span, Chance::ShuffleAsValue)),
             F::Rect | F::Circle | F::Polygon | F::Sector => self.region_call(function, args, span),
@@ -42,9 +57,10 @@ impl<'w> Lower<'_, 'w> {
                         | F::Within,
                         _,
                     ) => self.temporal(function, &given, span),
-                    (F::Uniform | F::Normal | F::TruncatedNormal | F::Integer | F::Alternate, _) => {
-                        self.draw(function, &given, span)
-                    }
+                    (
+                        F::Uniform | F::Normal | F::TruncatedNormal | F::Integer | F::Alternate,
+                        _,
+                    ) => self.draw(function, &given, span),
                     (F::Nearest, &[set, to]) => self.nearest(set, to),
                     (F::Pressed, &[who, within]) => self.pressed(who, within),
                     (F::MinGap, &[set]) => self.min_gap(set, span),
@@ -62,12 +78,20 @@ impl<'w> Lower<'_, 'w> {
             (F::Ceil, &[x]) => self.number_op(x, |ty| Some(whole(ty)), UnaryOp::Ceil),
             (F::Round, &[x]) => self.number_op(x, |ty| Some(whole(ty)), UnaryOp::Round),
             (F::Sqrt, &[x]) => {
-                let value = self.number_op(x, |ty| ty.dim()?.root().map(Ty::with_dim), UnaryOp::Sqrt);
+                let value =
+                    self.number_op(x, |ty| ty.dim()?.root().map(Ty::with_dim), UnaryOp::Sqrt);
                 self.check_domain_of(x, value, span, 0.0, "the root of a negative number")
             }
             (F::Log, &[x]) => {
-                let value = self.number_op(x, |ty| ty.is_plain().then_some(Ty::Number), UnaryOp::Log);
-                self.check_domain_of(x, value, span, f64::MIN_POSITIVE, "the logarithm of 0 or less")
+                let value =
+                    self.number_op(x, |ty| ty.is_plain().then_some(Ty::Number), UnaryOp::Log);
+                self.check_domain_of(
+                    x,
+                    value,
+                    span,
+                    f64::MIN_POSITIVE,
+                    "the logarithm of 0 or less",
+                )
             }
             (F::Exp, &[x]) => Value::one(Ty::Number, {
                 let reg = self.want_reg(x, Ty::Number);
@@ -104,7 +128,10 @@ impl<'w> Lower<'_, 'w> {
             (F::GrfDistance, &[a, b]) => self.grf_distance(a, b),
             (F::Angle, &[a, b]) => {
                 let (p, q) = (self.want_point(a), self.want_point(b));
-                let (dx, dy) = (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
+                let (dx, dy) = (
+                    self.code.binary(BinaryOp::Sub, q.0, p.0),
+                    self.code.binary(BinaryOp::Sub, q.1, p.1),
+                );
                 let (dx, dy) = self.turned((dx, dy));
                 Value::one(Ty::ANGLE, self.code.binary(BinaryOp::Atan2, dy, dx))
             }
@@ -141,16 +168,26 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn check_domain_of(&mut self, x: &'w Expr, value: Value<'w>, span: Span, least: f64, what: &str) -> Value<'w> {
+    fn check_domain_of(
+        &mut self,
+        x: &'w Expr,
+        value: Value<'w>,
+        span: Span,
+        least: f64,
+        what: &str,
+    ) -> Value<'w> {
         let instr = value.regs().first().and_then(|&reg| self.code.instr(reg));
-        let Some(&setpiece_scenario::Instr::Unary(UnaryOp::Sqrt | UnaryOp::Log, operand)) = instr else {
+        let Some(&setpiece_scenario::Instr::Unary(UnaryOp::Sqrt | UnaryOp::Log, operand)) = instr
+        else {
             return value;
         };
         if let Some((low, _)) = self.interval(operand)
             && low < least
         {
-            let least = self.code.constant_of(operand).is_none().then(|| (self.world.text(x.span), low));
-            return self.fail(Problem::new(span, Types::OutsideDomain { what: what.to_owned(), least }));
+            let least =
+                self.code.constant_of(operand).is_none().then(|| (self.world.text(x.span), low));
+            return self
+                .fail(Problem::new(span, Types::OutsideDomain { what: what.to_owned(), least }));
         }
         value
     }
@@ -161,7 +198,9 @@ impl<'w> Lower<'_, 'w> {
         let mut best: Option<Value<'w>> = None;
         for arg in args {
             let value = match &best {
-                Some(first) if first.ty.dim().is_some_and(|dim| dim != Dim::NONE) => self.want(&arg.value, first.ty),
+                Some(first) if first.ty.dim().is_some_and(|dim| dim != Dim::NONE) => {
+                    self.want(&arg.value, first.ty)
+                }
                 Some(_) => self.want(&arg.value, Ty::Number),
                 None => self.expr(&arg.value),
             };
@@ -197,7 +236,8 @@ impl<'w> Lower<'_, 'w> {
         let (v, l, h) = (self.reg(&value), self.reg(&low), self.reg(&high));
         let raised = self.code.binary(BinaryOp::Max, v, l);
         let held = self.code.binary(BinaryOp::Min, raised, h);
-        let whole_ends = [l, h].iter().all(|&reg| self.code.constant_of(reg).is_some_and(|v| v.fract() == 0.0));
+        let whole_ends =
+            [l, h].iter().all(|&reg| self.code.constant_of(reg).is_some_and(|v| v.fract() == 0.0));
         let ty = if all_whole && !whole_ends { Ty::Number } else { value.ty };
         Value::one(ty, held)
     }
@@ -215,7 +255,8 @@ impl<'w> Lower<'_, 'w> {
         let v = self.reg(&value);
         let (zero, one) = (self.code.constant(0.0), self.code.constant(1.0));
         let (two, three) = (self.code.constant(2.0), self.code.constant(3.0));
-        let (over, width) = (self.code.binary(BinaryOp::Sub, v, l), self.code.binary(BinaryOp::Sub, h, l));
+        let (over, width) =
+            (self.code.binary(BinaryOp::Sub, v, l), self.code.binary(BinaryOp::Sub, h, l));
         self.check_divisor(width, high, high.span);
         let share = self.code.binary(BinaryOp::Div, over, width);
         let share = self.code.binary(BinaryOp::Max, share, zero);
@@ -228,15 +269,18 @@ impl<'w> Lower<'_, 'w> {
 
     /// Metres along the ground.
     pub(crate) fn distance(&mut self, p: (Reg, Reg), q: (Reg, Reg)) -> Reg {
-        let (dx, dy) = (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
+        let (dx, dy) =
+            (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
         self.code.binary(BinaryOp::Hypot, dx, dy)
     }
 
     fn grf_distance(&mut self, a: &'w Expr, b: &'w Expr) -> Value<'w> {
         let (p, q) = (self.want_point(a), self.want_point(b));
         let (sx, sy) = (self.code.constant(X_SCALE_M), self.code.constant(Y_SCALE_M));
-        let (dx, dy) = (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
-        let (dx, dy) = (self.code.binary(BinaryOp::Div, dx, sx), self.code.binary(BinaryOp::Div, dy, sy));
+        let (dx, dy) =
+            (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
+        let (dx, dy) =
+            (self.code.binary(BinaryOp::Div, dx, sx), self.code.binary(BinaryOp::Div, dy, sy));
         Value::one(Ty::Number, self.code.binary(BinaryOp::Hypot, dx, dy))
     }
 
@@ -268,8 +312,10 @@ impl<'w> Lower<'_, 'w> {
         let r = self.want_reg(r, Ty::LENGTH);
         let angle = self.want_reg(angle, Ty::ANGLE);
         let angle = self.turned_angle(angle);
-        let (cos, sin) = (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
-        let pair = (self.code.binary(BinaryOp::Mul, r, cos), self.code.binary(BinaryOp::Mul, r, sin));
+        let (cos, sin) =
+            (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
+        let pair =
+            (self.code.binary(BinaryOp::Mul, r, cos), self.code.binary(BinaryOp::Mul, r, sin));
         Value::two(Ty::Vector, pair)
     }
 }
@@ -282,10 +328,14 @@ fn whole(ty: Ty) -> Ty {
 fn signature(function: Function) -> (&'static [&'static str], usize) {
     use Function as F;
     match function {
-        F::Abs | F::Exp | F::Log | F::Sqrt | F::Floor | F::Ceil | F::Round | F::Speed => (&["x"], 1),
+        F::Abs | F::Exp | F::Log | F::Sqrt | F::Floor | F::Ceil | F::Round | F::Speed => {
+            (&["x"], 1)
+        }
         F::Sin | F::Cos => (&["angle"], 1),
         F::Pow => (&["x", "y"], 2),
-        F::Mod | F::Distance | F::GrfDistance | F::Angle | F::Closing | F::Alternate => (&["a", "b"], 2),
+        F::Mod | F::Distance | F::GrfDistance | F::Angle | F::Closing | F::Alternate => {
+            (&["a", "b"], 2)
+        }
         F::Clamp => (&["x", "low", "high"], 3),
         F::Smoothstep => (&["low", "high", "x"], 3),
         F::Polar => (&["r", "angle"], 2),

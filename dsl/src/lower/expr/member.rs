@@ -8,7 +8,9 @@ use crate::check::types::Ty;
 use crate::problem::facts::{Calls, Like, Names, Scopes, Types};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
-use setpiece_scenario::vocabulary::{EventField, Field, Landmark, Owner, PROPERTIES, PitchRegion, RegionName, Role};
+use setpiece_scenario::vocabulary::{
+    EventField, Field, Landmark, Owner, PROPERTIES, PitchRegion, RegionName, Role,
+};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 
 impl<'w> Lower<'_, 'w> {
@@ -45,7 +47,10 @@ impl<'w> Lower<'_, 'w> {
         let value = self.expr(of);
         let name = member.node.as_str();
         if self.is_nobody(of) {
-            return self.fail(Problem::new(span, Types::NobodyHasNoProperty { property: name.to_owned() }));
+            return self.fail(Problem::new(
+                span,
+                Types::NobodyHasNoProperty { property: name.to_owned() },
+            ));
         }
         match value.ty {
             Ty::Error => Value::error(),
@@ -77,8 +82,11 @@ impl<'w> Lower<'_, 'w> {
             return None;
         }
         let begins = format!("{alias}.");
-        let known: Vec<&str> =
-            library.visible(span.file).map(|(name, _)| name).filter(|name| name.starts_with(&begins)).collect();
+        let known: Vec<&str> = library
+            .visible(span.file)
+            .map(|(name, _)| name)
+            .filter(|name| name.starts_with(&begins))
+            .collect();
         let guess = Guess::similar_or_all(&dotted, &known);
         let fact = Names::NotInFile { file: file.to_owned(), name: member.node.clone(), guess };
         Some(self.fail(Problem::new(member.span, fact)))
@@ -101,7 +109,13 @@ impl<'w> Lower<'_, 'w> {
         (self.code.binary(BinaryOp::Mul, x, side), self.code.binary(BinaryOp::Mul, y, side))
     }
 
-    pub(super) fn member_of_team(&mut self, team: &Value<'w>, name: &str, at: Span, of: Span) -> Value<'w> {
+    pub(super) fn member_of_team(
+        &mut self,
+        team: &Value<'w>,
+        name: &str,
+        at: Span,
+        of: Span,
+    ) -> Value<'w> {
         let reg = self.reg(team);
         if let Some(landmark) = Landmark::from_name(name) {
             let (x, y) = landmark.left_m();
@@ -131,17 +145,30 @@ impl<'w> Lower<'_, 'w> {
 
     fn score_member(&mut self, member: &'w Ident, span: Span) -> Value<'w> {
         if !matches!(member.node.as_str(), "left" | "right" | "us" | "them") {
-            return self.no_member(span, Ty::Score, member.span, &member.node, &["left", "right", "us", "them"]);
+            return self.no_member(
+                span,
+                Ty::Score,
+                member.span,
+                &member.node,
+                &["left", "right", "us", "them"],
+            );
         }
         let team = self.name(&member.node, member.span);
         if team.is_error() {
             return team;
         }
         let reg = self.reg(&team);
-        self.load(Field::Score, Some(reg), "score", span).map_or_else(Value::error, |r| Value::one(Ty::Int, r))
+        self.load(Field::Score, Some(reg), "score", span)
+            .map_or_else(Value::error, |r| Value::one(Ty::Int, r))
     }
 
-    fn ball_member(&mut self, value: &Value<'w>, member: &'w Ident, of: Span, span: Span) -> Value<'w> {
+    fn ball_member(
+        &mut self,
+        value: &Value<'w>,
+        member: &'w Ident,
+        of: Span,
+        span: Span,
+    ) -> Value<'w> {
         let one = |field| (field, Ty::LENGTH);
         match member.node.as_str() {
             "x" | "y" => {
@@ -150,7 +177,8 @@ impl<'w> Lower<'_, 'w> {
             }
             "height" => {
                 let (field, ty) = one(Field::BallHeight);
-                self.load(field, None, "height", span).map_or_else(Value::error, |r| Value::one(ty, r))
+                self.load(field, None, "height", span)
+                    .map_or_else(Value::error, |r| Value::one(ty, r))
             }
             "owner" => self
                 .load(Field::BallOwner, None, "owner", span)
@@ -179,7 +207,13 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn player_member(&mut self, value: &Value<'w>, member: &'w Ident, of: Span, span: Span) -> Value<'w> {
+    fn player_member(
+        &mut self,
+        value: &Value<'w>,
+        member: &'w Ident,
+        of: Span,
+        span: Span,
+    ) -> Value<'w> {
         let reg = self.reg(value);
         let name = member.node.as_str();
         let (field, ty) = match name {
@@ -198,7 +232,9 @@ impl<'w> Lower<'_, 'w> {
                 return Value::one(Ty::SPEED, self.code.binary(BinaryOp::Hypot, x, y));
             }
             "heading" => {
-                let Some(angle) = self.load(Field::PlayerHeading, Some(reg), name, span) else { return Value::error() };
+                let Some(angle) = self.load(Field::PlayerHeading, Some(reg), name, span) else {
+                    return Value::error();
+                };
                 return Value::one(Ty::ANGLE, self.turned_angle(angle));
             }
             "fatigue" => (Field::PlayerFatigue, Ty::Number),
@@ -243,7 +279,8 @@ impl<'w> Lower<'_, 'w> {
             return self.fail(Problem::new(event.to(member.span), Scopes::NoEvent));
         };
         let name = member.node.as_str();
-        let has_nobody = (name == "by" && !kind.has_actor()) || (name == "to" && !kind.has_receiver());
+        let has_nobody =
+            (name == "by" && !kind.has_actor()) || (name == "to" && !kind.has_receiver());
         if has_nobody {
             let fact = Calls::AlwaysNobody { event: kind.to_string(), is_receiver: name == "to" };
             return self.fail(Problem::new(event.to(member.span), fact));
@@ -266,23 +303,30 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn no_property(&self, of: Span, owner: Owner, ty: Ty, at: Span, name: &str) -> Value<'w> {
-        let known: Vec<&str> = PROPERTIES.iter().filter(|p| p.owner == owner).map(|p| p.name).collect();
+        let known: Vec<&str> =
+            PROPERTIES.iter().filter(|p| p.owner == owner).map(|p| p.name).collect();
         self.no_member(of, ty, at, name, &known)
     }
 
     fn no_member(&self, of: Span, ty: Ty, at: Span, name: &str, known: &[&str]) -> Value<'w> {
         let text = self.world.text(of);
         let like = match (ty, name) {
-            (Ty::Player | Ty::Team | Ty::Set, "has_ball" | "hasBall" | "has_possession") => Like::HasBall,
+            (Ty::Player | Ty::Team | Ty::Set, "has_ball" | "hasBall" | "has_possession") => {
+                Like::HasBall
+            }
             (Ty::Player | Ty::Ball, "vx" | "vy" | "velocity.x" | "velocity.y") => Like::Velocity,
             (Ty::Player | Ty::Ball, "position" | "pos") => Like::Place,
             _ => Like::Other(Guess::similar_or_all(name, known)),
         };
-        self.fail(Problem::new(at, Names::NoProperty { text, noun: ty.noun(), name: name.to_owned(), like }))
+        self.fail(Problem::new(
+            at,
+            Names::NoProperty { text, noun: ty.noun(), name: name.to_owned(), like },
+        ))
     }
 }
 
-/// Whether two names with a dot between them are one name of a team: `corner.top`, `goal.mouth`, `zone.CM`.
+/// Whether two names with a dot between them are one name of a team: `corner.top`, `goal.mouth`,
+/// `zone.CM`.
 fn is_team_part(head: &str, tail: &str) -> bool {
     let dotted = format!("{head}.{tail}");
     // The heads that are nothing by themselves: what is wrong behind them is reported as one name.
@@ -291,5 +335,7 @@ fn is_team_part(head: &str, tail: &str) -> bool {
 
 /// Whether a name is the first half of a region's that belongs to no team: `flank.top`.
 fn is_pitch_part(name: &str) -> bool {
-    PitchRegion::ALL.iter().any(|region| region.name().split_once('.').is_some_and(|(head, _)| head == name))
+    PitchRegion::ALL
+        .iter()
+        .any(|region| region.name().split_once('.').is_some_and(|(head, _)| head == name))
 }

@@ -5,10 +5,14 @@ use super::super::{Lower, ProgramStage};
 use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
 use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::facts::{BeforeOutside, Chance, Names, Outside, Scopes, Types, Use, ViewOutside};
+use crate::problem::facts::{
+    BeforeOutside, Chance, Names, Outside, Scopes, Types, Use, ViewOutside,
+};
 use crate::problem::{Code, Guess, Problem};
 use crate::resolve::Named;
-use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team};
+use setpiece_scenario::vocabulary::{
+    EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team,
+};
 use setpiece_scenario::{Reg, UnaryOp, When};
 
 impl<'w> Lower<'_, 'w> {
@@ -72,7 +76,8 @@ impl<'w> Lower<'_, 'w> {
                 self.world.mark_used(at);
                 match self.when {
                     When::Now => {
-                        let now: Vec<Reg> = cells.iter().map(|&cell| self.code.cell(cell)).collect();
+                        let now: Vec<Reg> =
+                            cells.iter().map(|&cell| self.code.cell(cell)).collect();
                         Value::of_regs(ty, &now)
                     }
                     When::Prev => Value::of_regs(ty, &before),
@@ -109,7 +114,11 @@ impl<'w> Lower<'_, 'w> {
                 return Some(self.scenario_let(name, span));
             }
             let reg = self.code.param(info.index);
-            let repr = if info.ty == Ty::String { Repr::Choice(reg, info.choices.clone()) } else { Repr::One(reg) };
+            let repr = if info.ty == Ty::String {
+                Repr::Choice(reg, info.choices.clone())
+            } else {
+                Repr::One(reg)
+            };
             let repr = if info.ty == Ty::Error { Repr::Nothing } else { repr };
             return Some(Value { ty: info.ty, repr });
         }
@@ -146,7 +155,8 @@ impl<'w> Lower<'_, 'w> {
 
     /// A player of the roster, or of one team.
     fn player_name(&mut self, name: &str, team: Option<Team>) -> Option<Value<'w>> {
-        let mut players = self.world.roster.iter().filter(|player| team.is_none_or(|team| player.team == team));
+        let mut players =
+            self.world.roster.iter().filter(|player| team.is_none_or(|team| player.team == team));
         let player = players.find(|player| player.name.is_some_and(|known| known.node == name))?;
         Some(Value::one(Ty::Player, self.code.constant(f64::from(player.id))))
     }
@@ -159,21 +169,25 @@ impl<'w> Lower<'_, 'w> {
         }
         self.world.mark_used(found.name.span);
         let noun = found.item.kind.noun();
-        let no_value = |cure| Problem::new(span, Types::NotAValue { name: name.to_owned(), noun, cure });
+        let no_value =
+            |cure| Problem::new(span, Types::NotAValue { name: name.to_owned(), noun, cure });
         Some(match &found.item.kind {
             ItemKind::Const(binding) => self.constant_item(binding, span),
             ItemKind::Region(region) if region.params.is_empty() => {
                 let scope = Scope::new(false, LiteralFrame::World);
                 let at = region.name.span;
-                let value =
-                    self.inline(at, span, |lower| lower.within(scope, |lower| lower.want(&region.body, Ty::Region)));
+                let value = self.inline(at, span, |lower| {
+                    lower.within(scope, |lower| lower.want(&region.body, Ty::Region))
+                });
                 value.unwrap_or_else(Value::error)
             }
             ItemKind::Formation(formation) => formation_value(formation),
             ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value(Some(Use::Called))),
             // A scenario or a reward may bear the name of a property; the property is meant here.
             _ if names::is_value(name) => return None,
-            ItemKind::Reward(_) if matches!(self.stage, ProgramStage::Record(_) | ProgramStage::Ending) => {
+            ItemKind::Reward(_)
+                if matches!(self.stage, ProgramStage::Record(_) | ProgramStage::Ending) =>
+            {
                 self.fail(no_value(Some(Use::Recorded)))
             }
             ItemKind::Behavior(_) => self.fail(no_value(Some(Use::Given))),
@@ -198,7 +212,10 @@ impl<'w> Lower<'_, 'w> {
             return Value::error();
         }
         if value.regs().iter().any(|&reg| self.code.constant_of(reg).is_none()) {
-            return self.fail(Problem::new(binding.value.span, Chance::NoConstant { name: binding.name.node.clone() }));
+            return self.fail(Problem::new(
+                binding.value.span,
+                Chance::NoConstant { name: binding.name.node.clone() },
+            ));
         }
         value
     }
@@ -212,7 +229,8 @@ impl<'w> Lower<'_, 'w> {
             "nobody" => Value::one(Ty::Player, self.code.constant(-1.0)),
             "ball" => Value { ty: Ty::Ball, repr: Repr::Nothing },
             "event" => {
-                let parts: Vec<String> = EventField::NAMED.iter().map(|(part, _)| format!("event.{part}")).collect();
+                let parts: Vec<String> =
+                    EventField::NAMED.iter().map(|(part, _)| format!("event.{part}")).collect();
                 self.fail(Problem::new(span, Types::EventIsNoValue { parts: parts.join("`, `") }))
             }
             "score" => Value { ty: Ty::Score, repr: Repr::Nothing },
@@ -256,7 +274,9 @@ impl<'w> Lower<'_, 'w> {
 
     fn no_view(&self, name: &str, span: Span) -> Value<'w> {
         let why = match (&self.stage, name) {
-            (ProgramStage::Ending | ProgramStage::Record(_), "us" | "them") => ViewOutside::BothTeams,
+            (ProgramStage::Ending | ProgramStage::Record(_), "us" | "them") => {
+                ViewOutside::BothTeams
+            }
             (ProgramStage::Init, _) => ViewOutside::BeforeFirstStep,
             _ => ViewOutside::OutsideRewards,
         };
@@ -278,7 +298,13 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// Reads a number of the match; reports it where no match is under way.
-    pub(crate) fn load(&mut self, field: Field, of: Option<Reg>, name: &str, span: Span) -> Option<Reg> {
+    pub(crate) fn load(
+        &mut self,
+        field: Field,
+        of: Option<Reg>,
+        name: &str,
+        span: Span,
+    ) -> Option<Reg> {
         if self.stage.is_step() {
             return Some(self.code.load(field, of, self.when));
         }
@@ -306,16 +332,23 @@ impl<'w> Lower<'_, 'w> {
             known.extend(shuffled.map(|name| name.node.clone()));
             known.extend(world.flat.consts.iter().map(|binding| binding.name.node.clone()));
             known.extend(world.flat.regions.iter().map(|region| region.name.node.clone()));
-            known.extend(world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())));
+            known.extend(
+                world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())),
+            );
         }
         if matches!(self.stage, ProgramStage::Record(_)) {
             known.extend(self.world.flat.rewards.iter().map(|(name, ..)| name.clone()));
         }
         let values = |kind: &ItemKind| {
-            matches!(kind, ItemKind::Const(_) | ItemKind::Region(_) | ItemKind::Formation(_) | ItemKind::Fn(_))
+            matches!(
+                kind,
+                ItemKind::Const(_) | ItemKind::Region(_) | ItemKind::Formation(_) | ItemKind::Fn(_)
+            )
         };
         let visible = self.world.library.visible(span.file);
-        known.extend(visible.filter(|(_, found)| values(&found.item.kind)).map(|(name, _)| name.to_owned()));
+        known.extend(
+            visible.filter(|(_, found)| values(&found.item.kind)).map(|(name, _)| name.to_owned()),
+        );
         known.extend(names::VALUES.iter().map(|&name| name.to_owned()));
         let of_match = PROPERTIES.iter().filter(|property| property.owner == Owner::Match);
         known.extend(of_match.map(|property| property.name.to_owned()));

@@ -23,7 +23,10 @@ impl<'w> Lower<'_, 'w> {
             return self.may_draw_now(function, span);
         }
         let is_constant = matches!(self.stage, ProgramStage::Constant);
-        self.report(Problem::new(span, Chance::NoDrawHere { function: function.name(), is_constant }));
+        self.report(Problem::new(
+            span,
+            Chance::NoDrawHere { function: function.name(), is_constant },
+        ));
         false
     }
 
@@ -52,7 +55,8 @@ impl<'w> Lower<'_, 'w> {
             };
         }
         let Some((&first, rest)) = given.split_first() else { return Value::error() };
-        let head = if function == F::Integer { self.want(first, Ty::Int) } else { self.expr(first) };
+        let head =
+            if function == F::Integer { self.want(first, Ty::Int) } else { self.expr(first) };
         if head.is_error() {
             return head;
         }
@@ -76,11 +80,16 @@ impl<'w> Lower<'_, 'w> {
             (F::Uniform, &[a, b]) => (Distribution::Uniform(a, b), Some((a, b))),
             (F::Integer, &[a, b]) => (Distribution::Integer(a, b), Some((a, b))),
             (F::Normal, &[mean, sd]) => (Distribution::Normal(mean, sd), None),
-            (F::TruncatedNormal, &[mean, sd, a, b]) => (Distribution::TruncatedNormal(mean, sd, a, b), Some((a, b))),
+            (F::TruncatedNormal, &[mean, sd, a, b]) => {
+                (Distribution::TruncatedNormal(mean, sd, a, b), Some((a, b)))
+            }
             _ => {
                 return self.fail(Problem::new(
                     span,
-                    Chance::NoEnds { function: function.name(), signature: signature(function.doc()).to_owned() },
+                    Chance::NoEnds {
+                        function: function.name(),
+                        signature: signature(function.doc()).to_owned(),
+                    },
                 ));
             }
         };
@@ -89,7 +98,9 @@ impl<'w> Lower<'_, 'w> {
         {
             return Value::error();
         }
-        if let Distribution::Normal(_, sd) | Distribution::TruncatedNormal(_, sd, _, _) = distribution {
+        if let Distribution::Normal(_, sd) | Distribution::TruncatedNormal(_, sd, _, _) =
+            distribution
+        {
             let at = rest.first().map_or(span, |sd| sd.span);
             self.check_range(sd, (0.0, f64::MAX), "the standard deviation", at, "`0` or more");
         }
@@ -121,7 +132,10 @@ impl<'w> Lower<'_, 'w> {
         if !fit {
             return;
         }
-        let sum = weights.iter().map(|(weight, _)| *weight).reduce(|a, b| self.code.binary(BinaryOp::Add, a, b));
+        let sum = weights
+            .iter()
+            .map(|(weight, _)| *weight)
+            .reduce(|a, b| self.code.binary(BinaryOp::Add, a, b));
         let Some(sum) = sum else { return };
         if self.interval(sum).is_some_and(|(low, _)| low > 0.0) {
             return;
@@ -161,7 +175,8 @@ impl<'w> Lower<'_, 'w> {
             return Value::error();
         }
         if weighted {
-            let given: Vec<(Reg, Span)> = weights.iter().zip(args).map(|(reg, arg)| (*reg, arg.value.span)).collect();
+            let given: Vec<(Reg, Span)> =
+                weights.iter().zip(args).map(|(reg, arg)| (*reg, arg.value.span)).collect();
             self.check_weights(&given, span);
         }
         let index = self.random(Distribution::Weighted(weights));
@@ -176,7 +191,8 @@ impl<'w> Lower<'_, 'w> {
         picked
     }
 
-    /// `shuffle(x, y, z)`: its values in an order that is drawn (Fisher and Yates's way); `None` after a report.
+    /// `shuffle(x, y, z)`: its values in an order that is drawn (Fisher and Yates's way); `None`
+    /// after a report.
     pub(crate) fn shuffle(&mut self, expr: &'w Expr, wanted: usize) -> Option<Vec<Value<'w>>> {
         let ExprKind::Call { name, args } = &expr.kind else {
             self.report(Problem::new(expr.span, Chance::OnlyShuffleGivesSeveral));
@@ -199,7 +215,8 @@ impl<'w> Lower<'_, 'w> {
             return None;
         }
         for i in 0..values.len().saturating_sub(1) {
-            let (low, high) = (self.code.constant(i as f64), self.code.constant((values.len() - 1) as f64));
+            let (low, high) =
+                (self.code.constant(i as f64), self.code.constant((values.len() - 1) as f64));
             let drawn = self.random(Distribution::Integer(low, high));
             let mut first = values[i].clone();
             let at = &args[i].value;
@@ -207,7 +224,8 @@ impl<'w> Lower<'_, 'w> {
                 let index = self.code.constant(j as f64);
                 let is_this = self.code.binary(BinaryOp::Eq, drawn, index);
                 let other = values[j].clone();
-                values[j] = self.choose(is_this, (&values[i].clone(), at), (&other, &args[j].value));
+                values[j] =
+                    self.choose(is_this, (&values[i].clone(), at), (&other, &args[j].value));
                 if values[j].is_error() {
                     return None;
                 }
@@ -247,5 +265,7 @@ impl<'w> Lower<'_, 'w> {
 /// The key of a stream: FNV-1a over the name and the ordinal.
 fn stream_key(name: &str, ordinal: u32) -> u64 {
     let bytes = name.bytes().chain([0]).chain(ordinal.to_le_bytes());
-    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }

@@ -34,8 +34,13 @@ impl<'w> Lower<'_, 'w> {
     /// A region that belongs to no team.
     pub(super) fn pitch_region(&mut self, region: PitchRegion) -> Value<'w> {
         if let Some((x0, y0, x1, y1)) = region.rect_m() {
-            let RegionValue::Rect(a, b) = self.constant_rect((x0, y0, x1, y1)) else { return Value::error() };
-            return value(RegionValue::Rect((a.0, self.picture_y(a.1)), (b.0, self.picture_y(b.1))));
+            let RegionValue::Rect(a, b) = self.constant_rect((x0, y0, x1, y1)) else {
+                return Value::error();
+            };
+            return value(RegionValue::Rect(
+                (a.0, self.picture_y(a.1)),
+                (b.0, self.picture_y(b.1)),
+            ));
         }
         let (zero, radius) = (self.code.constant(0.0), self.code.constant(CIRCLE_RADIUS_M));
         value(RegionValue::Circle((zero, zero), radius))
@@ -44,7 +49,10 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn no_pitch_region(&self, name: &str, span: Span) -> Value<'w> {
         let known: Vec<&str> = PitchRegion::ALL.iter().map(|region| region.name()).collect();
         let guess = Guess::similar_or_all(name, &known);
-        self.fail(Problem::new(span, Names::Unknown { kind: Kind::Region, name: name.to_owned(), guess }))
+        self.fail(Problem::new(
+            span,
+            Names::Unknown { kind: Kind::Region, name: name.to_owned(), guess },
+        ))
     }
 
     /// A region of a team's end: the left team's shape, rotated for the right one.
@@ -80,7 +88,12 @@ impl<'w> Lower<'_, 'w> {
         RegionValue::Rect((x0, y0), (self.code.constant(x1), self.code.constant(y1)))
     }
 
-    pub(super) fn region_call(&mut self, function: Function, args: &'w [Arg], span: Span) -> Value<'w> {
+    pub(super) fn region_call(
+        &mut self,
+        function: Function,
+        args: &'w [Arg],
+        span: Span,
+    ) -> Value<'w> {
         if function == Function::Polygon {
             return self.polygon(args, span);
         }
@@ -108,13 +121,15 @@ impl<'w> Lower<'_, 'w> {
             [at, radius, from, to] => {
                 let disc = self.disc(at, radius);
                 let (from, to) = (self.want(from, Ty::ANGLE), self.want(to, Ty::ANGLE));
-                let Some((centre, radius)) = disc.filter(|_| !from.is_error() && !to.is_error()) else {
+                let Some((centre, radius)) = disc.filter(|_| !from.is_error() && !to.is_error())
+                else {
                     return Value::error();
                 };
                 let (from, to) = (self.reg(&from), self.reg(&to));
                 let width = self.width_of(from, to);
                 // In a mirror of the flanks a slice is swept the other way round.
-                let from = self.turned_angle(if self.world.mirror == Mirror::Flanks { to } else { from });
+                let from =
+                    self.turned_angle(if self.world.mirror == Mirror::Flanks { to } else { from });
                 value(RegionValue::Sector { centre, radius, from, width })
             }
             _ => Value::error(),
@@ -143,7 +158,8 @@ impl<'w> Lower<'_, 'w> {
 
     fn polygon(&mut self, args: &'w [Arg], span: Span) -> Value<'w> {
         if !(3..=CORNERS_MAX).contains(&args.len()) {
-            return self.fail(Problem::new(span, Calls::Corners { most: CORNERS_MAX, found: args.len() }));
+            return self
+                .fail(Problem::new(span, Calls::Corners { most: CORNERS_MAX, found: args.len() }));
         }
         let mut corners = Vec::new();
         for arg in args {
@@ -177,7 +193,8 @@ impl<'w> Lower<'_, 'w> {
                 let dx = self.code.binary(BinaryOp::Sub, place.0, centre.0);
                 let dy = self.code.binary(BinaryOp::Sub, place.1, centre.1);
                 let angle = self.code.binary(BinaryOp::Atan2, dy, dx);
-                let (turn, over) = (self.code.constant(TAU), self.code.binary(BinaryOp::Sub, angle, *from));
+                let (turn, over) =
+                    (self.code.constant(TAU), self.code.binary(BinaryOp::Sub, angle, *from));
                 let over = self.code.binary(BinaryOp::Mod, over, turn);
                 let within = self.code.binary(BinaryOp::Le, over, *width);
                 self.code.binary(BinaryOp::And, near, within)
@@ -207,10 +224,16 @@ impl<'w> Lower<'_, 'w> {
             let to_above = self.code.binary(BinaryOp::Gt, q.1, y);
             let spans = self.code.binary(BinaryOp::Ne, from_above, to_above);
             // The point lies left of the edge; multiplied out, so that nothing is divided by.
-            let (dx, dy) = (self.code.binary(BinaryOp::Sub, q.0, p.0), self.code.binary(BinaryOp::Sub, q.1, p.1));
-            let (ox, oy) = (self.code.binary(BinaryOp::Sub, x, p.0), self.code.binary(BinaryOp::Sub, y, p.1));
-            let (a, b) = (self.code.binary(BinaryOp::Mul, ox, dy), self.code.binary(BinaryOp::Mul, dx, oy));
-            let (less, more) = (self.code.binary(BinaryOp::Lt, a, b), self.code.binary(BinaryOp::Gt, a, b));
+            let (dx, dy) = (
+                self.code.binary(BinaryOp::Sub, q.0, p.0),
+                self.code.binary(BinaryOp::Sub, q.1, p.1),
+            );
+            let (ox, oy) =
+                (self.code.binary(BinaryOp::Sub, x, p.0), self.code.binary(BinaryOp::Sub, y, p.1));
+            let (a, b) =
+                (self.code.binary(BinaryOp::Mul, ox, dy), self.code.binary(BinaryOp::Mul, dx, oy));
+            let (less, more) =
+                (self.code.binary(BinaryOp::Lt, a, b), self.code.binary(BinaryOp::Gt, a, b));
             let left_of = self.code.select(to_above, less, more);
             let crosses = self.code.binary(BinaryOp::And, spans, left_of);
             inside = self.code.binary(BinaryOp::Ne, inside, crosses);
@@ -220,7 +243,8 @@ impl<'w> Lower<'_, 'w> {
 
     /// Whether a value lies between two ends, given in any order.
     fn between(&mut self, value: Reg, a: Reg, b: Reg) -> Reg {
-        let (low, high) = (self.code.binary(BinaryOp::Min, a, b), self.code.binary(BinaryOp::Max, a, b));
+        let (low, high) =
+            (self.code.binary(BinaryOp::Min, a, b), self.code.binary(BinaryOp::Max, a, b));
         let above = self.code.binary(BinaryOp::Ge, value, low);
         let below = self.code.binary(BinaryOp::Le, value, high);
         self.code.binary(BinaryOp::And, above, below)

@@ -1,8 +1,9 @@
 //! Draws in regions, uniform by area.
 //!
-//! A rectangle, disc, sector or polygon is drawn directly. In a composed region a *candidate* is drawn in a shape around
-//! it and accepted where it lies inside; [`CANDIDATES`] of them are written one after the other, the first that is
-//! accepted counts, and that one is becomes a requirement of the draw. So what else is drawn keeps its distribution.
+//! A rectangle, disc, sector or polygon is drawn directly. In a composed region a *candidate* is
+//! drawn in a shape around it and accepted where it lies inside; [`CANDIDATES`] of them are written
+//! one after the other, the first that is accepted counts, and that one is becomes a requirement of
+//! the draw. So what else is drawn keeps its distribution.
 
 use super::super::Lower;
 use super::super::value::RegionValue;
@@ -13,8 +14,8 @@ use crate::problem::Problem;
 use crate::problem::facts::{Chance, Implied};
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
 
-/// How many candidates a draw in a composed region tries: at an acceptance of one half one start in 65,536 finds none
-/// and is drawn again.
+/// How many candidates a draw in a composed region tries: at an acceptance of one half one start in
+/// 65,536 finds none and is drawn again.
 const CANDIDATES: usize = 16;
 
 /// A point that was drawn, and whether it counts.
@@ -26,7 +27,8 @@ struct Candidate {
 impl Lower<'_, '_> {
     /// A point drawn uniformly in a region; `None` after a report.
     pub(crate) fn draw_in(&mut self, region: &RegionValue, span: Span) -> Option<(Reg, Reg)> {
-        let is_empty = self.bounds(region).is_some_and(|axes| axes.iter().any(|(low, high)| low > high));
+        let is_empty =
+            self.bounds(region).is_some_and(|axes| axes.iter().any(|(low, high)| low > high));
         if is_empty {
             let text = self.world.text(span);
             self.report(Problem::new(span, Chance::EmptyRegion { text }));
@@ -37,8 +39,10 @@ impl Lower<'_, '_> {
         let mut place = first.place;
         for _ in 1..CANDIDATES {
             let next = self.candidate(region, span)?;
-            place =
-                (self.code.select(accepted, place.0, next.place.0), self.code.select(accepted, place.1, next.place.1));
+            place = (
+                self.code.select(accepted, place.0, next.place.0),
+                self.code.select(accepted, place.1, next.place.1),
+            );
             let also = next.accepted.unwrap_or(accepted);
             accepted = self.code.binary(BinaryOp::Or, accepted, also);
         }
@@ -46,15 +50,19 @@ impl Lower<'_, '_> {
         Some(place)
     }
 
-    /// The least and greatest x and y that a point of a region can have, as far as they are known; the wrong way round
-    /// where there is none.
+    /// The least and greatest x and y that a point of a region can have, as far as they are known;
+    /// the wrong way round where there is none.
     fn bounds(&self, region: &RegionValue) -> Option<[Interval; 2]> {
         let hull = |regs: &[Reg]| {
             let all: Option<Vec<Interval>> = regs.iter().map(|&reg| self.interval(reg)).collect();
             all?.into_iter().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
         };
         let disc = |centre: (Reg, Reg), radius: Reg| {
-            let (x, y, r) = (self.interval(centre.0)?, self.interval(centre.1)?, self.interval(radius)?.1.max(0.0));
+            let (x, y, r) = (
+                self.interval(centre.0)?,
+                self.interval(centre.1)?,
+                self.interval(radius)?.1.max(0.0),
+            );
             Some([(x.0 - r, x.1 + r), (y.0 - r, y.1 + r)])
         };
         let both = |a: &RegionValue, b: &RegionValue, of: fn(Interval, Interval) -> Interval| {
@@ -63,7 +71,9 @@ impl Lower<'_, '_> {
         };
         match region {
             RegionValue::Rect(a, b) => Some([hull(&[a.0, b.0])?, hull(&[a.1, b.1])?]),
-            RegionValue::Circle(centre, radius) | RegionValue::Sector { centre, radius, .. } => disc(*centre, *radius),
+            RegionValue::Circle(centre, radius) | RegionValue::Sector { centre, radius, .. } => {
+                disc(*centre, *radius)
+            }
             RegionValue::Polygon(corners) => {
                 let (xs, ys): (Vec<Reg>, Vec<Reg>) = corners.iter().copied().unzip();
                 Some([hull(&xs)?, hull(&ys)?])
@@ -100,11 +110,13 @@ impl Lower<'_, '_> {
     }
 
     fn accepting(&mut self, drawn: Candidate, also: Reg) -> Candidate {
-        let accepted = drawn.accepted.map_or(also, |known| self.code.binary(BinaryOp::And, known, also));
+        let accepted =
+            drawn.accepted.map_or(also, |known| self.code.binary(BinaryOp::And, known, also));
         Candidate { place: drawn.place, accepted: Some(accepted) }
     }
 
-    /// One of the parts by the area it is drawn in; what an earlier part holds, only that one may give.
+    /// One of the parts by the area it is drawn in; what an earlier part holds, only that one may
+    /// give.
     fn draw_in_union(&mut self, region: &RegionValue, span: Span) -> Option<Candidate> {
         let mut parts = Vec::new();
         flatten(region, &mut parts);
@@ -150,7 +162,10 @@ impl Lower<'_, '_> {
     fn drawn_area(&mut self, region: &RegionValue) -> Reg {
         match region {
             RegionValue::Rect(a, b) => {
-                let (dx, dy) = (self.code.binary(BinaryOp::Sub, b.0, a.0), self.code.binary(BinaryOp::Sub, b.1, a.1));
+                let (dx, dy) = (
+                    self.code.binary(BinaryOp::Sub, b.0, a.0),
+                    self.code.binary(BinaryOp::Sub, b.1, a.1),
+                );
                 let area = self.code.binary(BinaryOp::Mul, dx, dy);
                 self.code.unary(UnaryOp::Abs, area)
             }
@@ -164,7 +179,11 @@ impl Lower<'_, '_> {
                     let (low, high) = self.box_around(corners);
                     return self.drawn_area(&RegionValue::Rect(low, high));
                 };
-                let area = triangulate(&known).unwrap_or_default().iter().map(|triangle| triangle.area).sum();
+                let area = triangulate(&known)
+                    .unwrap_or_default()
+                    .iter()
+                    .map(|triangle| triangle.area)
+                    .sum();
                 self.code.constant(area)
             }
             RegionValue::Intersection(a, b) => {
@@ -191,7 +210,8 @@ impl Lower<'_, '_> {
 
     fn draw_in_rect(&mut self, a: (Reg, Reg), b: (Reg, Reg)) -> (Reg, Reg) {
         let mut along = |a: Reg, b: Reg| {
-            let (low, high) = (self.code.binary(BinaryOp::Min, a, b), self.code.binary(BinaryOp::Max, a, b));
+            let (low, high) =
+                (self.code.binary(BinaryOp::Min, a, b), self.code.binary(BinaryOp::Max, a, b));
             self.random(Distribution::Uniform(low, high))
         };
         let x = along(a.0, b.0);
@@ -204,20 +224,31 @@ impl Lower<'_, '_> {
         self.draw_in_sector(centre, radius, from, turn)
     }
 
-    fn draw_in_sector(&mut self, centre: (Reg, Reg), radius: Reg, from: Reg, width: Reg) -> (Reg, Reg) {
+    fn draw_in_sector(
+        &mut self,
+        centre: (Reg, Reg),
+        radius: Reg,
+        from: Reg,
+        width: Reg,
+    ) -> (Reg, Reg) {
         let (zero, one) = (self.code.constant(0.0), self.code.constant(1.0));
         let share = self.random(Distribution::Uniform(zero, one));
         let over = self.random(Distribution::Uniform(zero, width));
         let angle = self.code.binary(BinaryOp::Add, from, over);
         let root = self.code.unary(UnaryOp::Sqrt, share);
         let r = self.code.binary(BinaryOp::Mul, radius, root);
-        let (cos, sin) = (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
-        let (dx, dy) = (self.code.binary(BinaryOp::Mul, r, cos), self.code.binary(BinaryOp::Mul, r, sin));
-        (self.code.binary(BinaryOp::Add, centre.0, dx), self.code.binary(BinaryOp::Add, centre.1, dy))
+        let (cos, sin) =
+            (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
+        let (dx, dy) =
+            (self.code.binary(BinaryOp::Mul, r, cos), self.code.binary(BinaryOp::Mul, r, sin));
+        (
+            self.code.binary(BinaryOp::Add, centre.0, dx),
+            self.code.binary(BinaryOp::Add, centre.1, dy),
+        )
     }
 
-    /// One of the polygon's triangles by its area, and a point in it; where the corners are not constant, a candidate
-    /// of the rectangle around them.
+    /// One of the polygon's triangles by its area, and a point in it; where the corners are not
+    /// constant, a candidate of the rectangle around them.
     fn draw_in_polygon(&mut self, corners: &[(Reg, Reg)], span: Span) -> Option<Candidate> {
         let Some(known) = self.constant_corners(corners) else {
             let (low, high) = self.box_around(corners);
@@ -229,7 +260,8 @@ impl Lower<'_, '_> {
             self.report(Problem::new(span, Chance::EmptyPolygon { is_flat: is_flat(&known) }));
             return None;
         };
-        let weights: Vec<Reg> = triangles.iter().map(|triangle| self.code.constant(triangle.area)).collect();
+        let weights: Vec<Reg> =
+            triangles.iter().map(|triangle| self.code.constant(triangle.area)).collect();
         let which = self.random(Distribution::Weighted(weights));
         let mut corner = |nth: usize, axis: usize| {
             let mut picked = None;
@@ -253,8 +285,12 @@ impl Lower<'_, '_> {
         let third = self.code.binary(BinaryOp::Mul, root, v);
         let second = self.code.binary(BinaryOp::Sub, root, third);
         let mut mix = |a: Reg, b: Reg, c: Reg| {
-            let (a, b) = (self.code.binary(BinaryOp::Mul, first, a), self.code.binary(BinaryOp::Mul, second, b));
-            let (c, ab) = (self.code.binary(BinaryOp::Mul, third, c), self.code.binary(BinaryOp::Add, a, b));
+            let (a, b) = (
+                self.code.binary(BinaryOp::Mul, first, a),
+                self.code.binary(BinaryOp::Mul, second, b),
+            );
+            let (c, ab) =
+                (self.code.binary(BinaryOp::Mul, third, c), self.code.binary(BinaryOp::Add, a, b));
             self.code.binary(BinaryOp::Add, ab, c)
         };
         let place = (mix(a.0, b.0, c.0), mix(a.1, b.1, c.1));
@@ -262,7 +298,8 @@ impl Lower<'_, '_> {
     }
 
     fn constant_corners(&self, corners: &[(Reg, Reg)]) -> Option<Vec<[f64; 2]>> {
-        let known = |&(x, y): &(Reg, Reg)| Some([self.code.constant_of(x)?, self.code.constant_of(y)?]);
+        let known =
+            |&(x, y): &(Reg, Reg)| Some([self.code.constant_of(x)?, self.code.constant_of(y)?]);
         corners.iter().map(known).collect()
     }
 

@@ -55,14 +55,19 @@ impl<'w> Lower<'_, 'w> {
             return self.fail(Problem::new(span, Chance::WhoseGap));
         };
         let world = self.world;
-        let meant = |player: &crate::lower::roster::Rostered<'_>| team < 0.0 || player.team.index() as f64 == team;
-        let indices: Vec<usize> = (0..world.roster.len()).filter(|&i| world.roster.get(i).is_some_and(meant)).collect();
-        let places: Vec<(Reg, Reg)> = indices.iter().map(|&i| self.place_of_rostered(i, span)).collect();
+        let meant = |player: &crate::lower::roster::Rostered<'_>| {
+            team < 0.0 || player.team.index() as f64 == team
+        };
+        let indices: Vec<usize> =
+            (0..world.roster.len()).filter(|&i| world.roster.get(i).is_some_and(meant)).collect();
+        let places: Vec<(Reg, Reg)> =
+            indices.iter().map(|&i| self.place_of_rostered(i, span)).collect();
         let mut least: Option<Reg> = None;
         for (nth, &one) in places.iter().enumerate() {
             for &other in places.iter().skip(nth + 1) {
                 let gap = self.distance(one, other);
-                least = Some(least.map_or(gap, |least| self.code.binary(BinaryOp::Min, least, gap)));
+                least =
+                    Some(least.map_or(gap, |least| self.code.binary(BinaryOp::Min, least, gap)));
             }
         }
         match least {
@@ -84,7 +89,12 @@ impl<'w> Lower<'_, 'w> {
         known
     }
 
-    pub(super) fn aggregate(&mut self, function: Function, args: &'w [Arg], span: Span) -> Value<'w> {
+    pub(super) fn aggregate(
+        &mut self,
+        function: Function,
+        args: &'w [Arg],
+        span: Span,
+    ) -> Value<'w> {
         let name = function.name();
         let [arg] = args else {
             return self.fail(Problem::new(
@@ -95,7 +105,10 @@ impl<'w> Lower<'_, 'w> {
         let Some(parts) = take_apart(function, arg) else {
             return self.fail(Problem::new(
                 arg.span,
-                Calls::WhichPlayers { function: name, signature: signature(function.doc()).to_owned() },
+                Calls::WhichPlayers {
+                    function: name,
+                    signature: signature(function.doc()).to_owned(),
+                },
             ));
         };
         if matches!(self.stage, ProgramStage::Start(_)) {
@@ -120,7 +133,12 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// An aggregate over the roster, written out player by player: the start has no loops.
-    fn aggregate_start(&mut self, function: Function, parts: &Comprehension<'w>, span: Span) -> Value<'w> {
+    fn aggregate_start(
+        &mut self,
+        function: Function,
+        parts: &Comprehension<'w>,
+        span: Span,
+    ) -> Value<'w> {
         let Some(set) = self.want_set(parts.set) else { return Value::error() };
         let ids: Vec<Reg> = self
             .world
@@ -162,8 +180,9 @@ impl<'w> Lower<'_, 'w> {
                 self.fail(Problem::new(span, Calls::NotYetAtStart { function: function.name() }))
             }
             (Function::Count, _) => {
-                let sum =
-                    elements.into_iter().fold(zero, |sum, (counts, _)| self.code.binary(BinaryOp::Add, sum, counts));
+                let sum = elements
+                    .into_iter()
+                    .fold(zero, |sum, (counts, _)| self.code.binary(BinaryOp::Add, sum, counts));
                 Value::one(Ty::Int, sum)
             }
             (Function::Any, _) => {
@@ -182,7 +201,9 @@ impl<'w> Lower<'_, 'w> {
                 });
                 Value::one(Ty::Bool, all)
             }
-            (_, None) => self.fail(Problem::new(span, Calls::NobodyToCount { function: function.name() })),
+            (_, None) => {
+                self.fail(Problem::new(span, Calls::NobodyToCount { function: function.name() }))
+            }
             (_, Some(ty)) => Value::one(ty, self.fold_numbers(function, &elements)),
         }
     }
@@ -197,7 +218,11 @@ impl<'w> Lower<'_, 'w> {
                 sum = self.code.binary(BinaryOp::Add, sum, part);
                 n = self.code.binary(BinaryOp::Add, n, counts);
             }
-            return if function == Function::Sum { sum } else { self.code.binary(BinaryOp::Div, sum, n) };
+            return if function == Function::Sum {
+                sum
+            } else {
+                self.code.binary(BinaryOp::Div, sum, n)
+            };
         }
         let op = if function == Function::Min { BinaryOp::Min } else { BinaryOp::Max };
         // Beyond every length, duration and number of a start.
@@ -208,7 +233,12 @@ impl<'w> Lower<'_, 'w> {
         })
     }
 
-    fn fold_of(&mut self, function: Function, value: Option<(Value<'w>, &'w Expr)>, filter: Option<Reg>) -> (Fold, Ty) {
+    fn fold_of(
+        &mut self,
+        function: Function,
+        value: Option<(Value<'w>, &'w Expr)>,
+        filter: Option<Reg>,
+    ) -> (Fold, Ty) {
         use Function as F;
         let kind = match function {
             F::Count => FoldKind::Count,
@@ -230,7 +260,8 @@ impl<'w> Lower<'_, 'w> {
             let value = filter.unwrap_or_else(|| self.code.bool(true));
             return (Fold { kind, value: Some(value), guard: None }, Ty::Bool);
         };
-        let fits = value.is_error() || if is_logic { value.ty == Ty::Bool } else { value.ty.dim().is_some() };
+        let fits = value.is_error()
+            || if is_logic { value.ty == Ty::Bool } else { value.ty.dim().is_some() };
         if !fits {
             let wanted = if is_logic { Ty::Bool } else { Ty::Number };
             self.report(self.mismatch(value.ty, wanted, expr.span));
@@ -296,9 +327,12 @@ fn take_apart(function: Function, arg: &Arg) -> Option<Comprehension<'_>> {
     }
     match &arg.value.kind {
         ExprKind::Binary(op, name, set) if op.node == ast::InfixOp::In => match &name.kind {
-            ExprKind::Name(word) => {
-                Some(Comprehension { value: None, name: Some((word, name.span)), set, filter: arg.filter.as_ref() })
-            }
+            ExprKind::Name(word) => Some(Comprehension {
+                value: None,
+                name: Some((word, name.span)),
+                set,
+                filter: arg.filter.as_ref(),
+            }),
             _ => None,
         },
         _ if function == Function::Count && arg.filter.is_none() => {

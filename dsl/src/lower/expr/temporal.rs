@@ -11,22 +11,29 @@ use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
 
 impl<'w> Lower<'_, 'w> {
-    pub(super) fn temporal(&mut self, function: Function, given: &[&'w Expr], span: Span) -> Value<'w> {
+    pub(super) fn temporal(
+        &mut self,
+        function: Function,
+        given: &[&'w Expr],
+        span: Span,
+    ) -> Value<'w> {
         use Function as F;
         match (function, given) {
             (F::Prev, &[e]) => self.before(e, span).unwrap_or_else(Value::error),
             (F::Delta, &[e]) => self.delta(e, span),
             (F::Closing, &[a, b]) => self.closing(a, b, span),
             (F::Potential, &[e, gamma]) => self.potential(e, gamma, span),
-            _ if matches!(self.stage, ProgramStage::Observation) => {
-                self.fail(Problem::new(span, Scopes::ObservationRemembersNothing { function: function.name() }))
-            }
+            _ if matches!(self.stage, ProgramStage::Observation) => self.fail(Problem::new(
+                span,
+                Scopes::ObservationRemembersNothing { function: function.name() },
+            )),
             _ if self.when == When::Prev => {
                 self.fail(Problem::new(span, Scopes::NotAStepAgo { function: function.name() }))
             }
-            _ if !self.stage.is_step() => {
-                self.fail(Problem::new(span, Scopes::NothingToLookBackAt { function: function.name() }))
-            }
+            _ if !self.stage.is_step() => self.fail(Problem::new(
+                span,
+                Scopes::NothingToLookBackAt { function: function.name() },
+            )),
             _ => self.hoisted(|lower| lower.over_time(function, given)),
         }
     }
@@ -97,13 +104,20 @@ impl<'w> Lower<'_, 'w> {
         if ty.dim().is_some() {
             let (p, q) = (self.reg(&now), self.reg(&before));
             let change = self.code.binary(BinaryOp::Sub, p, q);
-            return Value::one(ty, if ty == Ty::ANGLE { self.code.unary(UnaryOp::Wrap, change) } else { change });
+            return Value::one(
+                ty,
+                if ty == Ty::ANGLE { self.code.unary(UnaryOp::Wrap, change) } else { change },
+            );
         }
         let p = if now.ty.is_place() { self.place_of(&now, e.span) } else { self.pair(&now) };
         self.when = When::Prev;
-        let q = if before.ty.is_place() { self.place_of(&before, e.span) } else { self.pair(&before) };
+        let q =
+            if before.ty.is_place() { self.place_of(&before, e.span) } else { self.pair(&before) };
         self.when = When::Now;
-        Value::two(ty, (self.code.binary(BinaryOp::Sub, p.0, q.0), self.code.binary(BinaryOp::Sub, p.1, q.1)))
+        Value::two(
+            ty,
+            (self.code.binary(BinaryOp::Sub, p.0, q.0), self.code.binary(BinaryOp::Sub, p.1, q.1)),
+        )
     }
 
     /// What a potential pays in a step: γ Φ(s') - Φ(s) (Ng, Harada and Russell 1999, theorem 1).
@@ -111,7 +125,9 @@ impl<'w> Lower<'_, 'w> {
         let now = self.want_reg(e, Ty::Number);
         let discount = self.want_reg(gamma, Ty::Number);
         self.check_range(discount, (0.0, 1.0), "`gamma`", gamma.span, "`0..1`");
-        let Some(before) = self.before(e, span).filter(|before| !before.is_error()) else { return Value::error() };
+        let Some(before) = self.before(e, span).filter(|before| !before.is_error()) else {
+            return Value::error();
+        };
         let before = self.reg(&before);
         let discounted = self.code.binary(BinaryOp::Mul, discount, now);
         Value::one(Ty::Number, self.code.binary(BinaryOp::Sub, discounted, before))

@@ -20,7 +20,8 @@ impl Lower<'_, '_> {
         }
     }
 
-    /// The rule without which there is no such event, if the scenario switches it off whatever its parameters are.
+    /// The rule without which there is no such event, if the scenario switches it off whatever its
+    /// parameters are.
     fn switched_off(&self, kind: EventKind) -> Option<Rule> {
         let off = |rule: Rule| self.is_off(rule).then_some(rule);
         // Fouls and handballs are what is punished.
@@ -32,7 +33,9 @@ impl Lower<'_, '_> {
             EventKind::Foul | EventKind::Advantage => off(Rule::Fouls),
             EventKind::YellowCard | EventKind::RedCard => off(Rule::Cards).or_else(offences),
             // The match may begin with one.
-            EventKind::Penalty if self.world.flat.start.is_none() => off(Rule::Penalties).or_else(offences),
+            EventKind::Penalty if self.world.flat.start.is_none() => {
+                off(Rule::Penalties).or_else(offences)
+            }
             _ => None,
         }
     }
@@ -42,7 +45,11 @@ impl Lower<'_, '_> {
             Who::Team(reg) => self.known_team(reg),
             Who::Player(reg) => {
                 let id = self.code.constant_of(reg)?;
-                self.world.roster.iter().find(|player| f64::from(player.id) == id).map(|player| player.team)
+                self.world
+                    .roster
+                    .iter()
+                    .find(|player| f64::from(player.id) == id)
+                    .map(|player| player.team)
             }
         }
     }
@@ -63,12 +70,16 @@ impl Lower<'_, '_> {
     /// Why a condition never holds: the one thing that it looks at.
     pub(super) fn why_never(&self, guard: Reg) -> Never {
         let reads = |fields: &[Field]| {
-            let test = |instr: &Instr| matches!(instr, Instr::Load { field, .. } if fields.contains(field));
+            let test = |instr: &Instr| match instr {
+                Instr::Load { field, .. } => fields.contains(field),
+                _ => false,
+            };
             self.code.depends(guard, &test)
         };
-        let counts = self
-            .code
-            .depends(guard, &|instr| matches!(instr, Instr::Each(each) if matches!(each.over, Over::Players { .. })));
+        let counts = self.code.depends(guard, &|instr| match instr {
+            Instr::Each(each) => matches!(each.over, Over::Players { .. }),
+            _ => false,
+        });
         let limit = self.longest().map(|seconds| Because::Limit(seconds * STEPS_PER_S));
         let all = [
             (reads(PLACES), Some(Because::Places)),

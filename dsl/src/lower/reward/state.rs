@@ -2,7 +2,9 @@
 
 use super::WrittenReward;
 use super::writer::RewardWriter;
-use crate::ast::{Binding as Let, Ident, RewardStmt, RewardStmtKind, RewardUse, RewardUseKind, Span};
+use crate::ast::{
+    Binding as Let, Ident, RewardStmt, RewardStmtKind, RewardUse, RewardUseKind, Span,
+};
 use crate::check::types::Ty;
 use crate::lower::value::{LocalName, Scope, Value};
 use crate::lower::{Lower, ProgramStage, World, param};
@@ -19,7 +21,8 @@ pub(super) fn states<'w>(statements: &[&'w RewardStmt]) -> Vec<&'w Let> {
     statements.iter().filter_map(state).collect()
 }
 
-/// Reports a name that a reward gives to two things: a child may give a parent's parameter another default.
+/// Reports a name that a reward gives to two things: a child may give a parent's parameter another
+/// default.
 pub(super) fn check_names(world: &World<'_>, written: &WrittenReward<'_>) {
     let params = written.links.iter().flat_map(|(link, _)| &link.params).map(|param| &param.name);
     let mut known: Vec<&Ident> = params.collect();
@@ -83,18 +86,33 @@ impl<'w> Lower<'_, 'w> {
 
     /// Makes a state known to the statements.
     pub(super) fn bind_state(&mut self, state: &'w Let, cells: Vec<u32>, before: Vec<Reg>, ty: Ty) {
-        let binding = LocalName::State { cells: cells.into(), before: before.into(), ty, at: state.name.span };
+        let binding = LocalName::State {
+            cells: cells.into(),
+            before: before.into(),
+            ty,
+            at: state.name.span,
+        };
         self.check_hides(&state.name.node, state.name.span, &self.scope);
         self.scope.bind(&state.name.node, binding);
     }
 
     /// `chain.n` in a record: a state of a reward that the scenario uses.
     ///
-    /// The record's program keeps the reward's states itself: it has the reward's statements without its payments.
-    pub(crate) fn state_of_reward(&mut self, name: &str, of: Span, member: &'w Ident) -> Option<Value<'w>> {
+    /// The record's program keeps the reward's states itself: it has the reward's statements
+    /// without its payments.
+    pub(crate) fn state_of_reward(
+        &mut self,
+        name: &str,
+        of: Span,
+        member: &'w Ident,
+    ) -> Option<Value<'w>> {
         let ProgramStage::Record(remembered) = &self.stage else { return None };
         let (_, used, stmt) = self.world.flat.rewards.iter().find(|(known, ..)| known == name)?;
-        let known = remembered.rewards.iter().find(|(known, _)| known == name).map(|(_, scope)| scope.clone());
+        let known = remembered
+            .rewards
+            .iter()
+            .find(|(known, _)| known == name)
+            .map(|(_, scope)| scope.clone());
         let scope = known.unwrap_or_else(|| {
             let scope = self.remember(used, stmt.span);
             if let ProgramStage::Record(remembered) = &mut self.stage {
@@ -105,7 +123,10 @@ impl<'w> Lower<'_, 'w> {
         let Some(scope) = scope else {
             // Where there is no such reward, that has been reported.
             if matches!(used.what, RewardUseKind::Script(_)) {
-                self.report(Problem::new(member.span, Names::ScriptHasNoStates { reward: name.to_owned() }));
+                self.report(Problem::new(
+                    member.span,
+                    Names::ScriptHasNoStates { reward: name.to_owned() },
+                ));
             }
             return Some(Value::error());
         };
@@ -114,12 +135,18 @@ impl<'w> Lower<'_, 'w> {
         }
         let is_state = |name: &&str| matches!(scope.find(name), Some(LocalName::State { .. }));
         let states: Vec<&str> = scope.names().into_iter().filter(is_state).collect();
-        let guess = if states.is_empty() { Guess::default() } else { Guess::similar_or_all(&member.node, &states) };
-        let fact = Names::NoStateOfReward { reward: name.to_owned(), name: member.node.clone(), guess };
+        let guess = if states.is_empty() {
+            Guess::default()
+        } else {
+            Guess::similar_or_all(&member.node, &states)
+        };
+        let fact =
+            Names::NoStateOfReward { reward: name.to_owned(), name: member.node.clone(), guess };
         Some(self.fail(Problem::new(member.span, fact)))
     }
 
-    /// Writes a reward's statements without its payments, outside every loop; gives the scope with its states.
+    /// Writes a reward's statements without its payments, outside every loop; gives the scope with
+    /// its states.
     fn remember(&mut self, used: &'w RewardUse, span: Span) -> Option<Scope<'w>> {
         let (written, _) = super::written(self.world, used, span)?;
         let loops = self.code.leave_loops();
@@ -130,7 +157,11 @@ impl<'w> Lower<'_, 'w> {
         }
         let us = self.side_with_agents().map(|team| self.code.constant(team.index() as f64));
         let us = us.unwrap_or_else(|| self.code.us());
-        let outer = (self.event.take(), std::mem::replace(&mut self.when, When::Now), self.team.replace(us));
+        let outer = (
+            self.event.take(),
+            std::mem::replace(&mut self.when, When::Now),
+            self.team.replace(us),
+        );
         let outer_scope = self.scope.clone();
         let statements = written.statements();
         let states = states(&statements);

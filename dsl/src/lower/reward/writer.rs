@@ -1,7 +1,9 @@
-//! The statements of a reward: conditions as guards, events as loops, payments and assignments as effects.
+//! The statements of a reward: conditions as guards, events as loops, payments and assignments as
+//! effects.
 
 use crate::ast::{
-    Binding as Let, EventExpr, Expr, GiveStmt, GiveValue, Ident, ParamDecl, RewardStmt, RewardStmtKind, ScriptRef,
+    Binding as Let, EventExpr, Expr, GiveStmt, GiveValue, Ident, ParamDecl, RewardStmt,
+    RewardStmtKind, ScriptRef,
 };
 use crate::check::types::Ty;
 use crate::lower::script::embed;
@@ -49,10 +51,22 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         params: Vec<&'w ParamDecl>,
     ) -> RewardWriter<'l, 'c, 'w> {
         let (terms, places, hooks) = (Vec::new(), BTreeMap::new(), Vec::new());
-        RewardWriter { lower, terms, places, hooks, params, weight, pays, guard: None, never: None, unlabelled: 0 }
+        RewardWriter {
+            lower,
+            terms,
+            places,
+            hooks,
+            params,
+            weight,
+            pays,
+            guard: None,
+            never: None,
+            unlabelled: 0,
+        }
     }
 
-    /// Writes the statements, for what their names are bound to in the present scope; gives what it pays into.
+    /// Writes the statements, for what their names are bound to in the present scope; gives what it
+    /// pays into.
     pub(super) fn write(
         lower: &'l mut Lower<'c, 'w>,
         statements: &[&'w RewardStmt],
@@ -100,17 +114,24 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         if matches!(lower.scope.find(&binding.name.node), Some(LocalName::State { .. })) {
             return;
         }
-        lower.scope.bind(&binding.name.node, LocalName::Expr { expr: &binding.value, scope, ty, now: Some(value), at });
+        lower.scope.bind(
+            &binding.name.node,
+            LocalName::Expr { expr: &binding.value, scope, ty, now: Some(value), at },
+        );
     }
 
     fn statement(&mut self, statement: &'w RewardStmt, is_top: bool) {
         match &statement.kind {
             RewardStmtKind::State(state) if !is_top => {
-                self.lower.report(Problem::new(state.name.span, Scopes::StateInBlock { of: "a reward" }));
+                self.lower
+                    .report(Problem::new(state.name.span, Scopes::StateInBlock { of: "a reward" }));
             }
             RewardStmtKind::Let(binding) if !is_top => self.bind_let(binding),
             RewardStmtKind::Give(give) if self.pays => self.give(give),
-            RewardStmtKind::State(_) | RewardStmtKind::Let(_) | RewardStmtKind::Give(_) | RewardStmtKind::Broken => {}
+            RewardStmtKind::State(_)
+            | RewardStmtKind::Let(_)
+            | RewardStmtKind::Give(_)
+            | RewardStmtKind::Broken => {}
             RewardStmtKind::On { events, when, body } => {
                 for event in events {
                     self.on_event(event, when.as_ref(), |writer| writer.block(body));
@@ -147,7 +168,12 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
     }
 
     /// Runs `f` once per matching event.
-    fn on_event(&mut self, event: &'w EventExpr, when: Option<&'w Expr>, f: impl FnOnce(&mut Self)) {
+    fn on_event(
+        &mut self,
+        event: &'w EventExpr,
+        when: Option<&'w Expr>,
+        f: impl FnOnce(&mut Self),
+    ) {
         if self.lower.event.is_some() {
             self.lower.report(Problem::new(event.span, Scopes::OnInsideOn));
             return;
@@ -167,7 +193,8 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         self.guard = outer;
         self.never = None;
         self.lower.scope = scope;
-        self.lower.close_events(matching, Fold { kind: FoldKind::Nothing, value: None, guard: None });
+        self.lower
+            .close_events(matching, Fold { kind: FoldKind::Nothing, value: None, guard: None });
     }
 
     fn give(&mut self, give: &'w GiveStmt) {
@@ -177,7 +204,10 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         if let Some(label) = give.label.as_ref().filter(|label| label.node.trim().is_empty()) {
             self.lower.report(Problem::new(label.span, Rewards::EmptyLabel));
         }
-        let label = give.label.as_ref().map_or_else(|| self.unlabelled.to_string(), |label| label.node.clone());
+        let label = give
+            .label
+            .as_ref()
+            .map_or_else(|| self.unlabelled.to_string(), |label| label.node.clone());
         let term = self.term(label);
         if give.on.is_empty() {
             let when = give.when.as_ref().map(|when| self.lower.condition(when));
@@ -279,8 +309,8 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         self.lower.code.cell_before(cell)
     }
 
-    /// Warns of a payment that never happens, in a reward that stands in its scenario: another's parameters may switch
-    /// a part of it off.
+    /// Warns of a payment that never happens, in a reward that stands in its scenario: another's
+    /// parameters may switch a part of it off.
     fn check_pays(&self, reg: Reg, value: &Expr) {
         if !self.lower.scope.scenario {
             return;
@@ -302,7 +332,9 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         let paid = code.constant_of(reg).or_else(|| match code.instr(reg) {
             // A division by zero has been reported.
             Some(&Instr::Binary(BinaryOp::Div, _, b)) if code.constant_of(b) == Some(0.0) => None,
-            Some(&Instr::Binary(op, a, b)) => Some(op.apply(code.constant_of(a)?, code.constant_of(b)?)),
+            Some(&Instr::Binary(op, a, b)) => {
+                Some(op.apply(code.constant_of(a)?, code.constant_of(b)?))
+            }
             _ => None,
         });
         if paid.is_some_and(|paid| paid.is_nan() || paid.abs() > PAY_MAX) {
@@ -312,7 +344,8 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
     }
 
     fn assign(&mut self, name: &'w Ident, value: &'w Expr) {
-        let Some(LocalName::State { cells, ty, .. }) = self.lower.scope.find(&name.node).cloned() else {
+        let Some(LocalName::State { cells, ty, .. }) = self.lower.scope.find(&name.node).cloned()
+        else {
             self.not_a_state(name);
             self.lower.expr(value);
             return;
@@ -328,13 +361,19 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
             return;
         }
         let known = self.lower.scope.bindings();
-        let states: Vec<&str> =
-            known.iter().filter(|(_, bound)| matches!(bound, LocalName::State { .. })).map(|(name, _)| *name).collect();
+        let states: Vec<&str> = known
+            .iter()
+            .filter(|(_, bound)| matches!(bound, LocalName::State { .. }))
+            .map(|(name, _)| *name)
+            .collect();
         let (is, guess) = if known.contains_key(name.node.as_str()) {
             (Assigned::ValueOfReward, Guess::default())
         } else {
             (Assigned::Nothing, Guess::similar_or(&name.node, &states, &[]))
         };
-        self.lower.report(Problem::new(name.span, Names::NotAState { name: name.node.clone(), is, guess }));
+        self.lower.report(Problem::new(
+            name.span,
+            Names::NotAState { name: name.node.clone(), is, guess },
+        ));
     }
 }

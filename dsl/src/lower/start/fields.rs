@@ -8,7 +8,8 @@ use crate::lower::{Lower, fields};
 use crate::problem::facts::{Bounds, Instead, Names, Starts, Types};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{
-    BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M, STEP_S, STEPS_PER_S,
+    BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, GOALS_MAX, LONGEST_S, START_HEIGHT_MAX_M, STEP_S,
+    STEPS_PER_S,
 };
 use setpiece_scenario::vocabulary::Rule;
 use setpiece_scenario::{BallStart, BinaryOp, Reg, RuleSetting, UnaryOp};
@@ -25,7 +26,13 @@ impl<'w> Lower<'_, 'w> {
             let Some(expr) = fields::expression(self, field) else { continue };
             if field.key.node == "elapsed" {
                 let reg = self.want_reg(expr, Ty::DURATION);
-                self.check_range(reg, (0.0, LONGEST_S), "`elapsed`", expr.span, "`0 steps..1000000 steps`");
+                self.check_range(
+                    reg,
+                    (0.0, LONGEST_S),
+                    "`elapsed`",
+                    expr.span,
+                    "`0 steps..1000000 steps`",
+                );
                 self.check_steps(reg, "`elapsed`", expr.span);
                 elapsed = Some(reg);
                 continue;
@@ -39,8 +46,20 @@ impl<'w> Lower<'_, 'w> {
                 continue;
             };
             let goals = (self.want_reg(left, Ty::Int), self.want_reg(right, Ty::Int));
-            self.check_range(goals.0, (0.0, GOALS_MAX.into()), "a team's score", left.span, "`0..99`");
-            self.check_range(goals.1, (0.0, GOALS_MAX.into()), "a team's score", right.span, "`0..99`");
+            self.check_range(
+                goals.0,
+                (0.0, GOALS_MAX.into()),
+                "a team's score",
+                left.span,
+                "`0..99`",
+            );
+            self.check_range(
+                goals.1,
+                (0.0, GOALS_MAX.into()),
+                "a team's score",
+                right.span,
+                "`0..99`",
+            );
             score = Some(goals);
         }
         (score, elapsed)
@@ -48,7 +67,11 @@ impl<'w> Lower<'_, 'w> {
 
     pub(super) fn ball(&mut self) -> Option<BallStart> {
         let name = &self.world.flat.item.name;
-        let at = self.world.flat.ball.map(|(_, span)| span).or(self.world.flat.start.map(|stmt| stmt.span));
+        let at = self.world.flat.ball.map(|(_, span)| span).or(self
+            .world
+            .flat
+            .start
+            .map(|stmt| stmt.span));
         let (x, y) = self.ball_place(at.unwrap_or(name.span));
         if self.code.is_unknown(x) && self.world.flat.ball.is_none() {
             return None;
@@ -78,7 +101,13 @@ impl<'w> Lower<'_, 'w> {
                 }
                 "height" => {
                     let reg = lower.want_reg(expr, Ty::LENGTH);
-                    lower.check_range(reg, (0.0, START_HEIGHT_MAX_M), "the ball's height", expr.span, "`0m..50m`");
+                    lower.check_range(
+                        reg,
+                        (0.0, START_HEIGHT_MAX_M),
+                        "the ball's height",
+                        expr.span,
+                        "`0m..50m`",
+                    );
                     start.height = Some(reg);
                 }
                 "owner" => {
@@ -114,7 +143,13 @@ impl<'w> Lower<'_, 'w> {
         {
             let mut about = |expr: &'w Expr| {
                 let reg = self.want_reg(expr, Ty::Number);
-                self.check_range(reg, (-BALL_SPIN_MAX, BALL_SPIN_MAX), "the spin", expr.span, "`-200..200`");
+                self.check_range(
+                    reg,
+                    (-BALL_SPIN_MAX, BALL_SPIN_MAX),
+                    "the spin",
+                    expr.span,
+                    "`-200..200`",
+                );
                 reg
             };
             let spin = (about(x), about(y), about(z));
@@ -132,7 +167,10 @@ impl<'w> Lower<'_, 'w> {
                 self.report({
                     let known: Vec<&str> = Rule::ALL.iter().map(|rule| rule.name()).collect();
                     let guess = Guess::or_all(&field.key.node, &known);
-                    Problem::new(field.key.span, Names::NoRule { option: field.key.node.clone(), guess })
+                    Problem::new(
+                        field.key.span,
+                        Names::NoRule { option: field.key.node.clone(), guess },
+                    )
                 });
                 continue;
             };
@@ -169,12 +207,23 @@ impl<'w> Lower<'_, 'w> {
                         self.code.unary(UnaryOp::Round, steps)
                     }
                     ty => {
-                        self.report(self.mismatch_with(ty, Ty::DURATION, expr.span, Instead::HalfTime));
+                        self.report(self.mismatch_with(
+                            ty,
+                            Ty::DURATION,
+                            expr.span,
+                            Instead::HalfTime,
+                        ));
                         return None;
                     }
                 };
                 let most = LONGEST_S * STEPS_PER_S;
-                self.check_range(steps, (0.0, most), "`half_time`", expr.span, "`0 steps..1000000 steps`");
+                self.check_range(
+                    steps,
+                    (0.0, most),
+                    "`half_time`",
+                    expr.span,
+                    "`0 steps..1000000 steps`",
+                );
                 Some(steps)
             }
             _ => {

@@ -1,6 +1,7 @@
 //! Football's own rules about a start: everybody on the pitch, nobody on another's spot.
 //!
-//! What is constant is checked now; what is drawn or depends on parameters becomes a requirement of the draw.
+//! What is constant is checked now; what is drawn or depends on parameters becomes a requirement of
+//! the draw.
 
 use super::kind::NEAR_M;
 use crate::ast::Span;
@@ -38,14 +39,19 @@ pub(super) fn check_places(
         for (index, place) in situation.iter().enumerate() {
             let Some(player) = lower.world.roster.get(index) else { continue };
             let (shown, span) = (player.shown(), player.place_span());
-            if check_on_pitch(lower, *place, (RIM_X_M, RIM_Y_M), &shown, span) == KnownStart::Later {
+            if check_on_pitch(lower, *place, (RIM_X_M, RIM_Y_M), &shown, span) == KnownStart::Later
+            {
                 on_pitch.push((within(lower, *place, (RIM_X_M, RIM_Y_M)), span));
             }
         }
         for a in 0..situation.len() {
             for b in a + 1..situation.len() {
                 if let Some(reg) = check_pair(lower, situation, (a, b), options, nth) {
-                    let span = lower.world.roster.get(b).map_or(lower.world.flat.item.name.span, Rostered::place_span);
+                    let span = lower
+                        .world
+                        .roster
+                        .get(b)
+                        .map_or(lower.world.flat.item.name.span, Rostered::place_span);
                     apart.push((reg, span));
                 }
             }
@@ -77,9 +83,12 @@ fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, spa
     let nearest = HALF_WIDTH_M - NEAR_M;
     match lower.interval(place.1) {
         Some((low, high)) if low >= nearest || high <= -nearest => {}
-        Some((low, high)) if low > -nearest && high < nearest => lower.report(Problem::new(span, Starts::NoSideLine)),
+        Some((low, high)) if low > -nearest && high < nearest => {
+            lower.report(Problem::new(span, Starts::NoSideLine))
+        }
         _ => {
-            let (least, aside) = (lower.code.constant(nearest), lower.code.unary(UnaryOp::Abs, place.1));
+            let (least, aside) =
+                (lower.code.constant(nearest), lower.code.unary(UnaryOp::Abs, place.1));
             let beside = lower.code.binary(BinaryOp::Ge, aside, least);
             lower.imply(beside, &Implied::BesideSideLine, Some(span));
         }
@@ -110,7 +119,13 @@ enum KnownStart {
     Later,
 }
 
-fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), what: &str, span: Span) -> KnownStart {
+fn check_on_pitch(
+    lower: &Lower<'_, '_>,
+    place: (Reg, Reg),
+    limit: (f64, f64),
+    what: &str,
+    span: Span,
+) -> KnownStart {
     let (x, y) = (lower.interval(place.0), lower.interval(place.1));
     // What is drawn up to the rim and beyond is never drawn on the rim.
     let beyond = |low: f64, high: f64, limit: f64| low > limit || (low >= limit && high > low);
@@ -131,7 +146,9 @@ fn check_on_pitch(lower: &Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64), w
         ));
         return KnownStart::Now;
     }
-    let within = |axis: Option<(f64, f64)>, limit: f64| axis.is_some_and(|(low, high)| low >= -limit && high <= limit);
+    let within = |axis: Option<(f64, f64)>, limit: f64| {
+        axis.is_some_and(|(low, high)| low >= -limit && high <= limit)
+    };
     if within(x, limit.0) && within(y, limit.1) { KnownStart::Now } else { KnownStart::Later }
 }
 
@@ -158,7 +175,9 @@ fn check_pair(
         return None;
     }
     let (p, q) = (*situation.get(a)?, *situation.get(b)?);
-    let constant = |place: (Reg, Reg)| Some((lower.code.constant_of(place.0)?, lower.code.constant_of(place.1)?));
+    let constant = |place: (Reg, Reg)| {
+        Some((lower.code.constant_of(place.0)?, lower.code.constant_of(place.1)?))
+    };
     let (first, second) = (lower.world.roster.get(a)?, lower.world.roster.get(b)?);
     if [p.0, p.1, q.0, q.1].into_iter().any(|reg| lower.code.is_unknown(reg)) {
         return None;

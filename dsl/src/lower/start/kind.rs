@@ -17,7 +17,8 @@ impl Lower<'_, '_> {
         if let Some(known) = self.start().and_then(|start| start.kind) {
             return known;
         }
-        let implied = if self.world.flat.kickoff.is_some() { StartKind::Kickoff } else { StartKind::Open };
+        let implied =
+            if self.world.flat.kickoff.is_some() { StartKind::Kickoff } else { StartKind::Open };
         // Whoever asks while the team is being computed must not ask for ever.
         self.set_kind((implied, None));
         let found = self.read_kind(implied);
@@ -34,18 +35,25 @@ impl Lower<'_, '_> {
     fn read_kind(&mut self, implied: StartKind) -> (StartKind, Option<Reg>) {
         let first = (implied == StartKind::Kickoff).then(|| self.first_team());
         let Some(stmt) = self.world.flat.start else { return (implied, first) };
-        let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else { return (implied, first) };
+        let ScenarioStmtKind::Start { kind, team, at, .. } = &stmt.kind else {
+            return (implied, first);
+        };
         let Some(found) = StartKind::from_name(&kind.node) else {
             self.report({
                 let guess = Guess::of(&kind.node, StartKind::ALL.iter().map(|kind| kind.name()));
-                Problem::new(kind.span, Names::Unknown { kind: Kind::Start, name: kind.node.clone(), guess })
+                Problem::new(
+                    kind.span,
+                    Names::Unknown { kind: Kind::Start, name: kind.node.clone(), guess },
+                )
             });
             return (implied, first);
         };
         if let Some(at) = at.as_ref().filter(|_| !has_place(found)) {
             self.report(Problem::new(at.span, Starts::NoPlaceOfItsOwn { kind: found }));
         }
-        if team.is_none() && matches!(found, StartKind::Corner | StartKind::GoalKick | StartKind::Penalty) {
+        if team.is_none()
+            && matches!(found, StartKind::Corner | StartKind::GoalKick | StartKind::Penalty)
+        {
             self.report(Problem::new(kind.span, Starts::WhoseIsIt { kind: found }));
         }
         if let Some(team) = team.as_ref().filter(|_| found == StartKind::Open) {
@@ -55,7 +63,9 @@ impl Lower<'_, '_> {
         let scope = Scope::new(true, LiteralFrame::World);
         let team = team.as_ref().map(|team| {
             let outer = self.team.take();
-            let reg = self.within(scope, |lower| lower.drawing("start", |lower| lower.want_reg(team, Ty::Team)));
+            let reg = self.within(scope, |lower| {
+                lower.drawing("start", |lower| lower.want_reg(team, Ty::Team))
+            });
             self.team = outer;
             if found != StartKind::Open && self.code.constant_of(reg) == Some(-1.0) {
                 self.report(Problem::new(team.span, Starts::BelongsToATeam { kind: found }));
@@ -117,7 +127,8 @@ impl Lower<'_, '_> {
         {
             let outer = self.team.take();
             let scope = Scope::new(true, LiteralFrame::World);
-            let place = self.within(scope, |lower| lower.drawing("ball", |lower| lower.want_point(at)));
+            let place =
+                self.within(scope, |lower| lower.drawing("ball", |lower| lower.want_point(at)));
             self.team = outer;
             self.check_place_of_start(kind, team, place, at.span);
             return Some(place);
@@ -129,12 +140,17 @@ impl Lower<'_, '_> {
             StartKind::GoalKick => GOAL_KICK_SPOT_M - HALF_LENGTH_M,
             StartKind::Open | StartKind::FreeKick | StartKind::ThrowIn => {
                 let name = &world.flat.item.name;
-                self.report(Problem::new(name.span, Starts::NoBall { scenario: name.node.clone(), kind }));
+                self.report(Problem::new(
+                    name.span,
+                    Starts::NoBall { scenario: name.node.clone(), kind },
+                ));
                 return None;
             }
         };
-        let (x, y) =
-            (self.code.constant(x), self.code.constant(if kind == StartKind::Corner { -HALF_WIDTH_M } else { 0.0 }));
+        let (x, y) = (
+            self.code.constant(x),
+            self.code.constant(if kind == StartKind::Corner { -HALF_WIDTH_M } else { 0.0 }),
+        );
         let y = self.picture_y(y);
         Some(match team {
             Some(team) => {
@@ -148,8 +164,17 @@ impl Lower<'_, '_> {
 
 impl Lower<'_, '_> {
     /// Reports a corner whose place is known and lies elsewhere.
-    fn check_place_of_start(&self, kind: StartKind, team: Option<Reg>, place: (Reg, Reg), span: Span) {
-        let (Some(x), Some(y)) = (self.code.constant_of(place.0), self.code.constant_of(place.1)) else { return };
+    fn check_place_of_start(
+        &self,
+        kind: StartKind,
+        team: Option<Reg>,
+        place: (Reg, Reg),
+        span: Span,
+    ) {
+        let (Some(x), Some(y)) = (self.code.constant_of(place.0), self.code.constant_of(place.1))
+        else {
+            return;
+        };
         let side = match team.and_then(|team| self.code.constant_of(team)) {
             Some(0.0) => Team::Left.side(),
             Some(1.0) => Team::Right.side(),
@@ -158,25 +183,31 @@ impl Lower<'_, '_> {
         let on_side_line = (y.abs() - HALF_WIDTH_M).abs() <= NEAR_M;
         let on_byline = (x * side - HALF_LENGTH_M).abs() <= NEAR_M;
         if kind == StartKind::Corner && !(on_side_line && on_byline) {
-            let end = if (side > 0.0) == (self.world.mirror != Mirror::Ends) { "right" } else { "left" };
+            let end =
+                if (side > 0.0) == (self.world.mirror != Mirror::Ends) { "right" } else { "left" };
             self.report(Problem::new(span, Starts::NoCorner { end }));
         }
     }
 
-    /// Where the author says that the ball lies, and at what start: by `ball …`, or by the `at …` of a free kick or
-    /// throw-in. A corner's only tells which of the two.
+    /// Where the author says that the ball lies, and at what start: by `ball …`, or by the `at …`
+    /// of a free kick or throw-in. A corner's only tells which of the two.
     pub(crate) fn said_place(&self) -> Option<(StartKind, Span)> {
         let (kind, at) = match self.world.flat.start.map(|stmt| &stmt.kind) {
-            Some(ScenarioStmtKind::Start { kind, at, .. }) => (StartKind::from_name(&kind.node)?, at.as_ref()),
+            Some(ScenarioStmtKind::Start { kind, at, .. }) => {
+                (StartKind::from_name(&kind.node)?, at.as_ref())
+            }
             _ => (StartKind::Open, None),
         };
-        let at = at.filter(|_| matches!(kind, StartKind::FreeKick | StartKind::ThrowIn)).map(|at| at.span);
+        let at = at
+            .filter(|_| matches!(kind, StartKind::FreeKick | StartKind::ThrowIn))
+            .map(|at| at.span);
         let ball = self.world.flat.ball.map(|(stmt, _)| stmt.place.span);
         ball.or(at).map(|span| (kind, span))
     }
 }
 
-/// How far from its line the ball of a corner or throw-in may be said to lie; it is put on the line.
+/// How far from its line the ball of a corner or throw-in may be said to lie; it is put on the
+/// line.
 pub(super) const NEAR_M: f64 = 1.5;
 
 /// Whether `at …` says where it is: a corner's tells which of the two.

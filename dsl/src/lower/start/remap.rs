@@ -1,8 +1,10 @@
-//! Values and the start in other registers: where a program's registers went, or what a step program reads instead.
+//! Values and the start in other registers: where a program's registers went, or what a step
+//! program reads instead.
 
 use crate::lower::value::{Repr, SetValue, Value};
 use setpiece_scenario::{
-    Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, RuleSetting, SideAgents, Start,
+    Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, RuleSetting,
+    SideAgents, Start,
 };
 use std::rc::Rc;
 
@@ -14,7 +16,9 @@ impl<'w> Value<'w> {
             Repr::Two(a, b) => Repr::Two(f(*a), f(*b)),
             Repr::Three(a, b, c) => Repr::Three(f(*a), f(*b), f(*c)),
             Repr::Choice(a, words) => Repr::Choice(f(*a), words.clone()),
-            Repr::Set(set) => Repr::Set(SetValue { team: f(set.team), except: set.except.map(&mut *f) }),
+            Repr::Set(set) => {
+                Repr::Set(SetValue { team: f(set.team), except: set.except.map(&mut *f) })
+            }
             Repr::Region(value) => Repr::Region(Rc::new(value.map(f))),
             Repr::List(list) => Repr::List(list.iter().map(|value| value.map(f)).collect()),
             Repr::Nothing | Repr::Text(_) | Repr::Formation(_) => self.repr.clone(),
@@ -27,7 +31,10 @@ pub(super) fn map_start(start: &Start, f: &mut dyn FnMut(Reg) -> Reg) -> Start {
     let mut pair = |p: &(Reg, Reg)| (f(p.0), f(p.1));
     let score = start.score.as_ref().map(&mut pair);
     let kickoff_places = start.kickoff.as_ref().map(|kickoff| {
-        let place = |p: &KickoffPlaces| KickoffPlaces { kicking: pair(&p.kicking), receiving: pair(&p.receiving) };
+        let place = |p: &KickoffPlaces| KickoffPlaces {
+            kicking: pair(&p.kicking),
+            receiving: pair(&p.receiving),
+        };
         kickoff.places.iter().map(place).collect::<Vec<_>>()
     });
     let mut triple = |p: &(Reg, Reg, Reg)| (f(p.0), f(p.1), f(p.2));
@@ -48,12 +55,16 @@ pub(super) fn map_start(start: &Start, f: &mut dyn FnMut(Reg) -> Reg) -> Start {
         taker: start.taker.map(&mut *f),
         score,
         elapsed: start.elapsed.map(&mut *f),
-        kickoff: start
-            .kickoff
-            .as_ref()
-            .map(|kickoff| Kickoff { first: f(kickoff.first), places: kickoff_places.unwrap_or_default() }),
+        kickoff: start.kickoff.as_ref().map(|kickoff| Kickoff {
+            first: f(kickoff.first),
+            places: kickoff_places.unwrap_or_default(),
+        }),
         difficulty: start.difficulty.map(&mut *f),
-        rules: start.rules.iter().map(|s| RuleSetting { rule: s.rule, value: f(s.value) }).collect(),
+        rules: start
+            .rules
+            .iter()
+            .map(|s| RuleSetting { rule: s.rule, value: f(s.value) })
+            .collect(),
         limit: start.limit.map(&mut *f),
         requires: start
             .requires

@@ -18,19 +18,22 @@ impl Reader<'_> {
         if wrong.positives.iter().any(event) && is_name(word) {
             return Some(no_event(word, self.at(wrong.at)));
         }
-        let (from, name) = wrong.tokens.get(at.checked_sub(1)?).filter(|(_, name)| is_name(name))?;
+        let (from, name) =
+            wrong.tokens.get(at.checked_sub(1)?).filter(|(_, name)| is_name(name))?;
         let span = self.between(*from, from + name.len());
         if matches!(word, "by" | "to" | "from") || Qualifier::from_name(word).is_some() {
             nearest(name, names()).filter(|meant| meant != name)?;
             return Some(no_event(name, span));
         }
-        let meant = nearest(name, OVER_TIME.iter().copied()).filter(|meant| meant != name && word == "of")?;
+        let meant = nearest(name, OVER_TIME.iter().copied())
+            .filter(|meant| meant != name && word == "of")?;
         Some(Problem::new(span, Syntax::MisspeltOverTime { word: (*name).to_owned(), meant }))
     }
 }
 
 fn is_name(word: &str) -> bool {
-    word.starts_with(|char: char| char.is_alphabetic() || char == '_') && !super::expect::is_reserved(word)
+    word.starts_with(|char: char| char.is_alphabetic() || char == '_')
+        && !super::expect::is_reserved(word)
 }
 
 fn names() -> impl Iterator<Item = &'static str> {
@@ -38,7 +41,9 @@ fn names() -> impl Iterator<Item = &'static str> {
 }
 
 fn no_event(name: &str, span: crate::source::Span) -> Problem {
-    let state = |name: &str| PROPERTIES.iter().any(|p| p.owner == Owner::Match && p.ty == Type::Bool && p.name == name);
+    let state = |name: &str| {
+        PROPERTIES.iter().any(|p| p.owner == Owner::Match && p.ty == Type::Bool && p.name == name)
+    };
     if state(name) {
         return Problem::new(span, Syntax::StateNoEvent { name: name.to_owned() });
     }

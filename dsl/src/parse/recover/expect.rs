@@ -12,8 +12,8 @@ use std::ops::Range;
 
 /// Words that follow a role.
 pub(super) const AFTER_ROLE: &[&str] = &[
-    "at", "in", "ahead", "behind", "left", "right", "between", "beyond", "offset", "absent", "facing", "jitter",
-    "when", "{",
+    "at", "in", "ahead", "behind", "left", "right", "between", "beyond", "offset", "absent",
+    "facing", "jitter", "when", "{",
 ];
 
 impl Reader<'_> {
@@ -62,9 +62,11 @@ impl Reader<'_> {
         }
         let starts = wrong.at == wrong.junk.start;
         let is_new = starts && found.begins == Begins::New;
-        let misplaced = || self.misplaced(wrong.context, self.word(wrong.at), wrong.at, Some(&found.help));
+        let misplaced =
+            || self.misplaced(wrong.context, self.word(wrong.at), wrong.at, Some(&found.help));
         let problem = if is_new { misplaced() } else { None };
-        let problem = problem.unwrap_or_else(|| self.expected(wrong, Hint::Habit(found.help.clone())));
+        let problem =
+            problem.unwrap_or_else(|| self.expected(wrong, Hint::Habit(found.help.clone())));
         let (fresh, goes_on) = (found.begins == Begins::New, found.begins == Begins::Before);
         Some(Finding { problem, fresh, goes_on })
     }
@@ -75,13 +77,18 @@ impl Reader<'_> {
         let whole = wrong.tokens.get(wrong.token_at()).filter(|(from, _)| *from == at);
         let word = whole.map_or_else(|| self.word(at), |(_, word)| *word);
         let starts = at == wrong.junk.start && !wrong.inside;
-        let wanted = if starts && !(wrong.before.is_some() && wrong.positives.is_empty()) && !is_name(&wrong.positives)
+        let wanted = if starts
+            && !(wrong.before.is_some() && wrong.positives.is_empty())
+            && !is_name(&wrong.positives)
         {
             vec![noun(wrong.context.statement())]
         } else {
             // What could stand behind any statement is no news.
-            let any = |rule: &&Rule| starts && (**rule == Rule::comma || **rule == wrong.context.statement());
-            let wanted: Vec<Rule> = wrong.positives.iter().filter(|rule| !any(rule)).copied().collect();
+            let any = |rule: &&Rule| {
+                starts && (**rule == Rule::comma || **rule == wrong.context.statement())
+            };
+            let wanted: Vec<Rule> =
+                wrong.positives.iter().filter(|rule| !any(rule)).copied().collect();
             nouns(wrong.context, &wanted)
         };
         if let Some((from, last)) = wrong.tokens.last()
@@ -119,7 +126,8 @@ impl Reader<'_> {
             }
             let like_role = word.len() <= 4 && word.bytes().all(|byte| byte.is_ascii_uppercase());
             let followed = AFTER_ROLE.contains(&behind) && Role::from_name(word).is_none();
-            let keyword = nearest(word, context.keywords().iter().copied().chain(AFTER_ROLE.iter().copied()));
+            let keyword =
+                nearest(word, context.keywords().iter().copied().chain(AFTER_ROLE.iter().copied()));
             if like_role || counted || (followed && keyword.is_none()) {
                 return Some(fresh(Self::unknown_role(word, self.at(at))));
             }
@@ -133,23 +141,40 @@ impl Reader<'_> {
             let all = all.chain(continuing.filter(|_| before.is_some()));
             let meant = nearest(word, all).filter(|meant| *meant != word)?;
             let problem = self.misspelt(vec![noun(context.statement())], word, at, meant);
-            return Some(Finding { fresh: context.keywords().contains(&meant), ..Finding::new(problem) });
+            return Some(Finding {
+                fresh: context.keywords().contains(&meant),
+                ..Finding::new(problem)
+            });
         }
         let meant = nearest(word, continuing).filter(|meant| *meant != word)?;
         Some(Finding::new(self.misspelt(nouns(context, positives), word, at, meant)))
     }
 
-    fn misspelt(&self, wanted: Vec<&'static str>, word: &str, at: usize, meant: &'static str) -> Problem {
+    fn misspelt(
+        &self,
+        wanted: Vec<&'static str>,
+        word: &str,
+        at: usize,
+        meant: &'static str,
+    ) -> Problem {
         Problem::new(self.at(at), Syntax::Misspelt { wanted, word: word.to_owned(), meant })
     }
 
     fn unknown_role(word: &str, span: Span) -> Problem {
         let roles: Vec<&str> = Role::ALL.iter().map(|role| role.name()).collect();
-        Problem::new(span, Syntax::UnknownRole { word: word.to_owned(), guess: Guess::or_all(word, &roles) })
+        Problem::new(
+            span,
+            Syntax::UnknownRole { word: word.to_owned(), guess: Guess::or_all(word, &roles) },
+        )
     }
 
     /// `striker: CFF at …` reads as an option `striker` and goes wrong at `at`.
-    fn unknown_role_of_field(&self, context: Context, before: Option<&Range<usize>>, word: &str) -> Option<Problem> {
+    fn unknown_role_of_field(
+        &self,
+        context: Context,
+        before: Option<&Range<usize>>,
+        word: &str,
+    ) -> Option<Problem> {
         if context != Context::Team || !AFTER_ROLE.contains(&word) {
             return None;
         }
@@ -181,21 +206,25 @@ impl Wrong<'_> {
     fn form(&self) -> Hint {
         let word = |index: usize| self.tokens.get(index).map_or("", |(_, word)| *word);
         let form = match (self.positives.as_slice(), word(0), word(1)) {
-            (wanted, ..) if wanted.contains(&Rule::kw_else) || wanted == [Rule::kw_then] => Some("if c then a else b"),
+            (wanted, ..) if wanted.contains(&Rule::kw_else) || wanted == [Rule::kw_then] => {
+                Some("if c then a else b")
+            }
             (_, "end", "limit") => Some("end limit 400 steps"),
             (_, first, _) => self.context.form(first),
         };
         form.map_or(Hint::None, Hint::Form)
     }
 
-    /// A lone word could always have been an option's key or a state: the word is the news, not the missing sign.
+    /// A lone word could always have been an option's key or a state: the word is the news, not the
+    /// missing sign.
     fn is_lone_word(&self) -> bool {
         let Some((from, first)) = self.tokens.get(self.first) else { return false };
         let next = self.tokens.get(self.first + 1).map_or(usize::MAX, |(next, _)| *next);
         if *from != self.junk.start || self.at == *from || self.at > next {
             return false;
         }
-        let elsewhere = |word: &str| Context::ALL.iter().any(|other| other.keywords().contains(&word));
+        let elsewhere =
+            |word: &str| Context::ALL.iter().any(|other| other.keywords().contains(&word));
         let keywords = self.context.keywords();
         match self.context {
             Context::Fields => false,
@@ -206,7 +235,10 @@ impl Wrong<'_> {
             }
             _ => {
                 // `striker CF at …` lacks its colon.
-                let role = self.tokens.get(self.first + 1).is_some_and(|(_, next)| Role::from_name(next).is_some());
+                let role = self
+                    .tokens
+                    .get(self.first + 1)
+                    .is_some_and(|(_, next)| Role::from_name(next).is_some());
                 let named = role && nearest(first, keywords.iter().copied()).is_none();
                 self.positives == [Rule::colon] && !named && !keywords.contains(first)
             }

@@ -39,7 +39,8 @@ impl<'t> Reader<'t> {
     pub(super) fn next_token(&self, mut at: usize) -> usize {
         loop {
             let rest = text(self.text, at..self.text.len());
-            let blank = rest.len() - rest.trim_start_matches([' ', '\t', '\r', '\n', ';', '\u{FEFF}', '\u{A0}']).len();
+            let blank = rest.len()
+                - rest.trim_start_matches([' ', '\t', '\r', '\n', ';', '\u{FEFF}', '\u{A0}']).len();
             at += blank;
             match self.comment_at(at) {
                 Some(end) => at = end,
@@ -48,16 +49,22 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Notes the names that a part which can't be read would declare, so that their uses are no problems.
+    /// Notes the names that a part which can't be read would declare, so that their uses are no
+    /// problems.
     pub(super) fn lose(&mut self, range: Range<usize>) {
         let tokens = self.tokens(range);
         let mut in_list = false;
         for (index, (_, word)) in tokens.iter().enumerate() {
             let next = tokens.get(index + 1).map_or("", |(_, next)| *next);
-            let last = index.checked_sub(1).and_then(|last| tokens.get(last)).map_or("", |(_, last)| *last);
+            let last = index
+                .checked_sub(1)
+                .and_then(|last| tokens.get(last))
+                .map_or("", |(_, last)| *last);
             in_list = if in_list { *word != ")" } else { last == "let" && *word == "(" };
-            let declared =
-                in_list || matches!(next, ":" | "=") || (index == 1 && !is_reserved(last)) || DECLARING.contains(&last);
+            let declared = in_list
+                || matches!(next, ":" | "=")
+                || (index == 1 && !is_reserved(last))
+                || DECLARING.contains(&last);
             if declared && word.starts_with(|char: char| char.is_alphanumeric() || char == '_') {
                 self.lost.insert((*word).to_owned());
             }

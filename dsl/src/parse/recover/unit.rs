@@ -15,22 +15,27 @@ impl Reader<'_> {
         }
         let line = text.get(self.line_start(at)..at)?;
         let digits = line.trim_end_matches([' ', '\t']);
-        let number_len =
-            digits.len() - digits.trim_end_matches(|char: char| char.is_ascii_digit() || char == '.').len();
+        let number_len = digits.len()
+            - digits.trim_end_matches(|char: char| char.is_ascii_digit() || char == '.').len();
         let number = digits.get(digits.len() - number_len..)?;
-        let part_of_name =
-            digits.get(..digits.len() - number_len)?.ends_with(|char: char| char.is_alphanumeric() || char == '_');
+        let part_of_name = digits
+            .get(..digits.len() - number_len)?
+            .ends_with(|char: char| char.is_alphanumeric() || char == '_');
         if !number.ends_with(|char: char| char.is_ascii_digit()) || part_of_name {
             return None;
         }
         let touches = digits.len() == line.len();
         if touches && word.starts_with('_') {
             let span = self.between(at - number.len(), at + word.len());
-            return Some(Problem::new(span, Syntax::DigitsAlone { number: number.to_owned(), rest: word.to_owned() }));
+            return Some(Problem::new(
+                span,
+                Syntax::DigitsAlone { number: number.to_owned(), rest: word.to_owned() },
+            ));
         }
         if touches {
             let start = at - number.len();
-            let word = if word == "km" && text.get(at..)?.starts_with("km/") { "km/" } else { word };
+            let word =
+                if word == "km" && text.get(at..)?.starts_with("km/") { "km/" } else { word };
             let span = self.between(start, at + word.len());
             let units = Unit::ALL.iter().map(|unit| unit.name());
             let meant = match (meant(word), nearest(word, units.clone())) {
@@ -42,10 +47,13 @@ impl Reader<'_> {
             return Some(Problem::new(span, Syntax::UnknownUnit { word, number, meant }));
         }
         let Some(unit) = Unit::from_name(word) else {
-            let counted =
-                nearest(word.trim_end_matches(|char: char| char.is_ascii_digit()), ["step", "steps", "episodes"]);
+            let counted = nearest(
+                word.trim_end_matches(|char: char| char.is_ascii_digit()),
+                ["step", "steps", "episodes"],
+            );
             let counted = counted.filter(|_| word.len() >= 4)?;
-            let meant = UnitGuess::One(format!(" {}", if counted == "step" { "steps" } else { counted }));
+            let meant =
+                UnitGuess::One(format!(" {}", if counted == "step" { "steps" } else { counted }));
             let (word, number) = (word.to_owned(), number.to_owned());
             return Some(Problem::new(self.at(at), Syntax::UnknownUnit { word, number, meant }));
         };

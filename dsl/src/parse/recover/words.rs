@@ -22,8 +22,14 @@ pub(in crate::parse) enum Context {
 
 impl Context {
     /// Every list.
-    pub(in crate::parse) const ALL: [Context; 6] =
-        [Context::File, Context::Scenario, Context::Team, Context::Reward, Context::Behavior, Context::Fields];
+    pub(in crate::parse) const ALL: [Context; 6] = [
+        Context::File,
+        Context::Scenario,
+        Context::Team,
+        Context::Reward,
+        Context::Behavior,
+        Context::Fields,
+    ];
 
     /// The rule of a statement.
     pub(super) const fn statement(self) -> Rule {
@@ -101,12 +107,14 @@ impl Context {
                 "check",
             ],
             Context::Scenario => &[
-                "param", "let", "const", "region", "rules", "agents", "ball", "team", "kickoff", "start", "reward",
-                "end", "require", "record", "remove", "mirror", "observe",
+                "param", "let", "const", "region", "rules", "agents", "ball", "team", "kickoff",
+                "start", "reward", "end", "require", "record", "remove", "mirror", "observe",
             ],
             Context::Team => &["place", "each"],
             Context::Reward => &["state", "let", "give", "on", "when"],
-            Context::Behavior => &["do", "interrupt", "repeat", "choose", "if", "state", "let", "finish"],
+            Context::Behavior => {
+                &["do", "interrupt", "repeat", "choose", "if", "state", "let", "finish"]
+            }
             Context::Fields => &[],
         }
     }
@@ -168,8 +176,12 @@ impl Context {
     pub(super) fn block_of(self, keyword: &str) -> Option<Rule> {
         Some(match (self, keyword) {
             (Context::File, "scenario" | "abstract") => Rule::scenario_body,
-            (Context::File | Context::Scenario, "reward") | (Context::Reward, "on" | "when") => Rule::reward_body,
-            (Context::File, "behavior") | (Context::Behavior, "interrupt" | "repeat" | "if") => Rule::behavior_body,
+            (Context::File | Context::Scenario, "reward") | (Context::Reward, "on" | "when") => {
+                Rule::reward_body
+            }
+            (Context::File, "behavior") | (Context::Behavior, "interrupt" | "repeat" | "if") => {
+                Rule::behavior_body
+            }
             (Context::File, "formation") | (Context::Scenario, "team") => Rule::team_body,
             (Context::Scenario, "rules" | "agents" | "ball" | "start" | "kickoff") => Rule::fields,
             _ => return None,

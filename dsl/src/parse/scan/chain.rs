@@ -1,4 +1,5 @@
-//! What nests without brackets: `if if if …`, `count of pass by …`. The grammar goes as deep as such a chain is long.
+//! What nests without brackets: `if if if …`, `count of pass by …`. The grammar goes as deep as
+//! such a chain is long.
 
 use super::Scanner;
 use crate::parse::MAX_NESTED;
@@ -36,10 +37,12 @@ impl Scanner<'_> {
             }
             b"if" => self.chain = Chain { ifs: ifs + 1, phrases: 0, too_deep },
             b"of" | b"by" | b"to" | b"from" => self.chain.phrases += 1,
-            b"and" | b"or" | b"then" | b"else" => self.unchain(at, Chain { ifs, phrases: 0, too_deep }),
+            b"and" | b"or" | b"then" | b"else" => {
+                self.unchain(at, Chain { ifs, phrases: 0, too_deep })
+            }
             // No expression goes on behind these.
-            b"as" | b"at" | b"facing" | b"give" | b"jitter" | b"let" | b"on" | b"once" | b"require" | b"state"
-            | b"when" | b"with" => self.unchain(at, self.outer()),
+            b"as" | b"at" | b"facing" | b"give" | b"jitter" | b"let" | b"on" | b"once"
+            | b"require" | b"state" | b"when" | b"with" => self.unchain(at, self.outer()),
             _ => {}
         }
         end
@@ -58,7 +61,10 @@ impl Scanner<'_> {
 
     /// The chain at the start of the innermost bracket.
     fn outer(&self) -> Chain {
-        self.open.last().filter(|open| open.byte != b'{').map_or_else(Chain::default, |open| open.chain)
+        self.open
+            .last()
+            .filter(|open| open.byte != b'{')
+            .map_or_else(Chain::default, |open| open.chain)
     }
 
     /// Goes back to a chain; one that was too deep is reported about and ends here.

@@ -1,4 +1,5 @@
-//! Brackets that are not closed, or closed by another's: reported, and mended in the copy that is parsed.
+//! Brackets that are not closed, or closed by another's: reported, and mended in the copy that is
+//! parsed.
 
 use super::{Chain, Scanner, Skip};
 use crate::parse::recover::Context;
@@ -10,13 +11,16 @@ use setpiece_scenario::vocabulary::Role;
 impl Scanner<'_> {
     /// Whether a closing bracket was written for the innermost open one, which it does not fit.
     pub(super) fn is_wrong_closer(&mut self, at: usize, byte: u8, matching: Option<usize>) -> bool {
-        let Some(last) = self.open.last().filter(|open| open.closer() != byte) else { return false };
+        let Some(last) = self.open.last().filter(|open| open.closer() != byte) else {
+            return false;
+        };
         let (last_byte, last_at, last_indent) = (last.byte, last.at, last.indent);
         let here = |open: &&super::Open| open.byte == b'{' && open.at >= self.line_from;
         match (byte, last_byte) {
             // The braces that this line opened are all that it may close.
             (b'}', b'(' | b'[') => {
-                let line = self.bytes.get(at..).unwrap_or_default().split(|byte| *byte == b'\n').next();
+                let line =
+                    self.bytes.get(at..).unwrap_or_default().split(|byte| *byte == b'\n').next();
                 let line = line.unwrap_or_default();
                 let closed = line.split(|byte| *byte == b'}').count() - 1;
                 let opened = self.open.iter().filter(here).count();
@@ -39,7 +43,8 @@ impl Scanner<'_> {
         self.mends.insert(at, wanted);
         self.unchain(at, if open.byte == b'{' { Chain::default() } else { open.chain });
         if self.scan.problems.len() < MAX_PROBLEMS {
-            let (closer, wanted, opened) = (byte as char, wanted as char, span(self.file, open.at, open.at + 1));
+            let (closer, wanted, opened) =
+                (byte as char, wanted as char, span(self.file, open.at, open.at + 1));
             let fact = Brackets::WrongCloser { closer, opener, wanted, opened };
             self.scan.problems.push(Problem::new(span(self.file, at, at + 1), fact));
         }
@@ -84,20 +89,27 @@ impl Scanner<'_> {
         (0..range.len()).rev().take(4096).map(|i| after + i).find(|i| self.is_free(*i))
     }
 
-    /// The end of the first line from `from` on behind which a statement begins; else of the line of `from`.
+    /// The end of the first line from `from` on behind which a statement begins; else of the line
+    /// of `from`.
     fn line_end(&self, from: usize, before: usize) -> Option<usize> {
         let range = self.bytes.get(from..before)?;
-        let mut ends = range.iter().enumerate().filter(|(_, byte)| **byte == b'\n').map(|(end, _)| from + end);
+        let mut ends =
+            range.iter().enumerate().filter(|(_, byte)| **byte == b'\n').map(|(end, _)| from + end);
         let first = ends.clone().next()?;
-        let end = ends.find(|end| self.bytes.get(end + 1..before).is_none_or(begins_statement)).unwrap_or(first);
+        let end = ends
+            .find(|end| self.bytes.get(end + 1..before).is_none_or(begins_statement))
+            .unwrap_or(first);
         let end = match self.skip_at(end) {
-            Some(skip) if skip.line && skip.range.start > from => skip.range.start.saturating_sub(1),
+            Some(skip) if skip.line && skip.range.start > from => {
+                skip.range.start.saturating_sub(1)
+            }
             _ => end,
         };
         self.is_free(end).then_some(end)
     }
 
-    /// Whether a bracket may be written over this byte: an unused blank outside of strings and comments.
+    /// Whether a bracket may be written over this byte: an unused blank outside of strings and
+    /// comments.
     fn is_free(&self, at: usize) -> bool {
         self.bytes.get(at).is_some_and(u8::is_ascii_whitespace)
             && !self.mends.contains_key(&at)
@@ -135,9 +147,18 @@ impl Scanner<'_> {
 /// Whether a line begins a statement, or ends its list.
 fn begins_statement(line: &[u8]) -> bool {
     let line = line.trim_ascii_start();
-    let word = line.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_').next().unwrap_or_default();
+    let word = line
+        .split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_')
+        .next()
+        .unwrap_or_default();
     let Ok(word) = str::from_utf8(word) else { return false };
     let keyword = Context::ALL.iter().any(|context| context.keywords().contains(&word));
-    let placed = line.get(word.len()..).is_some_and(|rest| rest.starts_with(b" at ") || rest.starts_with(b" in "));
-    line.is_empty() || line.starts_with(b"}") || keyword || placed || Role::from_name(word).is_some()
+    let placed = line
+        .get(word.len()..)
+        .is_some_and(|rest| rest.starts_with(b" at ") || rest.starts_with(b" in "));
+    line.is_empty()
+        || line.starts_with(b"}")
+        || keyword
+        || placed
+        || Role::from_name(word).is_some()
 }

@@ -28,7 +28,12 @@ impl Scanner<'_> {
     }
 
     fn missing_brace(&mut self, head: Range<usize>, closer: usize) {
-        let text = self.bytes.get(head.clone()).map(String::from_utf8_lossy).unwrap_or_default().into_owned();
+        let text = self
+            .bytes
+            .get(head.clone())
+            .map(String::from_utf8_lossy)
+            .unwrap_or_default()
+            .into_owned();
         let closer = span(self.file, closer, closer + 1);
         self.problem(head.start, head.len(), Brackets::NoBrace { head: text, closer });
     }
@@ -46,7 +51,8 @@ impl Scanner<'_> {
             let rest = self.bytes.get(end..at).unwrap_or_default().trim_ascii_start();
             if begins_body(words, rest) && !rest.starts_with(b"{") && !code.contains(&b'{') {
                 let slot = head.end;
-                let free = self.bytes.get(slot).is_some_and(u8::is_ascii_whitespace) && !self.mends.contains_key(&slot);
+                let free = self.bytes.get(slot).is_some_and(u8::is_ascii_whitespace)
+                    && !self.mends.contains_key(&slot);
                 found = free.then_some((head, slot)).or(found);
             }
         }
@@ -66,7 +72,8 @@ impl Scanner<'_> {
     }
 }
 
-/// Whether a line begins what has a body between braces, and has nothing else; `rest` is what follows it.
+/// Whether a line begins what has a body between braces, and has nothing else; `rest` is what
+/// follows it.
 fn begins_body(line: &[u8], rest: &[u8]) -> bool {
     let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
     let (first, second, third) = (words.next(), words.next(), words.next());
@@ -74,8 +81,11 @@ fn begins_body(line: &[u8], rest: &[u8]) -> bool {
         Some(b"scenario" | b"abstract") => second.is_some(),
         Some(b"team") => matches!(second, Some(b"left" | b"right")) && third.is_none(),
         Some(b"behavior" | b"formation") => second.is_some() && !line.contains(&b'='),
-        // A scenario names its rewards like that; statements of a reward tell that a body was meant.
-        Some(b"reward") => [&b"give "[..], b"on ", b"state "].iter().any(|word| rest.starts_with(word)),
+        // A scenario names its rewards like that; statements of a reward tell that a body was
+        // meant.
+        Some(b"reward") => {
+            [&b"give "[..], b"on ", b"state "].iter().any(|word| rest.starts_with(word))
+        }
         Some(b"rules" | b"agents") => second.is_none(),
         _ => false,
     }

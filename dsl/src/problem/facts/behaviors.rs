@@ -19,7 +19,11 @@ facts! {
             say(format!("{what} is not done `sprinting`"), "not here")
                 .help(format!("what can be: `{}`", runs.join("`, `"))),
         /// A primitive without its argument.
-        NoTarget { primitive: &'static str, is_player: bool, signature: &'static str } = Code::WrongArguments => {
+        NoTarget {
+            primitive: &'static str,
+            is_player: bool,
+            signature: &'static str,
+        } = Code::WrongArguments => {
             let what = if *is_player { "who" } else { "where" };
             say(format!("`{primitive}` doesn't say {what}"), "").help(format!("write `do {signature}`"))
         },

@@ -42,7 +42,12 @@ facts! {
             say(format!("the range `{text}` is empty"), "its end lies before its begin")
                 .help("write the lower end first"),
         /// A value of a parameter outside of its domain.
-        OutsideDomain { text: String, allowed: String, parameter: String, is_argument: bool } = Code::OutOfRange => {
+        OutsideDomain {
+            text: String,
+            allowed: String,
+            parameter: String,
+            is_argument: bool,
+        } = Code::OutOfRange => {
             let label = if *is_argument {
                 format!("given to `{parameter}`")
             } else {

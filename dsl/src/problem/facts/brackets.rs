@@ -9,12 +9,21 @@ facts! {
     /// Facts about brackets.
     pub(crate) Brackets {
         /// A bracket that closes another kind of bracket.
-        WrongCloser { closer: char, opener: char, wanted: char, opened: Span } = Code::UnclosedBracket =>
+        WrongCloser {
+            closer: char,
+            opener: char,
+            wanted: char,
+            opened: Span,
+        } = Code::UnclosedBracket =>
             say(format!("`{closer}` can't close this `{opener}`"), "another bracket")
                 .at(opened, "opened here")
                 .help(format!("close it with `{wanted}`")),
         /// A bracket that is not closed; `closer`: the next one, which belongs to another bracket.
-        Unclosed { opener: char, wanted: char, closer: Option<(char, Span)> } = Code::UnclosedBracket => {
+        Unclosed {
+            opener: char,
+            wanted: char,
+            closer: Option<(char, Span)>,
+        } = Code::UnclosedBracket => {
             let said = say(format!("this `{opener}` is not closed"), "opened here")
                 .help(format!("close it with `{wanted}`"));
             match closer {

@@ -18,7 +18,11 @@ facts! {
             }
         },
         /// More arguments than parameters.
-        TooMany { callee: String, names: Vec<String>, signature: Option<String> } = Code::WrongArguments => {
+        TooMany {
+            callee: String,
+            names: Vec<String>,
+            signature: Option<String>,
+        } = Code::WrongArguments => {
             let takes = match names.len() {
                 0 => "no value".to_owned(),
                 1 => "one value".to_owned(),
@@ -73,7 +77,9 @@ facts! {
         TooDeep = Code::TooDeep =>
             say("the expression is nested too deeply", "").help("name a part of it with `let`"),
         /// A function that the compiler doesn't know yet.
-        NotYet { function: &'static str } = Code::NotYet => say(format!("`{function}` is not supported yet"), ""),
+        NotYet {
+            function: &'static str,
+        } = Code::NotYet => say(format!("`{function}` is not supported yet"), ""),
         /// `min_by` and its like at the start.
         NotYetAtStart { function: &'static str } = Code::NotYet =>
             say(format!("`{function}` in the start is not supported yet"), "").help("name the player"),
@@ -96,7 +102,11 @@ facts! {
             say(message, "always nobody").help("leave it out")
         },
         /// A qualifier that an event never has.
-        NeverQualified { event: String, qualifier: String, known: Vec<&'static str> } = Code::UnknownEvent =>
+        NeverQualified {
+            event: String,
+            qualifier: String,
+            known: Vec<&'static str>,
+        } = Code::UnknownEvent =>
             say(format!("`{event}` is never `{qualifier}`"), "").help(if known.is_empty() {
                 format!("write `{event}` alone")
             } else {

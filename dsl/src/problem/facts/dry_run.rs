@@ -6,7 +6,8 @@ use crate::problem::said::{Said, say};
 use crate::source::Span;
 
 facts! {
-    /// What a dry run found. `elsewhere`: the part at fault, where the problem's place is the scenario.
+    /// What a dry run found. `elsewhere`: the part at fault, where the problem's place is the
+    /// scenario.
     pub DryRun {
         /// An ending holds at the start.
         EndsAtOnce {

@@ -1,4 +1,5 @@
-//! Imports and scripts: files that are missing, too many or too large, and what the engine says of scripts.
+//! Imports and scripts: files that are missing, too many or too large, and what the engine says of
+//! scripts.
 
 use super::facts;
 use crate::problem::Code;
@@ -55,7 +56,9 @@ impl ImportLimit {
             ImportLimit::Missing(most) => format!("more than {most} imports find no file"),
             ImportLimit::Depth(most) => format!("files import each other more than {most} deep"),
             ImportLimit::Files(most) => format!("more than {most} files are imported"),
-            ImportLimit::Bytes(most) => format!("imported files are larger than {} MiB together", most >> 20),
+            ImportLimit::Bytes(most) => {
+                format!("imported files are larger than {} MiB together", most >> 20)
+            }
         }
     }
 }
@@ -73,7 +76,9 @@ impl ScriptLimit {
     fn words(self) -> String {
         match self {
             ScriptLimit::Files(most) => format!("more than {most} script files are named"),
-            ScriptLimit::Bytes(most) => format!("script files are larger than {} MiB together", most >> 20),
+            ScriptLimit::Bytes(most) => {
+                format!("script files are larger than {} MiB together", most >> 20)
+            }
         }
     }
 }

@@ -1,4 +1,5 @@
-//! What a text requires of every draw without saying so: labels of compiled requirements, and what makes them hold.
+//! What a text requires of every draw without saying so: labels of compiled requirements, and what
+//! makes them hold.
 
 /// A requirement that a text implies.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,10 +33,14 @@ impl Implied {
             Implied::BallOnPitch => "the ball lies on the pitch".to_owned(),
             Implied::BesideSideLine => "the throw-in is taken from a side line".to_owned(),
             Implied::InRegion { text } => format!("a point lies in {text}"),
-            Implied::EndsOrdered { text } => format!("the lower end of {text} lies below the upper one"),
+            Implied::EndsOrdered { text } => {
+                format!("the lower end of {text} lies below the upper one")
+            }
             Implied::AnyWeight { text } => format!("a weight of {text} is above 0"),
             Implied::Inside { what, shown } => format!("{what} is {shown}"),
-            Implied::Slower { what, most_mps } => format!("{what} is not faster than {most_mps} m/s"),
+            Implied::Slower { what, most_mps } => {
+                format!("{what} is not faster than {most_mps} m/s")
+            }
         };
         label.replace('`', "")
     }
@@ -43,11 +48,17 @@ impl Implied {
     /// What makes it hold.
     pub(crate) fn help(&self) -> String {
         match self {
-            Implied::PlayersOnPitch => "place the players where every draw lies between the lines".to_owned(),
-            Implied::PlayersApart => "give the players more room, or allow it: `{ overlap: allowed }`".to_owned(),
+            Implied::PlayersOnPitch => {
+                "place the players where every draw lies between the lines".to_owned()
+            }
+            Implied::PlayersApart => {
+                "give the players more room, or allow it: `{ overlap: allowed }`".to_owned()
+            }
             Implied::BallOnPitch => "place it where every draw lies between the lines".to_owned(),
             Implied::BesideSideLine => super::start::SIDE_LINES.to_owned(),
-            Implied::InRegion { .. } => "draw from a region whose parts have more in common".to_owned(),
+            Implied::InRegion { .. } => {
+                "draw from a region whose parts have more in common".to_owned()
+            }
             Implied::EndsOrdered { .. } => "write the lower end first".to_owned(),
             Implied::AnyWeight { .. } => "give one of the choices a weight above 0".to_owned(),
             Implied::Inside { shown, .. } => format!("keep the value in {shown}"),

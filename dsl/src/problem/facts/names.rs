@@ -9,7 +9,11 @@ facts! {
     /// Facts about names.
     pub(crate) Names {
         /// Nothing of a kind has this name.
-        Unknown { kind: Kind, name: String, guess: Guess } = kind.code() => unknown(*kind, name, guess),
+        Unknown {
+            kind: Kind,
+            name: String,
+            guess: Guess,
+        } = kind.code() => unknown(*kind, name, guess),
         /// No value in sight has this name.
         NoValue { name: String, guess: Guess } = Code::UnknownName =>
             say(format!("nothing here is called `{name}`"), "not known").guess(guess, ""),
@@ -42,7 +46,12 @@ facts! {
             }
         },
         /// A parent that nothing has; `other`: what else has the name.
-        NoParent { kind: &'static str, name: String, other: Option<&'static str>, guess: Guess } = Code::UnknownParent => {
+        NoParent {
+            kind: &'static str,
+            name: String,
+            other: Option<&'static str>,
+            guess: Guess,
+        } = Code::UnknownParent => {
             let said = say(format!("no {kind} is called `{name}`"), "extends this");
             match other {
                 Some(noun) => said.help(format!("`{name}` is {noun}")),
@@ -53,7 +62,12 @@ facts! {
         NoParentParameter { parent: String, name: String, guess: Guess } = Code::UnknownName =>
             say(format!("`{parent}` has no parameter `{name}`"), "").guess(guess, ""),
         /// A property that a value doesn't have.
-        NoProperty { text: String, noun: String, name: String, like: Like } = Code::UnknownMember => {
+        NoProperty {
+            text: String,
+            noun: String,
+            name: String,
+            like: Like,
+        } = Code::UnknownMember => {
             let said = say(format!("`{text}` ({noun}) has no property `{name}`"), "not known");
             match like {
                 Like::HasBall => said.help(format!("write `{text} has ball`")),
@@ -75,7 +89,11 @@ facts! {
         NoFormationOption { option: String } = Code::UnknownOption =>
             say(format!("a formation has no option `{option}`"), "").help("options of a team stand in `team left { … }`"),
         /// A word that is none of those a parameter can be.
-        NoneOfItsWords { word: String, parameter: Option<String>, guess: Guess } = Code::OutOfRange => {
+        NoneOfItsWords {
+            word: String,
+            parameter: Option<String>,
+            guess: Guess,
+        } = Code::OutOfRange => {
             let message = match parameter {
                 Some(name) => format!("`{word}` is none of the words `{name}` may be"),
                 None => format!("`{word}` is none of the words it may be"),
@@ -86,7 +104,8 @@ facts! {
         LikeAVerdict { label: String, meant: &'static str } = Code::LikelyTypo =>
             say(format!("`{label}` is a label, no verdict"), "neither success nor failure")
                 .help(format!("did you mean `{meant}`?")),
-        /// A name that means one thing was declared again; `what`: the name in backticks, with its kind before it.
+        /// A name that means one thing was declared again; `what`: the name in backticks, with its
+        /// kind before it.
         DeclaredTwice { what: String, first: Option<Span> } = Code::DuplicateName => {
             let said = say(format!("{what} is declared twice"), "declared again here").help(OTHER_NAME);
             match first {
@@ -108,7 +127,8 @@ facts! {
         OneNameForMany { name: String, count: u32 } = Code::DuplicateName =>
             say(format!("`{name}` would name {count} players"), "")
                 .help("leave the name out, or write one line per player"),
-        /// Something that may stand once was given again; `what`: in backticks, or with its article.
+        /// Something that may stand once was given again; `what`: in backticks, or with its
+        /// article.
         GivenTwice { what: String, first: Span } = Code::DuplicateOption =>
             say(format!("{what} is given twice"), "given again here").at(first, "first given here").help(LEAVE_ONE_OUT),
         /// A clause of a `do` stands twice.
@@ -153,7 +173,11 @@ facts! {
             say(format!("a {kind} has more than {most} parents"), "too many")
                 .help("join some of them: a child may change everything that it inherits"),
         /// `remove` of what is not inherited.
-        NothingToRemove { what: String, name: Option<String>, guess: Guess } = Code::NothingToRemove => {
+        NothingToRemove {
+            what: String,
+            name: Option<String>,
+            guess: Guess,
+        } = Code::NothingToRemove => {
             let message = match name {
                 Some(name) => format!("no {what} `{name}` is inherited"),
                 None => format!("no {what} is inherited"),
@@ -292,11 +316,14 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
     let said = say(format!("{} is called `{name}`", kind.noun()), kind.label());
     match kind {
         // What there is, and what the author may add to it.
-        Kind::Act if !guess.known.is_empty() => {
-            said.help(format!("a player can `{}`, or what a `behavior` says", guess.known.join("`, `")))
-        }
+        Kind::Act if !guess.known.is_empty() => said.help(format!(
+            "a player can `{}`, or what a `behavior` says",
+            guess.known.join("`, `")
+        )),
         Kind::Ai if guess.meant.is_none() => said.help(WHO_PLAYS),
-        Kind::Ending if guess.meant.is_none() => said.help(format!("say when it ends: `end {name} when …`")),
+        Kind::Ending if guess.meant.is_none() => {
+            said.help(format!("say when it ends: `end {name} when …`"))
+        }
         Kind::Team => said.help("write `team left` or `team right`"),
         _ => said.guess(guess, listed),
     }

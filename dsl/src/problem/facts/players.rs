@@ -64,7 +64,11 @@ facts! {
             )
             .help("list the roles of both formations in the same order"),
         /// Two players stand on one spot; `nth`: at which of several kick-offs.
-        SameSpot { players: (String, String), nth: Option<usize>, first: Span } = Code::SameSpot => {
+        SameSpot {
+            players: (String, String),
+            nth: Option<usize>,
+            first: Span,
+        } = Code::SameSpot => {
             let when = nth.map_or(String::new(), |nth| format!(" at kick-off {nth}"));
             say(format!("{} and {} stand on one spot{when}", players.0, players.1), "the same spot")
                 .at(first, "taken by this player")
@@ -87,7 +91,12 @@ facts! {
             say("an agent that is listed by name keeps its player", "")
                 .help("leave `switching` out, or ask for a number of agents: `left: 1`"),
         /// An agent that no player of the team is called.
-        NoSuchAgent { team: Team, name: String, is_anyone: bool, guess: Guess } = Code::BadAgents => {
+        NoSuchAgent {
+            team: Team,
+            name: String,
+            is_anyone: bool,
+            guess: Guess,
+        } = Code::BadAgents => {
             let said = say(format!("no player of the {team} team is called `{name}`"), "not known");
             if *is_anyone {
                 said.guess(guess, "its players with names are")
@@ -103,7 +112,12 @@ facts! {
         ListedTwice { name: String } = Code::BadAgents =>
             say(format!("`{name}` is listed twice"), "").help("leave one of them out"),
         /// More agents than players that can be controlled.
-        TooManyAgents { team: Team, asked: f64, controllable: usize, place: AskedFor } = Code::BadAgents =>
+        TooManyAgents {
+            team: Team,
+            asked: f64,
+            controllable: usize,
+            place: AskedFor,
+        } = Code::BadAgents =>
             too_many_agents(*team, *asked, *controllable, place),
     }
 }
@@ -120,7 +134,12 @@ pub(crate) enum AskedFor {
 }
 
 fn too_many_agents(team: Team, asked: f64, controllable: usize, place: &AskedFor) -> Said {
-    let said = say(format!("{asked} of the {team} team's players are asked for, {controllable} can be controlled"), "");
+    let said = say(
+        format!(
+            "{asked} of the {team} team's players are asked for, {controllable} can be controlled"
+        ),
+        "",
+    );
     match place {
         AskedFor::Nowhere => said.help("without `agents { … }` one player of the left team is controlled"),
         AskedFor::Inherited(at) => said

@@ -12,7 +12,9 @@ facts! {
         WeightZero { reward: String } = Code::NeverPays =>
             say(format!("reward `{reward}` never pays"), "times 0").help("write another weight, or leave the reward out"),
         /// A payment that no match can earn.
-        NeverPays { why: Never } = Code::NeverPays => say("this `give` never pays", "").help(why.words()),
+        NeverPays {
+            why: Never,
+        } = Code::NeverPays => say("this `give` never pays", "").help(why.words()),
         /// A payment above the limit.
         MoreThanPayable { text: String } = Code::OutOfRange =>
             say(format!("`{text}` is more than can be paid"), "").help("rewards are small numbers: `give 1`"),
@@ -80,11 +82,18 @@ impl Never {
                 format!("`{event}` never happens: write `rules {{ {rule}: {write} }}`")
             }
             Never::CompletedToOpponent => {
-                "a pass is completed to a team mate: write `pass intercepted`, or name one".to_owned()
+                "a pass is completed to a team mate: write `pass intercepted`, or name one"
+                    .to_owned()
             }
-            Never::InterceptedByMate => "an opponent intercepts a pass: write `pass completed`, or name one".to_owned(),
-            Never::Condition(Some(because)) => format!("its condition can't hold: {}", because.words()),
-            Never::Condition(None) => "its condition is never true: write another one, or leave it out".to_owned(),
+            Never::InterceptedByMate => {
+                "an opponent intercepts a pass: write `pass completed`, or name one".to_owned()
+            }
+            Never::Condition(Some(because)) => {
+                format!("its condition can't hold: {}", because.words())
+            }
+            Never::Condition(None) => {
+                "its condition is never true: write another one, or leave it out".to_owned()
+            }
             Never::Several => "its condition can't hold: look at each of its values".to_owned(),
         }
     }

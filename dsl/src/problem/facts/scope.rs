@@ -1,4 +1,5 @@
-//! What is known elsewhere, but not where it was used: before the match, outside a block, in an observation.
+//! What is known elsewhere, but not where it was used: before the match, outside a block, in an
+//! observation.
 
 use super::facts;
 use crate::problem::Code;
@@ -97,8 +98,7 @@ facts! {
 }
 
 const IN_A_REWARD: &str = "use it in a `reward` or an `end`";
-const BEFORE_THE_FIRST_STEP: &str =
-    "a state's first value is known before the first step: begin with a number, and assign the state further down";
+const BEFORE_THE_FIRST_STEP: &str = "a state's first value is known before the first step: begin with a number, and assign the state further down";
 
 /// Why nobody's view is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -62,7 +62,12 @@ facts! {
         NoSideLine = Code::OutOfRange =>
             say("a throw-in is taken from a side line", "lies elsewhere").help(SIDE_LINES),
         /// A place off the pitch; `at`: metres.
-        OffPitch { what: String, text: String, at: (f64, f64), size: (f64, f64) } = Code::OffPitch => {
+        OffPitch {
+            what: String,
+            text: String,
+            at: (f64, f64),
+            size: (f64, f64),
+        } = Code::OffPitch => {
             let ((x, y), (length, width)) = (at, size);
             say(format!("{what} is off the pitch: `{text}` is ({x:.1}m, {y:.1}m)"), "").help(format!(
                 "the pitch is {length}m by {width}m, or normalised from (-1.01, -0.43) to (1.01, 0.43)"

@@ -8,8 +8,14 @@ use crate::source::Span;
 facts! {
     /// Facts about syntax.
     pub(crate) Syntax {
-        /// Something else was expected. `wanted`: nouns, see [`listed`]; `found`: empty at the end of the file.
-        Expected { wanted: Vec<&'static str>, found: String, begins: bool, hint: Hint } = Code::Syntax => {
+        /// Something else was expected. `wanted`: nouns, see [`listed`]; `found`: empty at the end
+        /// of the file.
+        Expected {
+            wanted: Vec<&'static str>,
+            found: String,
+            begins: bool,
+            hint: Hint,
+        } = Code::Syntax => {
             let found = if found.is_empty() { "the end of the file".to_owned() } else { format!("`{found}`") };
             let label = if *begins { "no statement begins like this" } else { "this can't stand here" };
             hint.add(say(format!("expected {}, found {found}", listed(wanted)), label))
@@ -17,8 +23,14 @@ facts! {
         /// The text ends, or its statement, where something was expected.
         Unfinished { wanted: Vec<&'static str>, last: String, hint: Hint } = Code::Syntax =>
             hint.add(say(format!("expected {} behind `{last}`", bare(&listed(wanted))), "something is missing")),
-        /// A word that belongs to other statements; `habit`: how another language's word is written.
-        Misplaced { word: String, place: &'static str, owner: &'static str, habit: Option<String> } = Code::Syntax => {
+        /// A word that belongs to other statements; `habit`: how another language's word is
+        /// written.
+        Misplaced {
+            word: String,
+            place: &'static str,
+            owner: &'static str,
+            habit: Option<String>,
+        } = Code::Syntax => {
             let said = say(format!("`{word}` can't stand in {place}"), "not here");
             match habit {
                 Some(habit) => said.help(habit.as_str()),

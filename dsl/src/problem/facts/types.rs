@@ -13,10 +13,20 @@ facts! {
     /// Facts about types and units.
     pub(crate) Types {
         /// A value of another type than its place wants.
-        Mismatch { wanted: Ty, found: Ty, text: String, instead: Instead } = code(*wanted, *found) =>
+        Mismatch {
+            wanted: Ty,
+            found: Ty,
+            text: String,
+            instead: Instead,
+        } = code(*wanted, *found) =>
             mismatch(*wanted, *found, text, instead),
         /// The two values of a choice have no type in common.
-        ChoiceMismatch { wanted: Ty, found: Ty, text: String, other: Span } = code(*wanted, *found) =>
+        ChoiceMismatch {
+            wanted: Ty,
+            found: Ty,
+            text: String,
+            other: Span,
+        } = code(*wanted, *found) =>
             mismatch(*wanted, *found, text, &Instead::Usual).at(other, wanted.noun()),
         /// An event's `by` or `to` is neither a team nor a player.
         NeitherTeamNorPlayer { found: Ty, text: String } = Code::WrongType =>
@@ -29,7 +39,8 @@ facts! {
             say(disagreement(*verb, left, right), right.ty.noun())
                 .at(&left.span, left.ty.noun())
                 .help(agree(*verb, left, right)),
-        /// `a + b` of two points; `offset`: the name of the second one, if it is a point that could be an offset.
+        /// `a + b` of two points; `offset`: the name of the second one, if it is a point that could
+        /// be an offset.
         PointsAdded { offset: Option<String> } = Code::WrongType => {
             let said = say("two points can't be added", "");
             match offset {
@@ -46,7 +57,8 @@ facts! {
             } else {
                 "write both coordinates normalised, `(0.5, 0.1)`, or both in metres, `(27m, 8m)`"
             };
-            let ((first_noun, noun), (text, other_text)) = ((first.ty.noun(), other.ty.noun()), (&first.text, &other.text));
+            let (first_noun, noun) = (first.ty.noun(), other.ty.noun());
+            let (text, other_text) = (&first.text, &other.text);
             say(format!("`{text}` is {first_noun}, `{other_text}` {noun}: a point has one unit"), noun)
                 .at(&first.span, first_noun)
                 .help(help)
@@ -213,7 +225,11 @@ fn code(one: Ty, other: Ty) -> Code {
 /// "expected a length, found `3s` (a duration)"
 fn expected(wanted: &str, found: Ty, text: &str) -> Said {
     let noun = found.noun();
-    let what = if text.is_empty() || text.chars().count() > TEXT_MAX { noun } else { format!("`{text}` ({noun})") };
+    let what = if text.is_empty() || text.chars().count() > TEXT_MAX {
+        noun
+    } else {
+        format!("`{text}` ({noun})")
+    };
     say(format!("expected {wanted}, found {what}"), found.noun())
 }
 
@@ -225,22 +241,36 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
             None => said,
         },
         Instead::Condition => said.help(match found {
-            Ty::Team | Ty::Player => "compare it, as in `possession == left`, or write `… has ball`",
+            Ty::Team | Ty::Player => {
+                "compare it, as in `possession == left`, or write `… has ball`"
+            }
             ty if ty.dim().is_some() => "compare it with something: `… > 0`",
-            ty if ty.is_place() || ty == Ty::Region => "ask where something is: `ball in right.box`",
+            ty if ty.is_place() || ty == Ty::Region => {
+                "ask where something is: `ball in right.box`"
+            }
             _ => "write a condition, for example `us has ball`",
         }),
         Instead::Repeated { condition } => said.help(format!("write `{condition}`")),
         Instead::In { text } => said.help(format!("write `in {text}`")),
         Instead::At { text } => said.help(format!("write `at {text}`")),
         Instead::PointInBrackets => said.help("a point stands in brackets: `at (0.5, 0.1)`"),
-        Instead::Coordinate => said.help("a point is written `(0.5, 0.1)` or `(27m, 8m)`, a velocity `(5m/s, 0m/s)`"),
+        Instead::Coordinate => {
+            said.help("a point is written `(0.5, 0.1)` or `(27m, 8m)`, a velocity `(5m/s, 0m/s)`")
+        }
         Instead::Facing { text } => said.help(format!("write an angle, `{text}deg`, or a point")),
-        Instead::Recorded => said.help("a record holds a number, a length, a duration, a place or a condition"),
-        Instead::Measured { kind } => said.help(format!("`{kind} of` takes a number, a length, a duration, …")),
-        Instead::Observed => said.help("an observation holds numbers, quantities, conditions, places and vectors"),
+        Instead::Recorded => {
+            said.help("a record holds a number, a length, a duration, a place or a condition")
+        }
+        Instead::Measured { kind } => {
+            said.help(format!("`{kind} of` takes a number, a length, a duration, …"))
+        }
+        Instead::Observed => {
+            said.help("an observation holds numbers, quantities, conditions, places and vectors")
+        }
         Instead::HalfTime => said.help("write `half_time: off` or `half_time: 1500 steps`"),
-        Instead::Agents => said.help("write a number, `all`, or a list of names: `[striker, winger]`"),
+        Instead::Agents => {
+            said.help("write a number, `all`, or a list of names: `[striker, winger]`")
+        }
     }
 }
 
@@ -248,11 +278,14 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
 fn usual(wanted: Ty, found: Ty) -> Option<String> {
     let both_numbers = found.dim().is_some() && wanted.dim().is_some();
     match (found, wanted) {
-        (Ty::LENGTH, Ty::Number) => {
-            Some("divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units".to_owned())
-        }
+        (Ty::LENGTH, Ty::Number) => Some(
+            "divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units"
+                .to_owned(),
+        ),
         (Ty::Number, Ty::Int) => Some("write a whole number".to_owned()),
-        (_, Ty::Number) if both_numbers => Some("divide by a value of the same unit to get a plain number".to_owned()),
+        (_, Ty::Number) if both_numbers => {
+            Some("divide by a value of the same unit to get a plain number".to_owned())
+        }
         (_, wanted) if found.is_plain() && both_numbers => {
             wanted.example().map(|example| format!("write the unit: `{example}`"))
         }
@@ -266,7 +299,13 @@ fn disagreement(verb: Verb, left: &Operand, right: &Operand) -> String {
         Verb::Add => "added",
         Verb::Subtract => "subtracted",
     };
-    format!("`{}` is {}, `{}` {}: they can't be {done}", left.text, left.ty.noun(), right.text, right.ty.noun())
+    format!(
+        "`{}` is {}, `{}` {}: they can't be {done}",
+        left.text,
+        left.ty.noun(),
+        right.text,
+        right.ty.noun()
+    )
 }
 
 /// How two operands can be made to agree.
@@ -293,12 +332,17 @@ fn agree(verb: Verb, left: &Operand, right: &Operand) -> String {
         (Ty::Player | Ty::Team | Ty::Set, _, _) if right.is_quoted => {
             format!("a name stands without quotes: `{}`", text_b.trim_matches('"'))
         }
-        (Ty::Player, Ty::Team | Ty::Set, _) if is_compared => format!("write `{text_a} in {text_b}`"),
+        (Ty::Player, Ty::Team | Ty::Set, _) if is_compared => {
+            format!("write `{text_a} in {text_b}`")
+        }
         (ty, Ty::Point | Ty::Player | Ty::Ball, _) if ty.is_place() && is_compared => {
             format!("write `distance({text_a}, {text_b}) < 1m`")
         }
-        (ty, Ty::Region, _) if ty.is_place() && is_compared => format!("write `{text_a} in {text_b}`"),
+        (ty, Ty::Region, _) if ty.is_place() && is_compared => {
+            format!("write `{text_a} in {text_b}`")
+        }
         _ if is_compared => "both sides must be of one kind".to_owned(),
-        _ => "numbers, vectors and regions can be added and subtracted, each with its like".to_owned(),
+        _ => "numbers, vectors and regions can be added and subtracted, each with its like"
+            .to_owned(),
     }
 }

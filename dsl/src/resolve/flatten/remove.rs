@@ -17,7 +17,9 @@ impl<'a> Adding<'a, '_> {
             let span = name.as_ref().map_or(stmt.span, |name| name.span);
             let candidates: Vec<&str> = match what.node.as_str() {
                 "reward" => self.flat.rewards.iter().map(|(name, _, _)| name.as_str()).collect(),
-                "record" => self.flat.records.iter().map(|known| known.name.node.as_str()).collect(),
+                "record" => {
+                    self.flat.records.iter().map(|known| known.name.node.as_str()).collect()
+                }
                 "end" => self.flat.ends.iter().filter_map(|end| Some(end.label?.bare())).collect(),
                 "require" => self.flat.requires.iter().filter_map(|stmt| label(stmt)).collect(),
                 _ => Vec::new(),
@@ -42,7 +44,9 @@ impl<'a> Adding<'a, '_> {
                     |label| label.bare() == name,
                 )
             }),
-            ("require", Some(name)) => removed(&mut flat.requires, |stmt| label(stmt) == Some(name)),
+            ("require", Some(name)) => {
+                removed(&mut flat.requires, |stmt| label(stmt) == Some(name))
+            }
             _ => false,
         }
     }

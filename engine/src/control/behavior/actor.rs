@@ -107,7 +107,11 @@ impl Actor {
     }
 
     /// Writes or reads what the player remembers.
-    pub(crate) fn archive(&mut self, archive: &mut Archive<'_>, shelf: &mut Shelf) -> Result<(), SnapshotError> {
+    pub(crate) fn archive(
+        &mut self,
+        archive: &mut Archive<'_>,
+        shelf: &mut Shelf,
+    ) -> Result<(), SnapshotError> {
         let Thread { player: _, at, interrupted, steps, turned, memories } = &mut self.thread;
         archive.slots("cells", &mut self.cells)?;
         archive.value("at", at)?;
@@ -183,8 +187,10 @@ impl<'a> BehaviorMind<'a> {
         let [drawn] = self.machine.cells[*count as usize];
         self.machine.cells[*count as usize] = [drawn + 1.0];
         // Players of one behaviour draw independently.
-        let own = key.wrapping_add((u64::from(self.player.0) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        self.machine.draws = Some(DrawKey { seed: self.seed, index: self.index, attempt: drawn as u32 });
+        let own =
+            key.wrapping_add((u64::from(self.player.0) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        self.machine.draws =
+            Some(DrawKey { seed: self.seed, index: self.index, attempt: drawn as u32 });
         self.machine.cells[*cell as usize] = [self.machine.draw(own, from)];
         self.stale = true;
     }
@@ -213,7 +219,9 @@ impl Thread {
         // Watches are checked before anything the player would do.
         self.look_out(plan, mind);
         for _ in 0..NODES_PER_STEP {
-            let Some(node) = plan.nodes.get(self.at.node as usize) else { return Ok(Action::BuiltinAi) };
+            let Some(node) = plan.nodes.get(self.at.node as usize) else {
+                return Ok(Action::BuiltinAi);
+            };
             match node {
                 Node::Do(_) if self.look_out(plan, mind) => {}
                 Node::Do(doing) => match self.act(doing, mind, game, scene)? {
@@ -251,7 +259,9 @@ impl Thread {
                         return Ok(Action::Idle);
                     }
                 }
-                Node::Return => self.at = self.interrupted.pop().unwrap_or(NodeProgress::at(u32::MAX)),
+                Node::Return => {
+                    self.at = self.interrupted.pop().unwrap_or(NodeProgress::at(u32::MAX))
+                }
                 Node::Finish { from, to } => self.leave(*from, *to),
             }
         }
@@ -340,14 +350,22 @@ impl Thread {
                 let arguments: Vec<Argument<'_>> = args
                     .iter()
                     .map(|arg| {
-                        let value =
-                            |mind: &mut BehaviorMind<'_>, i: usize| arg.regs.get(i).map_or(0.0, |reg| mind.value(*reg));
-                        Argument { name: &arg.name, ty: arg.ty, values: [value(mind, 0), value(mind, 1)] }
+                        let value = |mind: &mut BehaviorMind<'_>, i: usize| {
+                            arg.regs.get(i).map_or(0.0, |reg| mind.value(*reg))
+                        };
+                        Argument {
+                            name: &arg.name,
+                            ty: arg.ty,
+                            values: [value(mind, 0), value(mind, 1)],
+                        }
                     })
                     .collect();
                 let node = self.at.node;
-                let Some((_, memory)) = self.memories.iter_mut().find(|(at, _)| *at == node) else { return Ok(None) };
-                let perspective = Perspective { us: self.player.team(), me: Some(self.player), agent: 0 };
+                let Some((_, memory)) = self.memories.iter_mut().find(|(at, _)| *at == node) else {
+                    return Ok(None);
+                };
+                let perspective =
+                    Perspective { us: self.player.team(), me: Some(self.player), agent: 0 };
                 let action = scripts.act(*script, scene, perspective, &arguments, memory)?;
                 self.at.steps += 1;
                 return Ok(Some(action));

@@ -69,14 +69,20 @@ pub enum WishStep {
 }
 
 /// The next press of a wish.
-pub fn perform(game: &Match, id: PlayerId, wish: Wish, sprint: bool, frame: &mut NodeProgress) -> WishStep {
+pub fn perform(
+    game: &Match,
+    id: PlayerId,
+    wish: Wish,
+    sprint: bool,
+    frame: &mut NodeProgress,
+) -> WishStep {
     let body = Legs { game, id, held: game.play.acting[id.index()].sticky, sprint };
     match wish {
         Wish::MoveTo(to) => body.to(to, Gait::Run),
         Wish::Run(angle) if angle.is_nan() => WishStep::Impossible,
-        Wish::Run(angle) => {
-            WishStep::Act(body.along(Vec2::new(libm::cosf(angle), libm::sinf(angle)) * 100.0, Gait::Run))
-        }
+        Wish::Run(angle) => WishStep::Act(
+            body.along(Vec2::new(libm::cosf(angle), libm::sinf(angle)) * 100.0, Gait::Run),
+        ),
         Wish::DribbleTo(_) if !has_claim(game, id) => WishStep::Ended,
         Wish::DribbleTo(to) => body.to(to, Gait::Dribble),
         Wish::Pass(kick, mate) => body.pass(kick, mate, frame),
@@ -95,7 +101,8 @@ pub fn perform(game: &Match, id: PlayerId, wish: Wish, sprint: bool, frame: &mut
 fn has_claim(game: &Match, id: PlayerId) -> bool {
     let near = game.player(id).pos.distance(game.ball.pos.truncate()) < NEAR_M;
     let taker = game.play.set_piece.is_some_and(|set_piece| set_piece.taker == id);
-    game.controller() == Some(id) || ((near || taker || game.owner == Some(id)) && may_play(game, id))
+    game.controller() == Some(id)
+        || ((near || taker || game.owner == Some(id)) && may_play(game, id))
 }
 
 /// A player and what they hold.
@@ -140,7 +147,9 @@ impl Legs<'_> {
 
     fn pass(&self, kick: Action, mate: Option<PlayerId>, frame: &mut NodeProgress) -> WishStep {
         let mate = mate.filter(|mate| *mate != self.id && mate.team() == self.id.team());
-        let Some(mate) = mate.filter(|mate| self.game.player(*mate).active) else { return WishStep::Ended };
+        let Some(mate) = mate.filter(|mate| self.game.player(*mate).active) else {
+            return WishStep::Ended;
+        };
         if let Some(step) = self.swinging(frame) {
             return step;
         }
@@ -169,7 +178,8 @@ impl Legs<'_> {
         if meant.is_nan() {
             return WishStep::Impossible;
         }
-        let off = |dir: Option<Vec2>| shot::aim_of(from, side, dir.map(|dir| dir * side)).distance(meant);
+        let off =
+            |dir: Option<Vec2>| shot::aim_of(from, side, dir.map(|dir| dir * side)).distance(meant);
         let held = sticky::direction(self.held);
         // Without a point, anything between the posts will do.
         if at.is_none() && off(held) < GOAL_HALF_WIDTH_M as f32 {
@@ -212,7 +222,11 @@ impl Legs<'_> {
 
     fn tackle(&self, frame: &NodeProgress) -> WishStep {
         let ours = self.owner().is_some_and(|owner| owner.team() == self.id.team());
-        if ours || frame.steps >= TACKLE_STEPS { WishStep::Ended } else { WishStep::Act(self.to_ball()) }
+        if ours || frame.steps >= TACKLE_STEPS {
+            WishStep::Ended
+        } else {
+            WishStep::Act(self.to_ball())
+        }
     }
 
     fn slide(&self, frame: &mut NodeProgress) -> WishStep {

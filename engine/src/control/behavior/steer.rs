@@ -25,7 +25,8 @@ const FINE_M: f32 = 3.0;
 /// The press that brings the player towards a target; own frame, metres.
 pub fn towards(held: u16, way: Vec2, gait: Gait) -> Action {
     let near = way.length() < FINE_M;
-    let kept = sticky::direction(held).is_some_and(|dir| dir.dot(way.normalize_or_zero()) > KEEP_COS);
+    let kept =
+        sticky::direction(held).is_some_and(|dir| dir.dot(way.normalize_or_zero()) > KEEP_COS);
     if kept && !near {
         return pace(held, gait);
     }
@@ -68,7 +69,10 @@ mod tests {
     #[test]
     fn a_way_is_taken_by_the_nearest_direction_then_the_gait() {
         let (held, presses) = settled(0, Vec2::new(10.0, 1.0), Gait::Sprint);
-        assert_eq!((sticky::direction(held), sticky::sprints(held), presses), (Some(Vec2::X), true, 2));
+        assert_eq!(
+            (sticky::direction(held), sticky::sprints(held), presses),
+            (Some(Vec2::X), true, 2)
+        );
         let (held, _) = settled(held, Vec2::new(10.0, 9.0), Gait::Dribble);
         let direction = sticky::direction(held).expect("a direction");
         assert!(direction.x > 0.7 && direction.y > 0.7);
@@ -78,7 +82,9 @@ mod tests {
     #[test]
     fn a_way_on_the_border_of_two_directions_does_not_flutter() {
         let held = sticky::next(0, Action::Right);
-        let at = |degrees: f32| Vec2::new(libm::cosf(degrees.to_radians()), libm::sinf(degrees.to_radians()));
+        let at = |degrees: f32| {
+            Vec2::new(libm::cosf(degrees.to_radians()), libm::sinf(degrees.to_radians()))
+        };
         assert_eq!(towards(held, at(26.0) * 20.0, Gait::Run), Action::Idle);
         assert_eq!(towards(held, at(32.0) * 20.0, Gait::Run), Action::BottomRight);
         // The last metres are steered exactly.
@@ -87,7 +93,8 @@ mod tests {
 
     #[test]
     fn rest_releases_all_that_is_held() {
-        let mut held = [Action::Top, Action::Sprint, Action::Dribble].into_iter().fold(0, sticky::next);
+        let mut held =
+            [Action::Top, Action::Sprint, Action::Dribble].into_iter().fold(0, sticky::next);
         for _ in 0..3 {
             held = sticky::next(held, rest(held));
         }

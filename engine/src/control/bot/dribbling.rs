@@ -34,8 +34,10 @@ pub fn way(game: &Match, view: &TeamView, id: PlayerId, shy: f32) -> Vec2 {
         let rival = game.player(rival);
         forces.push::<8>((rival.pos + rival.vel * AHEAD_S) * view.side, RIVAL.0 * shy, RIVAL.1);
     }
-    let side_line = Vec2::new(own.x, math::sign_or(own.y, 1.0) * (HALF_WIDTH_M as f32 + LINE_OUT_M));
-    let goal_line = Vec2::new(math::sign_or(own.x, 1.0) * (HALF_LENGTH_M as f32 + LINE_OUT_M), own.y);
+    let side_line =
+        Vec2::new(own.x, math::sign_or(own.y, 1.0) * (HALF_WIDTH_M as f32 + LINE_OUT_M));
+    let goal_line =
+        Vec2::new(math::sign_or(own.x, 1.0) * (HALF_LENGTH_M as f32 + LINE_OUT_M), own.y);
     forces.push::<LINE_FADES>(side_line, LINE.0, LINE.1);
     forces.push::<LINE_FADES>(goal_line, LINE.0, LINE.1);
     let near = (own.x.abs() / GOAL.x).min(1.0);

@@ -35,10 +35,22 @@ struct BlockWish {
     drawn: f32,
 }
 
-const ATTACK: BlockWish =
-    BlockWish { depth: 0.868, width: 0.948, back: 0.04, midfield: 0.828, by_side: 0.176, drawn: 0.826 };
-const DEFENCE: BlockWish =
-    BlockWish { depth: 0.71, width: 0.84, back: 0.08, midfield: 0.776, by_side: 0.332, drawn: 0.938 };
+const ATTACK: BlockWish = BlockWish {
+    depth: 0.868,
+    width: 0.948,
+    back: 0.04,
+    midfield: 0.828,
+    by_side: 0.176,
+    drawn: 0.826,
+};
+const DEFENCE: BlockWish = BlockWish {
+    depth: 0.71,
+    width: 0.84,
+    back: 0.08,
+    midfield: 0.776,
+    by_side: 0.332,
+    drawn: 0.938,
+};
 /// How strongly midfielders follow.
 const MIDFIELD_KEEN: f32 = 0.35;
 
@@ -83,7 +95,8 @@ pub fn swap_slots(game: &mut Match, view: &TeamView) {
         }
     }
     let field = &field[..count];
-    let soon = |id: PlayerId| (game.player(id).pos + game.player(id).vel * SWAP_AHEAD_S) * view.side;
+    let soon =
+        |id: PlayerId| (game.player(id).pos + game.player(id).vel * SWAP_AHEAD_S) * view.side;
     let mut places = [Vec2::ZERO; TEAM_MAX];
     for (place, &id) in places.iter_mut().zip(field) {
         *place = soon(id);
@@ -144,11 +157,16 @@ impl Outlook {
         let depth = DEPTH * both(attack.depth, defence.depth);
         let width = WIDTH * both(attack.width, defence.width);
         let dares = 0.3 * view.daring;
-        let by_side = both((attack.by_side - 0.3 + dares).clamp(0.0, 1.0), (defence.by_side - dares).clamp(0.0, 1.0));
-        let middle_x = (mix(ball.x, side_x, by_side) - HALF.x * both(attack.back, defence.back)).clamp(-HALF.x, HALF.x);
+        let by_side = both(
+            (attack.by_side - 0.3 + dares).clamp(0.0, 1.0),
+            (defence.by_side - dares).clamp(0.0, 1.0),
+        );
+        let middle_x = (mix(ball.x, side_x, by_side) - HALF.x * both(attack.back, defence.back))
+            .clamp(-HALF.x, HALF.x);
         let middle_x = middle_x * (0.95 * (1.0 - depth) + 0.05);
         let middle_y = ball.y.clamp(-HALF.y, HALF.y) * (0.9 * (1.0 - width) + 0.1);
-        let (back, front) = ((middle_x - depth * HALF.x).max(view.trap_x), middle_x + depth * HALF.x);
+        let (back, front) =
+            ((middle_x - depth * HALF.x).max(view.trap_x), middle_x + depth * HALF.x);
         // The action, as attackers and as defenders see it.
         let ahead = Vec2::new((focus.x + 1.0).min(HALF.x), 0.9 * focus.y);
         let behind = Vec2::new((focus.x - 2.0).max(-HALF.x).min(-back), 0.9 * focus.y);
@@ -160,7 +178,10 @@ impl Outlook {
             middle_y,
             towards_x: (0.0, 0.0),
             towards_y: (ball.y, both(0.5, 0.2)),
-            towards: (behind.lerp(ahead, attacks), both(attack.drawn, defence.drawn) * (0.2 + 0.8 * draws)),
+            towards: (
+                behind.lerp(ahead, attacks),
+                both(attack.drawn, defence.drawn) * (0.2 + 0.8 * draws),
+            ),
             midfield: (2.0 * midfield - 1.0, MIDFIELD_KEEN),
         };
         block.place(filled.body.mind.slot).clamp(-HALF, HALF)

@@ -155,16 +155,18 @@ fn shooting_m(place: Vec2, from_m: f32) -> f32 {
 fn nearest_mate_m(game: &Match, view: &TeamView, id: PlayerId, place: Vec2, left_m: f32) -> f32 {
     let point = place + (-GOAL - place).normalize_or_zero() * left_m;
     let mates = game.team(view.team).filter(|(mate, _)| *mate != id);
-    mates.fold(f32::MAX, |least, (_, mate)| least.min(((mate.pos + mate.vel * 0.24) * view.side).distance(point)))
+    mates.fold(f32::MAX, |least, (_, mate)| {
+        least.min(((mate.pos + mate.vel * 0.24) * view.side).distance(point))
+    })
 }
 
 /// How much a second opponent near the goal keeps the keeper on the line, 0..0.7.
 fn second_danger(game: &Match, view: &TeamView, id: PlayerId, rival: PlayerId, left_m: f32) -> f32 {
     let others = game.team(view.team.other()).filter(|(other, _)| *other != rival);
     let place_of = |other: &Player| (other.pos + other.vel * MEET_S) * view.side;
-    let near = others
-        .map(|(_, other)| place_of(other))
-        .reduce(|best, next| if next.distance_squared(-GOAL) < best.distance_squared(-GOAL) { next } else { best });
+    let near = others.map(|(_, other)| place_of(other)).reduce(|best, next| {
+        if next.distance_squared(-GOAL) < best.distance_squared(-GOAL) { next } else { best }
+    });
     let Some(place) = near else { return 0.0 };
     let second_m = shooting_m(place, SECOND_SHOOTS_M);
     let open = (0.5 * (nearest_mate_m(game, view, id, place, second_m) - second_m)).clamp(0.0, 1.0);
@@ -185,8 +187,10 @@ fn comes_out(game: &Match, view: &TeamView, id: PlayerId) -> bool {
     let player = game.player(id);
     let meet = player.body.meet * view.side;
     let rivals = TeamView::soonest(game, view.team.other());
-    let mates =
-        game.team(view.team).filter(|(mate, _)| *mate != id).fold(f32::MAX, |least, (_, p)| least.min(p.body.meet_s));
+    let mates = game
+        .team(view.team)
+        .filter(|(mate, _)| *mate != id)
+        .fold(f32::MAX, |least, (_, p)| least.min(p.body.meet_s));
     let lone = game.team(view.team).count() == 1;
     let in_box = meet.x < -39.5 && meet.y.abs() < 19.5;
     let lead_s = match (lone, in_box, meet.x < FAR_OUT_M) {

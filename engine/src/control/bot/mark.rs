@@ -44,11 +44,13 @@ pub fn assign(game: &mut Match, view: &TeamView) {
             let far = (game.player(id).pos * view.side).distance(aim) / (2.0 * GOAL.x);
             0.95 * (1.0 - far.min(1.0)) + if carrier == Some(id) { 0.05 } else { 0.0 }
         };
-        let open = game.team(view.team.other()).map(|(id, _)| id).filter(|id| marked & (1 << id.0) == 0);
+        let open =
+            game.team(view.team.other()).map(|(id, _)| id).filter(|id| marked & (1 << id.0) == 0);
         let Some(rival) = best(open, danger) else { return };
         marked |= 1 << rival.0;
-        let free =
-            game.team(view.team).filter(|(_, player)| player.role != Role::GK && player.body.mind.mark.is_none());
+        let free = game
+            .team(view.team)
+            .filter(|(_, player)| player.role != Role::GK && player.body.mind.mark.is_none());
         let worth = |id: PlayerId| worth(game, view, id, rival);
         let Some(marker) = best(free.map(|(id, _)| id), worth) else { return };
         game.players[marker.index()].body.mind.mark = Some(rival);

@@ -51,14 +51,22 @@ fn limit(ways: &Ways, count: usize) -> i32 {
 fn is_possible(ways: &Ways, count: usize, limit: i32) -> bool {
     let mut near = [0u32; TEAM_MAX];
     for (near, row) in near.iter_mut().zip(&ways[..count]) {
-        *near = row[..count].iter().enumerate().fold(0, |near, (place, way)| near | u32::from(*way < limit) << place);
+        *near = row[..count]
+            .iter()
+            .enumerate()
+            .fold(0, |near, (place, way)| near | u32::from(*way < limit) << place);
     }
     let mut whose = [usize::MAX; TEAM_MAX];
     (0..count).all(|player| finds_place(&near, &mut whose, player, &mut 0))
 }
 
 /// Whether a player finds a place, if others move on where they can.
-fn finds_place(near: &[u32; TEAM_MAX], whose: &mut [usize; TEAM_MAX], player: usize, seen: &mut u32) -> bool {
+fn finds_place(
+    near: &[u32; TEAM_MAX],
+    whose: &mut [usize; TEAM_MAX],
+    player: usize,
+    seen: &mut u32,
+) -> bool {
     loop {
         let open = near[player] & !*seen;
         if open == 0 {
@@ -131,7 +139,9 @@ mod tests {
         if count == 0 {
             return vec![Vec::new()];
         }
-        let add = |rest: Vec<usize>| (0..count).map(move |at| [&rest[..at], &[count - 1], &rest[at..]].concat());
+        let add = |rest: Vec<usize>| {
+            (0..count).map(move |at| [&rest[..at], &[count - 1], &rest[at..]].concat())
+        };
         all(count - 1).into_iter().flat_map(add).collect()
     }
 
@@ -148,10 +158,17 @@ mod tests {
             ways.iter_mut().flatten().for_each(|way| *way = roll());
             let limit = limit(&ways, count);
             let found = matching(&ways, count);
-            let sum =
-                |places: &[usize]| places.iter().enumerate().map(|(player, place)| ways[player][*place]).sum::<i32>();
-            let fits = |places: &[usize]| places.iter().enumerate().all(|(player, place)| ways[player][*place] < limit);
-            let best = all(count).into_iter().filter(|places| fits(places)).map(|places| sum(&places)).min();
+            let sum = |places: &[usize]| {
+                places.iter().enumerate().map(|(player, place)| ways[player][*place]).sum::<i32>()
+            };
+            let fits = |places: &[usize]| {
+                places.iter().enumerate().all(|(player, place)| ways[player][*place] < limit)
+            };
+            let best = all(count)
+                .into_iter()
+                .filter(|places| fits(places))
+                .map(|places| sum(&places))
+                .min();
             assert!(fits(&found[..count]), "{count}: {found:?}");
             assert_eq!(Some(sum(&found[..count])), best);
         }

@@ -52,7 +52,14 @@ pub fn of_pass(game: &Match, view: &TeamView, id: PlayerId, mate: PlayerId, kind
 
 /// How likely a ball to a point of the own frame gets there, 0..1. `speed`: how much faster it is
 /// than a pass.
-pub fn of_way(game: &Match, view: &TeamView, id: PlayerId, to: Vec2, kind: KickKind, speed: f32) -> f32 {
+pub fn of_way(
+    game: &Match,
+    view: &TeamView,
+    id: PlayerId,
+    to: Vec2,
+    kind: KickKind,
+    speed: f32,
+) -> f32 {
     let player = game.player(id);
     let from = (player.pos + player.vel * 0.12) * view.side;
     let way = to - from;

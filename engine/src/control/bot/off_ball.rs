@@ -28,7 +28,9 @@ struct Manner {
 
 fn manner(role: Role) -> Manner {
     match role {
-        Role::CB | Role::LB | Role::RB => Manner { own_slot: 1.0, helps: (0.2, 0.9), marks: 1.9, holds_line: true },
+        Role::CB | Role::LB | Role::RB => {
+            Manner { own_slot: 1.0, helps: (0.2, 0.9), marks: 1.9, holds_line: true }
+        }
         Role::CF => Manner { own_slot: 0.8, helps: (0.1, 0.6), marks: 1.3, holds_line: false },
         _ => Manner { own_slot: 0.9, helps: (0.1, 0.7), marks: 1.5, holds_line: true },
     }
@@ -88,7 +90,11 @@ fn lazily(game: &Match, view: &TeamView, id: PlayerId, wanted_mps: f32) -> f32 {
     let mind = mindset(game.player(player.body.mind.fills).role);
     let ours = (view.nearness_of(game, id) - 0.5).clamp(0.0, 1.0);
     let lazy = far * (0.5 + 0.5 * (mind + ours * (1.0 - 2.0 * mind)));
-    let wants = if wanted_mps > SPRINT_MPS { SPRINT_MPS + 0.1 * (wanted_mps - SPRINT_MPS) } else { wanted_mps };
+    let wants = if wanted_mps > SPRINT_MPS {
+        SPRINT_MPS + 0.1 * (wanted_mps - SPRINT_MPS)
+    } else {
+        wanted_mps
+    };
     let mut runs = wants * (1.0 - lazy);
     if wanted_mps >= 3.5 {
         runs = runs.max(3.5);

@@ -71,7 +71,8 @@ pub fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
     if is_decided(game, id) {
         return;
     }
-    game.players[id.index()].body.dribble = dribbling::way(game, view, id, 1.0 - DARES * long(game, id));
+    game.players[id.index()].body.dribble =
+        dribbling::way(game, view, id, 1.0 - DARES * long(game, id));
     match choose(game, view, id) {
         Some(act) => perform(game, view, id, act),
         None => game.players[id.index()].body.kick = None,
@@ -85,10 +86,13 @@ pub fn set_off(game: &Match, id: PlayerId) -> Option<Vec2> {
     touch::waits_at_ball(game, player).then_some(ahead * SETS_OFF_MPS)
 }
 
-/// Whether a player sticks to the kick they have in mind: a clearance is thought over until the leg swings, as the danger
-/// may be past.
+/// Whether a player sticks to the kick they have in mind: a clearance is thought over until the leg
+/// swings, as the danger may be past.
 fn is_decided(game: &Match, id: PlayerId) -> bool {
-    game.player(id).body.kick.is_some_and(|plan| plan.kind != KickKind::Clear || plan.swing.is_some())
+    game.player(id)
+        .body
+        .kick
+        .is_some_and(|plan| plan.kind != KickKind::Clear || plan.swing.is_some())
 }
 
 /// Decides for the player who will have the ball soon.
@@ -137,7 +141,8 @@ fn long(game: &Match, id: PlayerId) -> f32 {
 
 /// How long a player has had the ball, seconds.
 fn had_s(game: &Match, id: PlayerId) -> f32 {
-    let ticks = if game.owner == Some(id) { game.tick.saturating_sub(game.play.owned_since) } else { 0 };
+    let ticks =
+        if game.owner == Some(id) { game.tick.saturating_sub(game.play.owned_since) } else { 0 };
     ticks as f32 * 0.01
 }
 
@@ -212,7 +217,8 @@ fn shot(game: &mut Match, view: &TeamView, id: PlayerId) -> Option<Vec2> {
     let chance = |y: f32| odds::of_way(game, view, id, at(y), KickKind::Shot, SHOT_SPEED);
     let middle = (chance(0.0), 0.0);
     let best = [(chance(-3.6), -PLACED_M), (chance(3.6), PLACED_M)];
-    let (odds, y) = best.into_iter().fold(middle, |best, next| if next.0 > best.0 { next } else { best });
+    let (odds, y) =
+        best.into_iter().fold(middle, |best, next| if next.0 > best.0 { next } else { best });
     let luck = noise::bot_roll(game);
     if odds.sqrt() + 0.5 * luck <= 0.5 {
         return None;
@@ -242,7 +248,11 @@ fn perform(game: &mut Match, view: &TeamView, id: PlayerId, act: OnBallChoice) {
             let far = share((GOAL - body.meet * view.side).length(), 0.0, 32.0);
             let most = 0.6 + 0.4 * far;
             let luck = noise::bot_roll(game);
-            let plan = KickPlan { point: Some(point * view.side), power: (0.7 + 0.3 * luck) * most, ..shot };
+            let plan = KickPlan {
+                point: Some(point * view.side),
+                power: (0.7 + 0.3 * luck) * most,
+                ..shot
+            };
             game.players[id.index()].body.kick = Some(plan);
         }
         OnBallChoice::Pass(mate, kind) => {
@@ -251,7 +261,8 @@ fn perform(game: &mut Match, view: &TeamView, id: PlayerId, act: OnBallChoice) {
         OnBallChoice::Clear => {
             let facing = body.facing * view.side;
             let wide = math::sign_or(facing.y, 1.0);
-            let away = Vec2::new(0.8 * facing.x, facing.y).normalize_or_zero() + Vec2::new(0.7, 0.5 * wide);
+            let away = Vec2::new(0.8 * facing.x, facing.y).normalize_or_zero()
+                + Vec2::new(0.7, 0.5 * wide);
             let dir = away.normalize_or(Vec2::X) * view.side;
             body.kick = Some(KickPlan { dir: Some(dir), ..clearance });
         }
@@ -262,7 +273,8 @@ fn perform(game: &mut Match, view: &TeamView, id: PlayerId, act: OnBallChoice) {
 /// down.
 fn rest_ticks(game: &Match, id: PlayerId) -> u32 {
     let body = &game.player(id).body;
-    let taken = game.owner == Some(id) && (game.play.owned_since as i32 - body.touched_at).abs() < 5;
+    let taken =
+        game.owner == Some(id) && (game.play.owned_since as i32 - body.touched_at).abs() < 5;
     let rests = if taken { REST_TICKS[1] } else { REST_TICKS[0] };
     (rests - ticks_since(game.tick, body.touched_at)).max(0) as u32
 }
@@ -290,7 +302,9 @@ fn release(game: &mut Match, view: &TeamView, id: PlayerId, since: u32) {
     }
     let tick = game.tick;
     let choice = match best {
-        Some((worth, mate)) if worth > 0.45 => KickPlan { mate: Some(mate), ..kick::planned(KickKind::Short, tick) },
+        Some((worth, mate)) if worth > 0.45 => {
+            KickPlan { mate: Some(mate), ..kick::planned(KickKind::Short, tick) }
+        }
         _ if held_ticks > 250 => {
             let y = (noise::bot_roll(game) * 2.0 - 1.0) * 20.0;
             let point = Vec2::new(2.0, y) * view.side;
@@ -303,7 +317,8 @@ fn release(game: &mut Match, view: &TeamView, id: PlayerId, since: u32) {
 
 /// The distance of the nearest opponent of a player from a world point, metres.
 pub fn nearest_rival(game: &Match, id: PlayerId, point: Vec2) -> f32 {
-    let least =
-        game.team(id.team().other()).fold(f32::MAX, |least, (_, rival)| least.min(rival.pos.distance_squared(point)));
+    let least = game
+        .team(id.team().other())
+        .fold(f32::MAX, |least, (_, rival)| least.min(rival.pos.distance_squared(point)));
     libm::sqrtf(least)
 }

@@ -93,13 +93,15 @@ pub fn pursuit(game: &Match, view: &TeamView, id: PlayerId) -> Pursuit {
     Pursuit::None
 }
 
-/// Whether a player will be at the ball so much sooner than the opponent who has it that it is theirs to have. (GRF's.)
+/// Whether a player will be at the ball so much sooner than the opponent who has it that it is
+/// theirs to have. (GRF's.)
 pub(super) fn is_sooner(game: &Match, id: PlayerId, rival: PlayerId) -> bool {
     let time_s = |id: PlayerId| game.player(id).body.meet_s + 0.01;
     time_s(id) < SOONER * time_s(rival)
 }
 
-/// A player's chance of the ball against the opponent who has it: the other's time to it against their own. (GRF's.)
+/// A player's chance of the ball against the opponent who has it: the other's time to it against
+/// their own. (GRF's.)
 fn chance(game: &Match, id: PlayerId, rival: PlayerId) -> f32 {
     let time_s = |id: PlayerId| game.player(id).body.meet_s + 0.2;
     time_s(rival) / time_s(id)
@@ -108,7 +110,8 @@ fn chance(game: &Match, id: PlayerId, rival: PlayerId) -> f32 {
 /// Goes for a ball that is the team's to have.
 pub fn fetch(game: &mut Match, view: &TeamView, id: PlayerId) {
     let player = *game.player(id);
-    let way = on_ball::set_off(game, id).unwrap_or((player.body.meet - player.pos).clamp_length_max(2.0));
+    let way =
+        on_ball::set_off(game, id).unwrap_or((player.body.meet - player.pos).clamp_length_max(2.0));
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);
     body.dribble = way;
@@ -125,14 +128,19 @@ pub fn hunt(game: &mut Match, view: &TeamView, id: PlayerId, rival: PlayerId) {
     let way = -GOAL - place;
     // The point of the carrier's path that is equally near to both.
     let share = (0.5 * between.length_squared() / between.dot(-way).max(1e-3)).clamp(0.0, 1.0);
-    let point = place + way * share + way.normalize_or_zero() * AHEAD_M + carrier.vel * view.side * AHEAD_S;
+    let point =
+        place + way * share + way.normalize_or_zero() * AHEAD_M + carrier.vel * view.side * AHEAD_S;
     let deep = (point.x - own.x).max(0.0) - WAITS_M;
     if (point.y - own.y).abs() <= deep * STRAIGHT && !game.play.team_pressure[view.team.index()] {
         off_ball::place(game, view, id);
         return;
     }
     let near = between.length() < CHALLENGE_M;
-    let past = if near { alongside(view, own, &carrier).or_else(|| around(view, own, &carrier)) } else { None };
+    let past = if near {
+        alongside(view, own, &carrier).or_else(|| around(view, own, &carrier))
+    } else {
+        None
+    };
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::new(2.0 * view.side, 0.0);
     body.intent = match past {
@@ -147,8 +155,11 @@ pub fn is_met(game: &Match, view: &TeamView, id: PlayerId) -> bool {
     let (player, carrier) = (game.player(id), game.player(rival));
     let ball = game.play.forecast.at(game.tick + MEETS_TICKS);
     let at = player.pos + player.vel * MEETS_AHEAD_S;
-    let free =
-        || (carrier.pos - player.pos).normalize_or_zero().dot((ball.truncate() - carrier.pos).normalize_or_zero());
+    let free = || {
+        (carrier.pos - player.pos)
+            .normalize_or_zero()
+            .dot((ball.truncate() - carrier.pos).normalize_or_zero())
+    };
     ball.z < 0.5
         && ball.truncate().distance_squared(at) < MEETS_M * MEETS_M
         && player.role != Role::GK
@@ -168,7 +179,10 @@ fn hunt_m(game: &Match, player: &Player) -> f32 {
     let rested = 0.5 * (1.0 - player.fatigue) + 0.5 * (1.0 - (player.body.mean_mps / 8.0).min(1.0));
     // Players with a high work rate hunt from further away: chosen; the average is GRF's.
     let works = 0.7 + 0.4 * player.body.stats[Stat::Workrate.index()];
-    (10.0 + 10.0 * (1.0 - mindset(game.player(player.body.mind.fills).role))) * rested * works * player.body.level
+    (10.0 + 10.0 * (1.0 - mindset(game.player(player.body.mind.fills).role)))
+        * rested
+        * works
+        * player.body.level
 }
 
 /// Where a defender runs who sees a running carrier's back, own frame: past the carrier's shoulder.

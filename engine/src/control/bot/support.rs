@@ -27,7 +27,8 @@ const RUN_STEPS: u32 = 40;
 const RUN_EVERY: u32 = 5;
 /// In which step first: in the one before, a start may have given an agent whoever will run.
 const RUN_AT: u32 = 1;
-/// How good a chance of a run must be, and how much less good for whoever reads the game; GRF's .5 for the average.
+/// How good a chance of a run must be, and how much less good for whoever reads the game; GRF's .5
+/// for the average.
 const RUNS_FROM: f32 = 0.65;
 const READS: f32 = 0.2;
 /// Steps between two choices of a supporter for the player on the ball.
@@ -119,7 +120,9 @@ pub fn place(game: &Match, view: &TeamView, id: PlayerId, base: Vec2) -> Vec2 {
         _ => 1.0,
     };
     let (power, scale) = if runs { (0.15 * caution, 2.0) } else { (0.3 * caution, 5.0) };
-    for rival in view.board.nearest::<RIVALS>(view.team.other(), (at * 0.7 + main * 0.3) * view.side, None) {
+    for rival in
+        view.board.nearest::<RIVALS>(view.team.other(), (at * 0.7 + main * 0.3) * view.side, None)
+    {
         // Repelled by a point behind the opponent, so that the ball's path is free.
         let place = soon(rival);
         forces.push::<6>(place + (place - main).normalize_or_zero() * 2.0, power, scale);
@@ -150,7 +153,9 @@ pub fn place(game: &Match, view: &TeamView, id: PlayerId, base: Vec2) -> Vec2 {
 fn may_run(role: Role, nearness: f32) -> bool {
     match role {
         Role::CF => share(nearness - 0.5, 0.1, 0.6) > 0.7,
-        Role::AM | Role::LM | Role::CM | Role::RM | Role::DM => share(nearness - 0.5, 0.1, 0.7) > 0.9,
+        Role::AM | Role::LM | Role::CM | Role::RM | Role::DM => {
+            share(nearness - 0.5, 0.1, 0.7) > 0.9
+        }
         _ => false,
     }
 }
@@ -162,7 +167,8 @@ pub fn assign(game: &mut Match, view: &TeamView) {
     let place = game.player(main).pos;
     if game.step.is_multiple_of(HELPER_EVERY) {
         let to = place + Vec2::new(1.5 * view.side, 0.0);
-        game.play.recent.helper[view.team.index()] = view.board.nearest::<1>(view.team, to, Some(main)).next();
+        game.play.recent.helper[view.team.index()] =
+            view.board.nearest::<1>(view.team, to, Some(main)).next();
     }
     let agents = game.agents.iter().filter(|slot| slot.team == view.team).count();
     if game.step % RUN_EVERY != RUN_AT || agents > 1 || !view.best {

@@ -50,19 +50,23 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     let own = set_piece.spot * side;
     let luck = noise::bot_roll(game);
     let spread = noise::bot_roll(game) * 2.0 - 1.0;
-    let [short, high, shot] =
-        [KickKind::Short, KickKind::High, KickKind::Shot].map(|kind| kick::taken(kind, set_piece.mode, game.tick));
+    let [short, high, shot] = [KickKind::Short, KickKind::High, KickKind::Shot]
+        .map(|kind| kick::taken(kind, set_piece.mode, game.tick));
     let near = |x: f32, y: f32| nearest(game, set_piece.taker, Vec2::new(x, y) * side);
     match set_piece.mode {
-        GameMode::Penalty => {
-            KickPlan { point: Some(Vec2::new(GOAL.x, spread * 3.2) * side), power: 0.3 + 0.5 * luck, ..shot }
-        }
+        GameMode::Penalty => KickPlan {
+            point: Some(Vec2::new(GOAL.x, spread * 3.2) * side),
+            power: 0.3 + 0.5 * luck,
+            ..shot
+        },
         GameMode::Corner if luck < 0.75 => {
             let point = Vec2::new(46.5, spread * 7.0);
             KickPlan { mate: near(point.x, point.y), point: Some(point * side), ..high }
         }
         GameMode::GoalKick if luck < 0.45 => KickPlan { mate: near(5.0, spread * 22.0), ..high },
-        GameMode::GoalKick => KickPlan { mate: near(-35.0, math::sign_or(spread, 1.0) * 18.0), ..short },
+        GameMode::GoalKick => {
+            KickPlan { mate: near(-35.0, math::sign_or(spread, 1.0) * 18.0), ..short }
+        }
         GameMode::FreeKick if own.x > 29.0 && own.y.abs() < 16.0 => {
             KickPlan { point: Some(Vec2::new(GOAL.x, spread * 3.3) * side), power: 0.5, ..shot }
         }
@@ -70,7 +74,9 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
             let point = Vec2::new(46.0, spread * 8.0);
             KickPlan { mate: near(point.x, point.y), point: Some(point * side), ..high }
         }
-        GameMode::ThrowIn => KickPlan { mate: nearest(game, set_piece.taker, set_piece.spot), ..short },
+        GameMode::ThrowIn => {
+            KickPlan { mate: nearest(game, set_piece.taker, set_piece.spot), ..short }
+        }
         _ => KickPlan { mate: near(own.x + 10.0, own.y * 0.7), ..short },
     }
 }

@@ -52,7 +52,8 @@ pub struct TeamView {
 impl TeamView {
     /// Computes what both teams know now.
     pub fn of_both(game: &Match) -> [TeamView; 2] {
-        let (board, means) = (Board::of(game), game.play.recent.ball_means(game.ball.pos.truncate()));
+        let (board, means) =
+            (Board::of(game), game.play.recent.ball_means(game.ball.pos.truncate()));
         [Team::Left, Team::Right].map(|team| TeamView::of(game, team, board, means))
     }
 
@@ -96,7 +97,9 @@ impl TeamView {
 
     /// The opponent who has the ball, or would be the first of their team to have it.
     pub fn rival(&self, game: &Match) -> Option<PlayerId> {
-        self.owner.filter(|id| id.team() != self.team).or(game.play.chaser[self.team.other().index()])
+        self.owner
+            .filter(|id| id.team() != self.team)
+            .or(game.play.chaser[self.team.other().index()])
     }
 
     /// How near the team was to the ball recently, as seen by a player. For one who goes for the
@@ -123,7 +126,9 @@ impl TeamView {
         match game.possession {
             Some(team) => team == self.team,
             // Nobody has had it yet: the team that will be there first.
-            None => TeamView::soonest(game, self.team) <= TeamView::soonest(game, self.team.other()),
+            None => {
+                TeamView::soonest(game, self.team) <= TeamView::soonest(game, self.team.other())
+            }
         }
     }
 }

@@ -4,7 +4,9 @@ use crate::snapshot::{SNAPSHOT_VERSION, match_bytes};
 use crate::state::PlayerId;
 use crate::testing::{scenario, scoring};
 use setpiece_scenario::vocabulary::{Action, Role, Team};
-use setpiece_scenario::{Endings, Program, Reward, RewardBody, RewardHook, Scenario, Script, SideAgents};
+use setpiece_scenario::{
+    Endings, Program, Reward, RewardBody, RewardHook, Scenario, Script, SideAgents,
+};
 use std::sync::Arc;
 
 /// One on one, with a keeper behind.
@@ -84,7 +86,8 @@ fn before_the_first_episode_and_after_the_last_step_there_is_something_to_take()
     assert!(!ended.is_running());
     let last = ended.snapshot().unwrap();
     ended.restore(&fresh.snapshot().unwrap()).unwrap();
-    let step = |environment: &mut Environment| environment.step(&[Action::Idle], &mut Scratch::default());
+    let step =
+        |environment: &mut Environment| environment.step(&[Action::Idle], &mut Scratch::default());
     assert_eq!(step(&mut ended), Err(StepError::NotRunning { begun: false }));
     ended.restore(&last).unwrap();
     assert_eq!(ended.outcome().map(|outcome| &*outcome.label), Some("limit"));
@@ -97,14 +100,23 @@ fn impossible_numbers_are_reported_with_their_place() {
         (tampered(|e| e.game.players[11].pos.x = f32::NAN), "`match.players[11].pos[0]` is NaN"),
         (tampered(|e| e.game.ball.vel.z = 1.0e9), "`match.ball.vel[2]` is 1000000000"),
         (tampered(|e| e.game.tick = u32::MAX), "`match.tick` is 4294967295"),
-        (tampered(|e| e.game.players[3].body.stats[2] = f32::NAN), "`match.players[3].body.stats[2]` is NaN"),
-        (tampered(|e| e.game.owner = Some(PlayerId(25))), "`match` has a value of none of its kinds"),
+        (
+            tampered(|e| e.game.players[3].body.stats[2] = f32::NAN),
+            "`match.players[3].body.stats[2]` is NaN",
+        ),
+        (
+            tampered(|e| e.game.owner = Some(PlayerId(25))),
+            "`match` has a value of none of its kinds",
+        ),
         (tampered(|e| e.game.owner = Some(PlayerId(5))), "`match.owner` is nobody"),
         (
             tampered(|e| e.game.squad = e.game.squad.ids().chain([PlayerId(25)]).collect()),
             "`match` has a value of none of its kinds",
         ),
-        (tampered(|e| e.game.agents[0].player = Some(PlayerId(11))), "`match.agents[0].player` is nobody of its team"),
+        (
+            tampered(|e| e.game.agents[0].player = Some(PlayerId(11))),
+            "`match.agents[0].player` is nobody of its team",
+        ),
         (
             tampered(|e| Arc::make_mut(&mut e.bindings).0.push(1.0)),
             "`bindings` can't be bound: expected 0 parameter values, found 1",
@@ -123,7 +135,12 @@ fn bytes_that_are_no_snapshot_of_this_version_are_reported() {
     changed[40] ^= 1;
     for (bytes, words) in [
         (b"{}".as_slice(), "not a snapshot: its header isn't recognised"),
-        (&newer, &format!("the snapshot has version 99; this build reads version {SNAPSHOT_VERSION}: take it again")),
+        (
+            &newer,
+            &format!(
+                "the snapshot has version 99; this build reads version {SNAPSHOT_VERSION}: take it again"
+            ),
+        ),
         (&changed, "the snapshot was changed after it was taken: its checksum differs"),
         (&snapshot[..100], "the snapshot is truncated: its end is missing"),
     ] {
@@ -148,7 +165,10 @@ fn a_snapshot_of_something_else_is_reported() {
     );
     let unpaid = EnvironmentOptions { rewards: Some(Vec::new()), ..EnvironmentOptions::default() };
     let unpaid = Environment::new(Arc::new(duel()), unpaid).unwrap();
-    assert_eq!(refused(&unpaid.snapshot().unwrap()), "the snapshot's rewards are none, this environment's `scoring`");
+    assert_eq!(
+        refused(&unpaid.snapshot().unwrap()),
+        "the snapshot's rewards are none, this environment's `scoring`"
+    );
 }
 
 #[test]
@@ -159,8 +179,17 @@ fn an_episode_begins_where_another_stood() {
     environment.reset_from(&snapshot, Some(7), Some(4)).unwrap();
     let game = environment.state();
     assert_eq!((game.ball, game.score, game.tick), (stood.ball, stood.score, stood.tick));
-    assert!(game.players.iter().zip(&stood.players).all(|(now, then)| now.pos == then.pos && now.vel == then.vel));
-    assert_eq!((game.step, game.elapsed_at_start), (0, 20), "steps start at 0, the clock continues");
+    assert!(
+        game.players
+            .iter()
+            .zip(&stood.players)
+            .all(|(now, then)| now.pos == then.pos && now.vel == then.vel)
+    );
+    assert_eq!(
+        (game.step, game.elapsed_at_start),
+        (0, 20),
+        "steps start at 0, the clock continues"
+    );
     assert_eq!((environment.seed(), environment.index()), (7, 4));
     assert!(environment.is_running() && environment.events().is_empty());
     play(&mut environment, 50);
@@ -180,7 +209,9 @@ fn what_was_under_way_goes_on() {
         play(&mut straight, 1);
         play(&mut hindsight, 1);
         assert_eq!(hindsight.game.ball, straight.game.ball);
-        assert!(hindsight.game.players.iter().zip(&straight.game.players).all(|(a, b)| a.pos == b.pos));
+        assert!(
+            hindsight.game.players.iter().zip(&straight.game.players).all(|(a, b)| a.pos == b.pos)
+        );
     }
 }
 
@@ -221,7 +252,10 @@ fn the_scenario_may_be_another_but_not_who_takes_part() {
     let mut alone = duel();
     alone.players.pop();
     let error = of(alone).reset_from(&snapshot, None, None).unwrap_err();
-    assert_eq!(error.to_string(), "the right players differ: the snapshot has 2, this environment 1");
+    assert_eq!(
+        error.to_string(),
+        "the right players differ: the snapshot has 2, this environment 1"
+    );
     let mut led = duel();
     led.agents.sides = [SideAgents::All, SideAgents::All];
     let error = of(led).reset_from(&snapshot, None, None).unwrap_err();
@@ -234,7 +268,8 @@ fn the_scenario_may_be_another_but_not_who_takes_part() {
 #[test]
 fn every_episode_may_begin_from_one_snapshot() {
     let snapshot: Arc<[u8]> = underway(duel(), 20).snapshot().unwrap().into();
-    let from = |snapshot| EnvironmentOptions { from: Some(snapshot), ..EnvironmentOptions::default() };
+    let from =
+        |snapshot| EnvironmentOptions { from: Some(snapshot), ..EnvironmentOptions::default() };
     let mut environment = Environment::new(Arc::new(duel()), from(snapshot)).unwrap();
     for _ in 0..2 {
         environment.reset(None, None).unwrap();
@@ -247,7 +282,11 @@ fn every_episode_may_begin_from_one_snapshot() {
 /// A scenario with a script that is called each step.
 fn scripted(source: &str) -> Scenario {
     let mut scenario = duel();
-    scenario.scripts.push(Script { name: "own.rhai".to_owned(), at: (1, 1), source: source.to_owned() });
+    scenario.scripts.push(Script {
+        name: "own.rhai".to_owned(),
+        at: (1, 1),
+        source: source.to_owned(),
+    });
     let body = RewardBody {
         init: Program { code: Vec::new(), cells: 1 },
         step: Program { code: Vec::new(), cells: 1 },

@@ -18,7 +18,11 @@ impl<const N: usize> Folding<N> {
             FoldKind::All => 1.0,
             FoldKind::Min | FoldKind::ArgMin => f64::INFINITY,
             FoldKind::Max | FoldKind::ArgMax => f64::NEG_INFINITY,
-            FoldKind::Nothing | FoldKind::Count | FoldKind::Sum | FoldKind::Mean | FoldKind::Any => 0.0,
+            FoldKind::Nothing
+            | FoldKind::Count
+            | FoldKind::Sum
+            | FoldKind::Mean
+            | FoldKind::Any => 0.0,
         };
         Folding { kind, n: [0; N], value: [value; N], element: [-1.0; N] }
     }
@@ -33,13 +37,21 @@ impl<const N: usize> Folding<N> {
             FoldKind::Nothing | FoldKind::Count => {}
             FoldKind::Sum | FoldKind::Mean => self.each(counts, values, |sum, value| sum + value),
             FoldKind::Min => {
-                self.each(counts, values, |least, value| if value < least || value.is_nan() { value } else { least });
+                self.each(counts, values, |least, value| {
+                    if value < least || value.is_nan() { value } else { least }
+                });
             }
             FoldKind::Max => {
-                self.each(counts, values, |most, value| if value > most || value.is_nan() { value } else { most });
+                self.each(counts, values, |most, value| {
+                    if value > most || value.is_nan() { value } else { most }
+                });
             }
-            FoldKind::Any => self.each(counts, values, |any, value| if truth(value) { 1.0 } else { any }),
-            FoldKind::All => self.each(counts, values, |all, value| if truth(value) { all } else { 0.0 }),
+            FoldKind::Any => {
+                self.each(counts, values, |any, value| if truth(value) { 1.0 } else { any })
+            }
+            FoldKind::All => {
+                self.each(counts, values, |all, value| if truth(value) { all } else { 0.0 })
+            }
             FoldKind::ArgMin => self.choose(element, counts, values, |value, least| value < least),
             FoldKind::ArgMax => self.choose(element, counts, values, |value, most| value > most),
         }
@@ -56,10 +68,17 @@ impl<const N: usize> Folding<N> {
     /// Takes the element if its value is better. An impossible value compares false, so it is never
     /// the least or greatest; an infinite one can be.
     #[inline]
-    fn choose(&mut self, element: f64, counts: [bool; N], values: [f64; N], better: impl Fn(f64, f64) -> bool) {
+    fn choose(
+        &mut self,
+        element: f64,
+        counts: [bool; N],
+        values: [f64; N],
+        better: impl Fn(f64, f64) -> bool,
+    ) {
         for lane in 0..N {
             let (value, best) = (values[lane], self.value[lane]);
-            if counts[lane] && (better(value, best) || (self.element[lane] < 0.0 && value == best)) {
+            if counts[lane] && (better(value, best) || (self.element[lane] < 0.0 && value == best))
+            {
                 (self.value[lane], self.element[lane]) = (value, element);
             }
         }
@@ -73,7 +92,9 @@ impl<const N: usize> Folding<N> {
             FoldKind::ArgMin | FoldKind::ArgMax => self.element[lane],
             FoldKind::Mean | FoldKind::Min | FoldKind::Max if self.n[lane] == 0 => f64::NAN,
             FoldKind::Mean => self.value[lane] / f64::from(self.n[lane]),
-            FoldKind::Sum | FoldKind::Any | FoldKind::All | FoldKind::Min | FoldKind::Max => self.value[lane],
+            FoldKind::Sum | FoldKind::Any | FoldKind::All | FoldKind::Min | FoldKind::Max => {
+                self.value[lane]
+            }
         })
     }
 }

@@ -139,7 +139,14 @@ impl ProgramReader<'_> {
         self.open.pop();
         self.uniform[at] = uniform;
         self.plan.loops.push(Loop { over: each.over.clone(), fold: each.fold.clone(), body });
-        let step = PlanStep { op: Op::Loop, uniform, at: at as u32, a: self.plan.loops.len() as u32 - 1, b: 0, c: 0 };
+        let step = PlanStep {
+            op: Op::Loop,
+            uniform,
+            at: at as u32,
+            a: self.plan.loops.len() as u32 - 1,
+            b: 0,
+            c: 0,
+        };
         (step, end)
     }
 
@@ -147,15 +154,23 @@ impl ProgramReader<'_> {
     fn simple(&mut self, instr: &Instr, at: usize) -> PlanStep {
         let guard = |guard: &Option<Reg>| guard.map_or(ALWAYS, |guard| guard.0);
         let (op, a, b, c) = match instr {
-            Instr::Binary(op, a, b) if two(*op).is_some() => (two(*op).unwrap_or(Op::Add), a.0, b.0, 0),
+            Instr::Binary(op, a, b) if two(*op).is_some() => {
+                (two(*op).unwrap_or(Op::Add), a.0, b.0, 0)
+            }
             Instr::Unary(UnaryOp::Not, a) => (Op::Not, a.0, 0, 0),
             Instr::Unary(UnaryOp::Neg, a) => (Op::Neg, a.0, 0, 0),
             Instr::Select(a, b, c) => (Op::Select, a.0, b.0, c.0),
             Instr::Load { field: Field::BallX, when: When::Now, .. } => (Op::BallX, 0, 0, 0),
             Instr::Load { field: Field::BallY, when: When::Now, .. } => (Op::BallY, 0, 0, 0),
-            Instr::Load { field: Field::BallOwner, when: When::Now, .. } => (Op::BallOwner, 0, 0, 0),
-            Instr::Load { field: Field::PlayerX, of: Some(of), when: When::Now } => (Op::PlayerX, of.0, 0, 0),
-            Instr::Load { field: Field::PlayerY, of: Some(of), when: When::Now } => (Op::PlayerY, of.0, 0, 0),
+            Instr::Load { field: Field::BallOwner, when: When::Now, .. } => {
+                (Op::BallOwner, 0, 0, 0)
+            }
+            Instr::Load { field: Field::PlayerX, of: Some(of), when: When::Now } => {
+                (Op::PlayerX, of.0, 0, 0)
+            }
+            Instr::Load { field: Field::PlayerY, of: Some(of), when: When::Now } => {
+                (Op::PlayerY, of.0, 0, 0)
+            }
             Instr::Me => (Op::Me, 0, 0, 0),
             Instr::Cell(cell) => (Op::Cell, *cell, 0, 0),
             Instr::Give { term, value, guard: only } => (Op::Give, *term, value.0, guard(only)),
@@ -179,7 +194,10 @@ impl ProgramReader<'_> {
 
     fn is_uniform(&self, instr: &Instr) -> bool {
         // A cell may have been written in one lane only, and an effect reads every lane's guard.
-        let mut uniform = !matches!(instr, Instr::Me | Instr::Cell(_) | Instr::Give { .. } | Instr::Assign { .. });
+        let mut uniform = !matches!(
+            instr,
+            Instr::Me | Instr::Cell(_) | Instr::Give { .. } | Instr::Assign { .. }
+        );
         instr.operands(&mut |reg| uniform &= self.is_the_same(reg));
         uniform
     }
@@ -187,7 +205,8 @@ impl ProgramReader<'_> {
     /// Whether a register is the same in every lane. A loop's register is its element while its
     /// body runs.
     fn is_the_same(&self, reg: Reg) -> bool {
-        self.open.contains(&reg.index()) || self.uniform.get(reg.index()).copied().unwrap_or_default()
+        self.open.contains(&reg.index())
+            || self.uniform.get(reg.index()).copied().unwrap_or_default()
     }
 }
 

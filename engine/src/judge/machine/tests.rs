@@ -7,7 +7,8 @@ use std::f64::consts::PI;
 fn value(build: impl FnOnce(&mut Code) -> Reg) -> f64 {
     let mut code = Code::default();
     let reg = build(&mut code);
-    run(&code.program, &MatchView::EMPTY, &MatchView::EMPTY, &[], &mut [0.0; 4], false).regs[reg.index()]
+    run(&code.program, &MatchView::EMPTY, &MatchView::EMPTY, &[], &mut [0.0; 4], false).regs
+        [reg.index()]
 }
 
 fn binary(op: BinaryOp, a: f64, b: f64) -> f64 {
@@ -188,7 +189,11 @@ fn folded(kind: FoldKind, team: f64) -> f64 {
     let mut code = Code::default();
     let team = code.number(team);
     let fold = Fold { kind, value: Some(Reg(2)), guard: None };
-    let each = code.push(Instr::Each(Box::new(Each { over: Over::Players { team, except: None }, body: 1, fold })));
+    let each = code.push(Instr::Each(Box::new(Each {
+        over: Over::Players { team, except: None },
+        body: 1,
+        fold,
+    })));
     code.load_of(Field::PlayerX, each);
     let now = view([10.0, 0.0], [20.0, 0.0], [0.0; 3]);
     run(&code.program, &now, &now, &[], &mut [], false).regs[each.index()]
@@ -213,8 +218,11 @@ fn folds_over_nobody() {
         value(|code| {
             let team = code.number(0.0);
             let fold = Fold { kind, value: Some(Reg(2)), guard: None };
-            let each =
-                code.push(Instr::Each(Box::new(Each { over: Over::Players { team, except: None }, body: 1, fold })));
+            let each = code.push(Instr::Each(Box::new(Each {
+                over: Over::Players { team, except: None },
+                body: 1,
+                fold,
+            })));
             code.number(1.0);
             each
         })
@@ -223,7 +231,11 @@ fn folds_over_nobody() {
         [none(FoldKind::Sum), none(FoldKind::Any), none(FoldKind::All), none(FoldKind::ArgMin)],
         [0., 0., 1., -1.]
     );
-    assert!(none(FoldKind::Mean).is_nan() && none(FoldKind::Min).is_nan() && none(FoldKind::Max).is_nan());
+    assert!(
+        none(FoldKind::Mean).is_nan()
+            && none(FoldKind::Min).is_nan()
+            && none(FoldKind::Max).is_nan()
+    );
 }
 
 #[test]
@@ -233,8 +245,11 @@ fn loops_nest() {
     let (ours, theirs) = (code.number(0.0), code.number(1.0));
     let count = Fold { kind: FoldKind::Count, value: None, guard: Some(Reg(6)) };
     let sum = Fold { kind: FoldKind::Sum, value: Some(Reg(4)), guard: None };
-    let outer =
-        code.push(Instr::Each(Box::new(Each { over: Over::Players { team: ours, except: None }, body: 4, fold: sum })));
+    let outer = code.push(Instr::Each(Box::new(Each {
+        over: Over::Players { team: ours, except: None },
+        body: 4,
+        fold: sum,
+    })));
     let own_x = code.load_of(Field::PlayerX, outer);
     let inner = code.push(Instr::Each(Box::new(Each {
         over: Over::Players { team: theirs, except: None },
@@ -254,7 +269,8 @@ fn counted(filter: EventFilter, events: &[crate::state::event::Event]) -> f64 {
     code.number(1.0);
     let fold = Fold { kind: FoldKind::Count, value: None, guard: None };
     let each = code.push(Instr::Each(Box::new(Each { over: Over::Events(filter), body: 0, fold })));
-    run(&code.program, &MatchView::EMPTY, &MatchView::EMPTY, events, &mut [], false).regs[each.index()]
+    run(&code.program, &MatchView::EMPTY, &MatchView::EMPTY, events, &mut [], false).regs
+        [each.index()]
 }
 
 #[test]
@@ -265,12 +281,17 @@ fn events_are_filtered() {
     assert_eq!(counted(filter(EventKind::Goal, None, Some(Who::Team(Reg(0)))), &goals), 2.0);
     // The second is an own goal: a goal for the team, but not of any player.
     assert_eq!(counted(filter(EventKind::Goal, None, Some(Who::Player(Reg(1)))), &goals), 1.0);
-    let taken =
-        crate::state::event::Event { qualifier: Some(Qualifier::Taken), ..event(EventKind::Corner, left, None) };
+    let taken = crate::state::event::Event {
+        qualifier: Some(Qualifier::Taken),
+        ..event(EventKind::Corner, left, None)
+    };
     let corners = [event(EventKind::Corner, left, None), taken];
     assert_eq!(counted(filter(EventKind::Corner, None, None), &corners), 1.0);
     assert_eq!(counted(filter(EventKind::Corner, Some(Qualifier::Taken), None), &corners), 1.0);
-    let end = crate::state::event::Event { qualifier: Some(Qualifier::Success), ..event(EventKind::End, None, None) };
+    let end = crate::state::event::Event {
+        qualifier: Some(Qualifier::Success),
+        ..event(EventKind::End, None, None)
+    };
     assert_eq!(counted(filter(EventKind::End, None, None), &[end]), 1.0);
     assert_eq!(counted(filter(EventKind::End, Some(Qualifier::Failure), None), &[end]), 0.0);
 }
@@ -304,7 +325,10 @@ fn weights_choose_in_proportion() {
     for key in 0..2000 {
         let chosen = value(|code| {
             let weights = [3.0, 0.0, 1.0].map(|weight| code.number(weight));
-            code.push(Instr::Random { key, from: Box::new(Distribution::Weighted(weights.to_vec())) })
+            code.push(Instr::Random {
+                key,
+                from: Box::new(Distribution::Weighted(weights.to_vec())),
+            })
         });
         seen[chosen as usize] += 1;
     }

@@ -100,7 +100,13 @@ impl Lanes {
     }
 
     /// Runs a program of the reward for the agents' players.
-    pub(super) fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, stage: LaneStage, faults: &mut u32) {
+    pub(super) fn run(
+        &mut self,
+        players: &[Option<PlayerId>],
+        input: &Input<'_>,
+        stage: LaneStage,
+        faults: &mut u32,
+    ) {
         match self {
             Lanes::One(memory) => memory.run(players, input, stage, faults),
             Lanes::Four(memory) => memory.run(players, input, stage, faults),
@@ -146,9 +152,16 @@ impl<const W: usize> LaneMemory<W> {
         }
     }
 
-    fn run(&mut self, players: &[Option<PlayerId>], input: &Input<'_>, stage: LaneStage, faults: &mut u32) {
+    fn run(
+        &mut self,
+        players: &[Option<PlayerId>],
+        input: &Input<'_>,
+        stage: LaneStage,
+        faults: &mut u32,
+    ) {
         self.terms.fill([0.0; W]);
-        let (plan, regs) = if stage == LaneStage::Init { &mut self.init } else { &mut self.step }.parts();
+        let (plan, regs) =
+            if stage == LaneStage::Init { &mut self.init } else { &mut self.step }.parts();
         let mut machine = Machine {
             input: Input { silent: stage == LaneStage::Silent, ..*input },
             crew: Crew {

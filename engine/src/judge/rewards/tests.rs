@@ -25,10 +25,15 @@ impl Bench {
         };
         let bindings = setpiece_scenario::Bindings::default();
         let roster = crate::draw::Roster::new(&scenario, &bindings, Some(&choice)).unwrap();
-        let drawn = crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
+        let drawn =
+            crate::draw::Drawer::new(&scenario).draw(&scenario, &bindings, &roster, 1, 0).unwrap();
         let game = begin::blank(&drawn);
         let scripts = Scripts::compile(&scenario).unwrap();
-        let mut bench = Bench { judge: RewardJudge::new(rewards.into(), &scripts, 3), game, prev: MatchView::EMPTY };
+        let mut bench = Bench {
+            judge: RewardJudge::new(rewards.into(), &scripts, 3),
+            game,
+            prev: MatchView::EMPTY,
+        };
         bench.prev = MatchView::of(&bench.game);
         let input = input(&bench.prev, &bench.prev, &[]);
         bench.judge.reset(&bench.game, &input);
@@ -80,7 +85,10 @@ fn checkpoints_pay_a_tenth_per_region_and_the_rest_on_the_first_goal() {
     assert_eq!(bench.step((0.95, 0.0), None, &[]), [0.0, 0.0, 0.0]);
     let goal = event(EventKind::Goal, Some(Team::Left), Some(0));
     let paid = bench.step((1.02, 0.0), None, &[goal]);
-    assert!((paid[0] - 0.6).abs() < 1e-6 && (paid[1] - 1.0).abs() < 1e-6 && paid[2] == 0.0, "{paid:?}");
+    assert!(
+        (paid[0] - 0.6).abs() < 1e-6 && (paid[1] - 1.0).abs() < 1e-6 && paid[2] == 0.0,
+        "{paid:?}"
+    );
     // Everything has been paid already.
     assert_eq!(bench.step((1.02, 0.0), Some(0), &[goal]), [0.0, 0.0, 0.0]);
     for agent in 0..2 {

@@ -50,7 +50,15 @@ impl HookScene {
         random: Stream,
         key: (u64, u64),
     ) -> HookScene {
-        HookScene { now, prev, events: events.to_vec(), params, random: Mutex::new(random), seed: key.0, index: key.1 }
+        HookScene {
+            now,
+            prev,
+            events: events.to_vec(),
+            params,
+            random: Mutex::new(random),
+            seed: key.0,
+            index: key.1,
+        }
     }
 
     /// Switches to another step.
@@ -63,19 +71,39 @@ impl HookScene {
     /// Creates a scene of another step that continues this one's random numbers.
     #[must_use]
     pub fn followed_by(&self, now: MatchView, prev: &MatchView, events: &[Event]) -> HookScene {
-        HookScene::new(now, *prev, events, self.params.clone(), self.random(), (self.seed, self.index))
+        HookScene::new(
+            now,
+            *prev,
+            events,
+            self.params.clone(),
+            self.random(),
+            (self.seed, self.index),
+        )
     }
 
     /// The same scene with a behaviour's arguments in `ctx.params`.
     #[must_use]
-    pub fn with_arguments(self: &Arc<HookScene>, perspective: Perspective, arguments: &[Argument<'_>]) -> HookScene {
+    pub fn with_arguments(
+        self: &Arc<HookScene>,
+        perspective: Perspective,
+        arguments: &[Argument<'_>],
+    ) -> HookScene {
         let sight = ShownState::now(self, perspective);
         let mut params = (*self.params).clone();
-        params.extend(arguments.iter().map(|argument| (argument.name.into(), sight.argument(argument))));
+        params.extend(
+            arguments.iter().map(|argument| (argument.name.into(), sight.argument(argument))),
+        );
         let key = (self.seed, self.index);
         HookScene {
             params: Arc::new(params),
-            ..HookScene::new(self.now, self.prev, &self.events, Params::default(), self.random(), key)
+            ..HookScene::new(
+                self.now,
+                self.prev,
+                &self.events,
+                Params::default(),
+                self.random(),
+                key,
+            )
         }
     }
 

@@ -67,7 +67,11 @@ pub(super) fn count_operations(n: u64) -> bool {
 /// The call ends if no operations are left; a script can't catch that.
 pub(super) fn count_bytes(bytes: usize, at: Position) -> Failable<()> {
     let operations = bytes / BYTES_PER_OPERATION;
-    if operations == 0 || count_operations(operations as u64) { Ok(()) } else { over(Why::Size, at) }
+    if operations == 0 || count_operations(operations as u64) {
+        Ok(())
+    } else {
+        over(Why::Size, at)
+    }
 }
 
 /// Why a call ends, even if the script tries to catch the error.
@@ -93,16 +97,19 @@ fn over(why: Why, at: Position) -> Failable<()> {
 
 /// Registers the functions that [`count_copies`] inserts.
 pub(super) fn register(engine: &mut Engine) {
-    engine.register_fn(COUNTED, |context: NativeCallContext, value: Dynamic| -> Failable<Dynamic> {
-        // Most of the values that could be large aren't.
-        if value.is_int() || value.is_float() || value.is_bool() || value.is_unit() {
-            return Ok(value);
-        }
-        let at = context.call_position();
-        count_bytes(bytes_of(&value, at)?, at)?;
-        keep_shared(&value);
-        Ok(value)
-    });
+    engine.register_fn(
+        COUNTED,
+        |context: NativeCallContext, value: Dynamic| -> Failable<Dynamic> {
+            // Most of the values that could be large aren't.
+            if value.is_int() || value.is_float() || value.is_bool() || value.is_unit() {
+                return Ok(value);
+            }
+            let at = context.call_position();
+            count_bytes(bytes_of(&value, at)?, at)?;
+            keep_shared(&value);
+            Ok(value)
+        },
+    );
     engine.register_fn(WORKED, |operations: i64| -> Failable<()> {
         if count_operations(operations.max(0) as u64) {
             Ok(())
@@ -132,7 +139,9 @@ pub(super) fn end(this: &mut Dynamic) -> Result<(), String> {
     if shared.is_empty() {
         return Ok(());
     }
-    let kept = bytes_of(this, Position::NONE).map_err(|error| host::explain(error).1).map(|_| size::unshared(this));
+    let kept = bytes_of(this, Position::NONE)
+        .map_err(|error| host::explain(error).1)
+        .map(|_| size::unshared(this));
     for mut variable in shared {
         if let Some(mut value) = variable.write_lock::<Dynamic>() {
             *value = Dynamic::UNIT;

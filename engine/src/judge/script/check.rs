@@ -38,8 +38,12 @@ pub struct ScriptFault {
 
 /// The arguments of a hook; `None` if it isn't a hook.
 pub(super) fn hook_arguments(hook: &str) -> Option<&'static [(&'static str, Subject)]> {
-    const STEP: &[(&str, Subject)] =
-        &[("ctx", Subject::Ctx), ("now", Subject::State), ("prev", Subject::State), ("events", Subject::Events)];
+    const STEP: &[(&str, Subject)] = &[
+        ("ctx", Subject::Ctx),
+        ("now", Subject::State),
+        ("prev", Subject::State),
+        ("events", Subject::Events),
+    ];
     match hook {
         "reward" | "done" => Some(STEP),
         "act" => Some(&[("ctx", Subject::Ctx), ("me", Subject::Player), ("now", Subject::State)]),
@@ -63,7 +67,8 @@ pub fn check_script(source: &str, hook: &str, params: &[&str]) -> Vec<ScriptFaul
             let start = position_offset(source, error.position());
             let (kind, help) = match error.err_type() {
                 rhai::ParseErrorType::VariableUndefined(name) => {
-                    let arguments = hook_arguments(hook).unwrap_or_default().iter().map(|(name, _)| *name);
+                    let arguments =
+                        hook_arguments(hook).unwrap_or_default().iter().map(|(name, _)| *name);
                     (ScriptFaultKind::Name, suggest(name, arguments.chain(["this"])))
                 }
                 _ => (ScriptFaultKind::Syntax, None),
@@ -96,18 +101,23 @@ pub(super) fn mentions_me(ast: &AST) -> bool {
 /// Whether a script reads the events that its hook gets.
 pub(super) fn mentions_events(ast: &AST, hook: &str) -> bool {
     let arguments = hook_arguments(hook).unwrap_or_default();
-    let Some(place) = arguments.iter().position(|(_, subject)| *subject == Subject::Events) else { return false };
-    let defined = ast.iter_functions().find(|f| f.name == hook && f.params.len() == arguments.len());
+    let Some(place) = arguments.iter().position(|(_, subject)| *subject == Subject::Events) else {
+        return false;
+    };
+    let defined =
+        ast.iter_functions().find(|f| f.name == hook && f.params.len() == arguments.len());
     let Some(events) = defined.and_then(|f| f.params.get(place).copied()) else { return false };
     !ast.walk(&mut |path: &[ASTNode]| {
-        !matches!(path.last(), Some(ASTNode::Expr(Expr::Variable(variable, ..))) if variable.1 == events)
+        let Some(ASTNode::Expr(Expr::Variable(variable, ..))) = path.last() else { return true };
+        variable.1 != events
     })
 }
 
 fn check_hook(source: &str, hook: &str, ast: &AST) -> Option<ScriptFault> {
     let arguments = hook_arguments(hook)?;
     let wanted = arguments.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-    let defined: Vec<usize> = ast.iter_functions().filter(|f| f.name == hook).map(|f| f.params.len()).collect();
+    let defined: Vec<usize> =
+        ast.iter_functions().filter(|f| f.name == hook).map(|f| f.params.len()).collect();
     if defined.contains(&arguments.len()) {
         return None;
     }
@@ -131,26 +141,36 @@ fn check_hook(source: &str, hook: &str, ast: &AST) -> Option<ScriptFault> {
 
 /// Checks the optional `reset` hook; with other arguments it would never be called.
 fn check_reset(source: &str, ast: &AST) -> Option<ScriptFault> {
-    ast.iter_functions().any(|f| f.name == "reset").then(|| check_hook(source, "reset", ast)).flatten()
+    ast.iter_functions()
+        .any(|f| f.name == "reset")
+        .then(|| check_hook(source, "reset", ast))
+        .flatten()
 }
 
 /// Reports statements outside functions, because nothing runs them.
 fn check_top_level(source: &str, ast: &AST) -> Option<ScriptFault> {
-    let statement = ast.statements().iter().find(|statement| !matches!(statement, Stmt::Noop(_)))?;
+    let statement =
+        ast.statements().iter().find(|statement| !matches!(statement, Stmt::Noop(_)))?;
     Some(ScriptFault {
         kind: ScriptFaultKind::Hook,
         range: word_at(source, position_offset(source, statement.position())),
         message: "statements outside functions never run".to_owned(),
-        help: Some("write them into a function; what lasts between steps is kept in `this`".to_owned()),
+        help: Some(
+            "write them into a function; what lasts between steps is kept in `this`".to_owned(),
+        ),
     })
 }
 
 pub(super) fn suggest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
-    let scored = candidates.map(|candidate| (strsim::normalized_damerau_levenshtein(name, candidate), candidate));
-    let best = scored.filter(|(score, _)| *score >= SIMILAR).fold(None, |best: Option<(f64, &str)>, next| match best {
-        Some(best) if best.0 >= next.0 => Some(best),
-        _ => Some(next),
-    });
+    let scored = candidates
+        .map(|candidate| (strsim::normalized_damerau_levenshtein(name, candidate), candidate));
+    let best = scored.filter(|(score, _)| *score >= SIMILAR).fold(
+        None,
+        |best: Option<(f64, &str)>, next| match best {
+            Some(best) if best.0 >= next.0 => Some(best),
+            _ => Some(next),
+        },
+    );
     best.map(|(_, candidate)| format!("did you mean `{candidate}`?"))
 }
 

@@ -3,12 +3,12 @@
 use super::budget::{BYTES_PER_OPERATION, OPERATIONS_MAX, Overspent, Why};
 use super::{api, budget};
 use rhai::packages::{
-    ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage, BasicStringPackage,
-    LogicPackage, MoreStringPackage, Package,
+    ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage,
+    BasicStringPackage, LogicPackage, MoreStringPackage, Package,
 };
 use rhai::{
-    AST, Array, Dynamic, Engine, EvalAltResult, FnPtr, ImmutableString, Map, OptimizationLevel, ParseError,
-    ParseErrorType, Position,
+    AST, Array, Dynamic, Engine, EvalAltResult, FnPtr, ImmutableString, Map, OptimizationLevel,
+    ParseError, ParseErrorType, Position,
 };
 use std::sync::OnceLock;
 
@@ -61,14 +61,15 @@ pub(super) fn read(source: &str) -> Result<AST, ParseError> {
     let ast = reader().compile(source)?;
     // A function with a reserved name would be called instead of the one that counts.
     let reserved = ast.iter_fn_def().find(|own| budget::RESERVED.contains(&own.name.as_str()));
-    let refused = reserved.map(|own| (ParseErrorType::Reserved(own.name.to_string()), own.body.start_position()));
+    let refused = reserved
+        .map(|own| (ParseErrorType::Reserved(own.name.to_string()), own.body.start_position()));
     refused.map_or(Ok(ast), |(why, position)| Err(ParseError(Box::new(why), position)))
 }
 
 rhai::def_package! {
     /// The parts of Rhai that scripts may use, as one module, so that one lookup finds a function.
-    Basics(module) : ArithmeticPackage, LogicPackage, BasicMathPackage, BasicStringPackage, MoreStringPackage,
-        BasicIteratorPackage, BasicArrayPackage, BasicMapPackage {}
+    Basics(module) : ArithmeticPackage, LogicPackage, BasicMathPackage, BasicStringPackage,
+        MoreStringPackage, BasicIteratorPackage, BasicArrayPackage, BasicMapPackage {}
 }
 
 fn build() -> Engine {
@@ -96,27 +97,50 @@ fn build() -> Engine {
 
 /// Replaces the platform's functions by libm's; their last bits differ.
 fn register_maths(engine: &mut Engine) {
-    engine.register_fn("sin", libm::sin).register_fn("cos", libm::cos).register_fn("tan", libm::tan);
-    engine.register_fn("asin", libm::asin).register_fn("acos", libm::acos).register_fn("atan", libm::atan);
-    engine.register_fn("sinh", libm::sinh).register_fn("cosh", libm::cosh).register_fn("tanh", libm::tanh);
-    engine.register_fn("asinh", libm::asinh).register_fn("acosh", libm::acosh).register_fn("atanh", libm::atanh);
-    engine.register_fn("atan", libm::atan2).register_fn("atan2", libm::atan2).register_fn("hypot", libm::hypot);
+    engine
+        .register_fn("sin", libm::sin)
+        .register_fn("cos", libm::cos)
+        .register_fn("tan", libm::tan);
+    engine
+        .register_fn("asin", libm::asin)
+        .register_fn("acos", libm::acos)
+        .register_fn("atan", libm::atan);
+    engine
+        .register_fn("sinh", libm::sinh)
+        .register_fn("cosh", libm::cosh)
+        .register_fn("tanh", libm::tanh);
+    engine
+        .register_fn("asinh", libm::asinh)
+        .register_fn("acosh", libm::acosh)
+        .register_fn("atanh", libm::atanh);
+    engine
+        .register_fn("atan", libm::atan2)
+        .register_fn("atan2", libm::atan2)
+        .register_fn("hypot", libm::hypot);
     engine.register_fn("exp", libm::exp).register_fn("ln", libm::log).register_fn("log", libm::log);
     engine.register_fn("log", |x: f64, base: f64| libm::log(x) / libm::log(base));
     engine.register_fn("sqrt", libm::sqrt).register_fn("pow", libm::pow);
     engine.register_fn("pow", |x: f64, y: i64| libm::pow(x, y as f64));
     engine.register_fn("pow", |x: i64, y: i64| libm::pow(x as f64, y as f64));
     engine.register_fn("pow", |x: i64, y: f64| libm::pow(x as f64, y));
-    engine.register_fn("exp", |x: i64| libm::exp(x as f64)).register_fn("sqrt", |x: i64| libm::sqrt(x as f64));
+    engine
+        .register_fn("exp", |x: i64| libm::exp(x as f64))
+        .register_fn("sqrt", |x: i64| libm::sqrt(x as f64));
     // Integers are accepted too; Rhai tries the general form last.
     engine.register_fn("clamp", clamp);
-    engine.register_fn("clamp", |x: Dynamic, low: Dynamic, high: Dynamic| -> Result<f64, Box<EvalAltResult>> {
-        Ok(clamp(to_number(&x)?, to_number(&low)?, to_number(&high)?))
-    });
+    engine.register_fn(
+        "clamp",
+        |x: Dynamic, low: Dynamic, high: Dynamic| -> Result<f64, Box<EvalAltResult>> {
+            Ok(clamp(to_number(&x)?, to_number(&low)?, to_number(&high)?))
+        },
+    );
     engine.register_fn("smoothstep", smoothstep);
-    engine.register_fn("smoothstep", |low: Dynamic, high: Dynamic, x: Dynamic| -> Result<f64, Box<EvalAltResult>> {
-        Ok(smoothstep(to_number(&low)?, to_number(&high)?, to_number(&x)?))
-    });
+    engine.register_fn(
+        "smoothstep",
+        |low: Dynamic, high: Dynamic, x: Dynamic| -> Result<f64, Box<EvalAltResult>> {
+            Ok(smoothstep(to_number(&low)?, to_number(&high)?, to_number(&x)?))
+        },
+    );
 }
 
 fn clamp(x: f64, low: f64, high: f64) -> f64 {
@@ -253,7 +277,8 @@ pub(super) fn explain(error: Box<EvalAltResult>) -> (Option<(usize, usize)>, Str
 }
 
 /// Two of a script's functions use one variable at once.
-const RACE: &str = "a closure reads the variable that its chain begins with: put one of both into a `let` before";
+const RACE: &str =
+    "a closure reads the variable that its chain begins with: put one of both into a `let` before";
 
 /// Rhai reports what is too large; this adds which limit it is.
 fn words_of_size(words: &str) -> String {
@@ -262,13 +287,15 @@ fn words_of_size(words: &str) -> String {
 
 fn runtime_message(error: EvalAltResult) -> String {
     match error {
-        EvalAltResult::ErrorTerminated(token, _) if token.is::<Overspent>() => match token.cast::<Overspent>().why {
-            Why::Size => format!(
-                "more than {OPERATIONS_MAX} operations in one call: work on values counts by their size, \
+        EvalAltResult::ErrorTerminated(token, _) if token.is::<Overspent>() => {
+            match token.cast::<Overspent>().why {
+                Why::Size => format!(
+                    "more than {OPERATIONS_MAX} operations in one call: work on values counts by their size, \
                  {BYTES_PER_OPERATION} bytes to an operation"
-            ),
-            Why::Changing => RACE.to_owned(),
-        },
+                ),
+                Why::Changing => RACE.to_owned(),
+            }
+        }
         EvalAltResult::ErrorTerminated(..) => {
             format!("more than {OPERATIONS_MAX} operations in one call: a loop doesn't end")
         }
@@ -279,7 +306,9 @@ fn runtime_message(error: EvalAltResult) -> String {
         EvalAltResult::ErrorRuntime(value, _) => format!("the script threw `{value}`"),
         EvalAltResult::ErrorPropertyNotFound(name, _) => format!("unknown property `{name}`"),
         EvalAltResult::ErrorVariableNotFound(name, _) => format!("unknown variable `{name}`"),
-        EvalAltResult::ErrorFunctionNotFound(signature, _) => format!("no function `{}`", tidy(&signature)),
+        EvalAltResult::ErrorFunctionNotFound(signature, _) => {
+            format!("no function `{}`", tidy(&signature))
+        }
         mut other => {
             let _ = other.take_position();
             lower_first(&other.to_string())
@@ -291,7 +320,9 @@ fn runtime_message(error: EvalAltResult) -> String {
 pub(super) fn parse_message(error: &ParseError) -> String {
     match error.err_type() {
         ParseErrorType::VariableUndefined(name) => format!("unknown variable `{name}`"),
-        ParseErrorType::Reserved(word) if DISABLED.iter().chain(budget::RESERVED).any(|known| known == word) => {
+        ParseErrorType::Reserved(word)
+            if DISABLED.iter().chain(budget::RESERVED).any(|known| known == word) =>
+        {
             format!("`{word}` is not available in a script")
         }
         other => lower_first(&other.to_string()),
@@ -306,7 +337,10 @@ pub(super) fn type_words(name: &str) -> String {
         "f64" => "a number".to_owned(),
         "string" | "map" | "array" | "bool" | "char" => format!("a {name}"),
         other => match api::type_name(other) {
-            Some(name) => format!("{} {name}", if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }),
+            Some(name) => format!(
+                "{} {name}",
+                if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
+            ),
             None => format!("`{}`", tidy(other)),
         },
     }
@@ -315,7 +349,10 @@ pub(super) fn type_words(name: &str) -> String {
 /// Drops the paths of Rust types from Rhai's words.
 fn tidy(words: &str) -> String {
     let short = words.replace("rhai::types::immutable_string::", "").replace("alloc::vec::", "");
-    short.split_inclusive([' ', ',', '(']).map(|part| part.rsplit("::").next().unwrap_or(part)).collect()
+    short
+        .split_inclusive([' ', ',', '('])
+        .map(|part| part.rsplit("::").next().unwrap_or(part))
+        .collect()
 }
 
 fn lower_first(text: &str) -> String {

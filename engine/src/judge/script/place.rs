@@ -47,5 +47,8 @@ pub(super) fn hook_position(source: &str, hook: &str) -> (usize, usize) {
     let start = definition(source, hook).map_or(0, |range| range.start);
     let before = source.get(..start).unwrap_or_default();
     let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-    (before.matches('\n').count() + 1, before.get(line_start..).unwrap_or_default().chars().count() + 1)
+    (
+        before.matches('\n').count() + 1,
+        before.get(line_start..).unwrap_or_default().chars().count() + 1,
+    )
 }

@@ -17,12 +17,23 @@ fn scene(events: &[Event]) -> Arc<HookScene> {
     now.players[1].vel = [3.0, 4.0];
     let mut params = rhai::Map::new();
     params.insert("width".into(), 4.5.into());
-    Arc::new(HookScene::new(now, prev, events, Arc::new(params), Stream::new(1, 2, Purpose::Script), (1, 2)))
+    Arc::new(HookScene::new(
+        now,
+        prev,
+        events,
+        Arc::new(params),
+        Stream::new(1, 2, Purpose::Script),
+        (1, 2),
+    ))
 }
 
 fn scripts(source: &str) -> Scripts {
     let mut scenario = scenario(&[]);
-    scenario.scripts.push(Script { name: "own.rhai".to_owned(), at: (1, 1), source: source.to_owned() });
+    scenario.scripts.push(Script {
+        name: "own.rhai".to_owned(),
+        at: (1, 1),
+        source: source.to_owned(),
+    });
     Scripts::compile(&scenario).unwrap()
 }
 
@@ -63,7 +74,10 @@ fn properties_bear_the_languages_names() {
     near(pay("now.elapsed"), 3.0);
     near(pay("ctx.params.width"), 4.5);
     near(pay("if now.possession == \"us\" && now.ball.owner == now.me { 1.0 } else { 0.0 }"), 1.0);
-    near(pay("if now.possession == now.us && now.possession != now.them { 1.0 } else { 0.0 }"), 1.0);
+    near(
+        pay("if now.possession == now.us && now.possession != now.them { 1.0 } else { 0.0 }"),
+        1.0,
+    );
     near(pay("if prev.ball.owner == () && now.ball.owner != () { 1 } else { 0 }"), 1.0);
     near(pay("now.players.len + now.them.players.len"), 4.0);
     assert_eq!(pay("now.remaining"), f64::INFINITY);
@@ -111,30 +125,48 @@ fn whole_numbers_serve_where_numbers_do() {
 
 #[test]
 fn a_kind_is_counted_as_in_the_language() {
-    let pass = |qualifier| Event { qualifier: Some(qualifier), ..event(EventKind::Pass, Some(Team::Left), Some(1)) };
+    let pass = |qualifier| Event {
+        qualifier: Some(qualifier),
+        ..event(EventKind::Pass, Some(Team::Left), Some(1))
+    };
     let shot = event(EventKind::Shot, Some(Team::Left), Some(1));
     let saved = Event { qualifier: Some(Qualifier::OnTarget), ..shot };
-    let events = [pass(Qualifier::Attempted), pass(Qualifier::Completed), pass(Qualifier::Attempted), shot, saved];
+    let events = [
+        pass(Qualifier::Attempted),
+        pass(Qualifier::Completed),
+        pass(Qualifier::Attempted),
+        shot,
+        saved,
+    ];
     let pay = |body| pay_for(body, Team::Left, &events).unwrap();
     near(pay("count(events, \"pass\") + 10 * count(events, \"pass completed\", \"us\")"), 12.0);
     near(pay("count(events, \"shot\") + 10 * count(events, \"shot on_target\")"), 11.0);
     near(pay("count(events, \"pass completed\", \"them\")"), 0.0);
-    assert_eq!(faults("count(events, \"pass completed\") + count(events, \"pass complete\")").len(), 1);
+    assert_eq!(
+        faults("count(events, \"pass completed\") + count(events, \"pass complete\")").len(),
+        1
+    );
 }
 
 #[test]
 fn events_are_an_array() {
-    let events = [event(EventKind::Goal, Some(Team::Left), Some(1)), event(EventKind::Corner, Some(Team::Right), None)];
+    let events = [
+        event(EventKind::Goal, Some(Team::Left), Some(1)),
+        event(EventKind::Corner, Some(Team::Right), None),
+    ];
     let pay = |body| pay_for(body, Team::Left, &events).unwrap();
     near(pay("count(events, \"goal\", \"us\") + 10 * count(events, \"goal\", \"them\")"), 1.0);
-    let body = "let n = 0.0; for e in events { if e.kind == \"goal\" && e.by == now.me { n += 1.0; } } n";
+    let body =
+        "let n = 0.0; for e in events { if e.kind == \"goal\" && e.by == now.me { n += 1.0; } } n";
     near(pay(body), 1.0);
     near(pay("if events[1].by == () && events[1].team == \"them\" { 1 } else { 0 }"), 1.0);
 }
 
 #[test]
 fn memory_lasts_and_random_numbers_are_seeded() {
-    let scripts = scripts("fn reward(ctx, now, prev, events) { this.n = (this.n ?? 0) + 1; this.n + ctx.random() }");
+    let scripts = scripts(
+        "fn reward(ctx, now, prev, events) { this.n = (this.n ?? 0) + 1; this.n + ctx.random() }",
+    );
     let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
     let run = || {
         let (mut memory, scene) = (Memory::default(), scene(&[]));
@@ -150,7 +182,8 @@ fn memory_lasts_and_random_numbers_are_seeded() {
 
 #[test]
 fn reset_is_called_once_an_episode() {
-    let source = "fn reset(ctx) { this.n = 10; }\nfn reward(ctx, now, prev, events) { this.n += 1; this.n }";
+    let source =
+        "fn reset(ctx) { this.n = 10; }\nfn reward(ctx, now, prev, events) { this.n += 1; this.n }";
     let scripts = scripts(source);
     let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
     for _ in 0..2 {
@@ -173,10 +206,13 @@ fn the_sandbox_holds() {
     }
     let recursion = "fn f(n) { f(n + 1) }\nfn reward(ctx, now, prev, events) { f(0) }";
     let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
-    let error = scripts(recursion).reward(0, &scene(&[]), perspective, &[], &mut Memory::default()).unwrap_err();
+    let error = scripts(recursion)
+        .reward(0, &scene(&[]), perspective, &[], &mut Memory::default())
+        .unwrap_err();
     assert!(error.message.contains("deeper"), "{error}");
     for text in ["eval(\"1\")", "import \"x\" as y;", "print(1)", "debug(1)", "2.0 ** 3.0"] {
-        let faults = check_script(&format!("fn reward(ctx, now, prev, events) {{ {text} }}"), "reward", &[]);
+        let faults =
+            check_script(&format!("fn reward(ctx, now, prev, events) {{ {text} }}"), "reward", &[]);
         assert!(!faults.is_empty(), "{text}");
     }
     for call in ["timestamp()", "sleep(1)", "exit()", "parse_json(\"1\")"] {
@@ -202,7 +238,10 @@ fn failures_name_their_place() {
 /// places.
 #[test]
 fn bytecode_and_walker_agree() {
-    let events = [event(EventKind::Shot, Some(Team::Left), Some(1)), event(EventKind::Corner, Some(Team::Right), None)];
+    let events = [
+        event(EventKind::Shot, Some(Team::Left), Some(1)),
+        event(EventKind::Corner, Some(Team::Right), None),
+    ];
     let mut lowered = 0;
     for body in [
         "now.ball.x + now.us.players[1].speed",
@@ -239,7 +278,8 @@ fn bytecode_and_walker_agree() {
         let perspective = Perspective { us: Team::Left, me: Some(PlayerId(1)), agent: 0 };
         let run = |scripts: &Scripts| {
             let (mut memory, scene) = (Memory::default(), scene(&events));
-            let paid: Vec<_> = (0..3).map(|_| scripts.reward(0, &scene, perspective, &[], &mut memory)).collect();
+            let paid: Vec<_> =
+                (0..3).map(|_| scripts.reward(0, &scene, perspective, &[], &mut memory)).collect();
             (paid, memory.this.to_string(), scene.random())
         };
         assert_eq!(format!("{:?}", run(&own)), format!("{:?}", run(&walked)), "{body}");
@@ -253,7 +293,9 @@ fn scripts_on_one_thread_do_not_mix() {
     let double = scripts("fn f(x) { x * 2 }\nfn reward(ctx, now, prev, events) { f(3) }");
     let triple = scripts("fn f(x) { x * 3 }\nfn reward(ctx, now, prev, events) { f(3) }");
     let broken = scripts("fn f(x) { throw x }\nfn reward(ctx, now, prev, events) { f(3) }");
-    let pay = |scripts: &Scripts| scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default());
+    let pay = |scripts: &Scripts| {
+        scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default())
+    };
     for _ in 0..3 {
         assert_eq!(pay(&double), Ok(6.0));
         assert!(pay(&broken).is_err());
@@ -263,16 +305,23 @@ fn scripts_on_one_thread_do_not_mix() {
 
 #[test]
 fn every_call_has_operations_of_its_own() {
-    let scripts = scripts("fn reward(ctx, now, prev, events) { let n = 0; for i in 0..10000 { n += i; } n }");
+    let scripts =
+        scripts("fn reward(ctx, now, prev, events) { let n = 0; for i in 0..10000 { n += i; } n }");
     let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
     for _ in 0..40 {
-        assert_eq!(scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default()), Ok(49_995_000.0));
+        assert_eq!(
+            scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default()),
+            Ok(49_995_000.0)
+        );
     }
     for body in [
         "now.players.map(|p| { let n = 0; for i in 0..80000 { n += i; } n }).len",
         "let n = 0; for i in 0..300000 { n += i; } n",
     ] {
-        assert_eq!(fail(body).message, "more than 200000 operations in one call: a loop doesn't end");
+        assert_eq!(
+            fail(body).message,
+            "more than 200000 operations in one call: a loop doesn't end"
+        );
     }
 }
 
@@ -280,24 +329,35 @@ fn every_call_has_operations_of_its_own() {
 fn memory_is_bounded_and_a_failure_names_the_files_line() {
     let perspective = Perspective { us: Team::Left, me: None, agent: 0 };
     for (grow, held) in [
-        ("this.m = #{}; for i in 0..100 { this[`${ctx.step}_${this.len()}`] = i; }", "512 entries of maps"),
-        ("if this.a == () { this.a = []; } for i in 0..500 { this.a.push(i); }", "4096 elements of arrays"),
-        ("this.s = (this.s ?? \"\") + \"0123456789\"; this.t = this.s; this.s += this.t;", "4096 bytes of strings"),
+        (
+            "this.m = #{}; for i in 0..100 { this[`${ctx.step}_${this.len()}`] = i; }",
+            "512 entries of maps",
+        ),
+        (
+            "if this.a == () { this.a = []; } for i in 0..500 { this.a.push(i); }",
+            "4096 elements of arrays",
+        ),
+        (
+            "this.s = (this.s ?? \"\") + \"0123456789\"; this.t = this.s; this.s += this.t;",
+            "4096 bytes of strings",
+        ),
         ("this.a = [this.a];", "48 levels"),
     ] {
         let scripts = scripts(&format!("fn reward(ctx, now, prev, events) {{ {grow} 1 }}"));
         let (mut memory, scene) = (Memory::default(), scene(&[]));
-        let failed = (0..60).find_map(|_| scripts.reward(0, &scene, perspective, &[], &mut memory).err());
+        let failed =
+            (0..60).find_map(|_| scripts.reward(0, &scene, perspective, &[], &mut memory).err());
         let failed = failed.unwrap_or_else(|| panic!("{grow}: never too much"));
-        let expected =
-            failed.message == format!("`this` holds more than {held}") || failed.message.contains("too large");
+        let expected = failed.message == format!("`this` holds more than {held}")
+            || failed.message.contains("too large");
         assert!(expected, "{grow}: {failed}");
     }
     let mut scenario = scenario(&[]);
     let source = "fn reward(ctx, now, prev, events) { throw 1 }\nfn f() { 1 }".to_owned();
     scenario.scripts.push(Script { name: "inline in a.pitch".to_owned(), at: (9, 22), source });
     let scripts = Scripts::compile(&scenario).unwrap();
-    let failed = scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default()).unwrap_err();
+    let failed =
+        scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default()).unwrap_err();
     assert_eq!((failed.line, failed.column), (9, 21 + 37));
 }
 
@@ -312,7 +372,8 @@ fn events_are_there_for_who_looks() {
         "fn reward(ctx, now, prev, events) { let f = || events.len; f.call() }",
         "fn reward(ctx, now, prev, events) { `${events.len}`.parse_int() }",
     ] {
-        let paid = scripts(source).reward(0, &scene(&events), perspective, &[], &mut Memory::default());
+        let paid =
+            scripts(source).reward(0, &scene(&events), perspective, &[], &mut Memory::default());
         assert_eq!(paid, Ok(1.0), "{source}");
     }
 }
@@ -364,25 +425,30 @@ fn wrong_names_are_found_with_their_place() {
 
 #[test]
 fn arguments_words_and_changes_are_checked() {
-    let fault = |word: &str, help: &str| (ScriptFaultKind::Name, word.to_owned(), Some(help.to_owned()));
+    let fault =
+        |word: &str, help: &str| (ScriptFaultKind::Name, word.to_owned(), Some(help.to_owned()));
     let distance = "distance(a, b): metres along the ground, between players, points and the ball";
     assert_eq!(faults("distance(now.ball)"), [fault("distance", distance)]);
     assert_eq!(faults("now.ball.distance(now.me)"), []);
     assert_eq!(faults("ctx.random() + ctx.random(2)")[0].1, "random");
-    assert_eq!(faults("if now.ball.x > 2.0 { count(events, \"pas\") }"), [fault("\"pas\"", "did you mean `pass`?")]);
+    assert_eq!(
+        faults("if now.ball.x > 2.0 { count(events, \"pas\") }"),
+        [fault("\"pas\"", "did you mean `pass`?")]
+    );
     assert_eq!(faults("count(events, \"pass\", \"left\")").len(), 1);
     assert_eq!(faults("events.count(\"pass\", \"them\") + count(events, \"goal\")"), []);
     assert_eq!(faults("now.ball.x = 3.0; 1")[0].1, "now");
     assert_eq!(faults("let b = now.ball; b.x += 3.0; 1").len(), 1);
     assert_eq!(
-        faults("let list = now.players; list[0] = (); let m = #{ x: 1 }; m.x = 2; this.x = now.ball.x; m.x"),
+        faults(
+            "let list = now.players; list[0] = (); let m = #{ x: 1 }; m.x = 2; this.x = now.ball.x; m.x"
+        ),
         []
     );
     let of = |source: &str, hook: &str| -> Vec<String> {
         check_script(source, hook, &[]).into_iter().map(|fault| fault.message).collect()
     };
-    let own =
-        "fn h(a) { a }\nfn h(a, b) { b }\nfn reward(ctx, now, prev, events) { h(1) + h(1, 2) + 1.h(2) + h(1, 2, 3) }";
+    let own = "fn h(a) { a }\nfn h(a, b) { b }\nfn reward(ctx, now, prev, events) { h(1) + h(1, 2) + 1.h(2) + h(1, 2, 3) }";
     assert_eq!(of(own, "reward"), ["`h` takes 1 or 2 arguments, found 3"]);
     let done = "fn done(ctx, now, prev, events) { now.me.x > 0.5 }";
     assert_eq!(of(done, "done"), ["nobody is `me` where an episode's end is judged"]);

@@ -44,14 +44,22 @@ pub(super) struct TickMemory {
 
 impl TickMemory {
     /// Plays a step again and checks each of its ticks. The result must be the same.
-    pub(super) fn watch(&mut self, before: &Match, step: &Step, scratch: &mut Scratch) -> Result<(), LabError> {
+    pub(super) fn watch(
+        &mut self,
+        before: &Match,
+        step: &Step,
+        scratch: &mut Scratch,
+    ) -> Result<(), LabError> {
         let mut game = before.clone();
         let mut events = Events::new();
         // A player that an agent has switched away from is the bot's for this step, even if
         // scripted.
-        let switched = before.agents.iter().zip(step.actions).filter(|(_, action)| **action == Action::Switch);
+        let switched =
+            before.agents.iter().zip(step.actions).filter(|(_, action)| **action == Action::Switch);
         let left: Vec<PlayerId> = switched.filter_map(|(slot, _)| slot.player).collect();
-        for (i, (acting, done)) in game.play.acting.iter_mut().zip(&step.judged.play.acting).enumerate() {
+        for (i, (acting, done)) in
+            game.play.acting.iter_mut().zip(&step.judged.play.acting).enumerate()
+        {
             acting.chosen = done.played.filter(|_| !left.contains(&PlayerId(i as u8)));
         }
         control::command(&mut game, step.actions, &mut events);
@@ -71,7 +79,9 @@ impl TickMemory {
         ball(was, now)?;
         for i in (0..PLAYERS_MAX).filter(|&i| was.players[i].active && now.players[i].active) {
             player(i, was.players[i].pos, now.players[i].pos)?;
-            for j in (i + 1..PLAYERS_MAX).filter(|&j| was.players[j].active && now.players[j].active) {
+            for j in
+                (i + 1..PLAYERS_MAX).filter(|&j| was.players[j].active && now.players[j].active)
+            {
                 self.pair(was, now, i, j)?;
             }
         }
@@ -80,14 +90,22 @@ impl TickMemory {
 
     /// Two players on their feet don't run through each other: however far a crowd presses them
     /// together, they never swap sides.
-    pub(super) fn pair(&mut self, was: &Match, now: &Match, i: usize, j: usize) -> Result<(), LabError> {
+    pub(super) fn pair(
+        &mut self,
+        was: &Match,
+        now: &Match,
+        i: usize,
+        j: usize,
+    ) -> Result<(), LabError> {
         let between = |game: &Match| game.players[j].pos - game.players[i].pos;
         let (from, to) = (between(was), between(now));
         let up = [i, j].iter().all(|&k| now.players[k].body.pose == Pose::Up);
         if !up {
             self.apart[i] &= !(1 << j);
         } else if self.apart[i] & (1 << j) != 0 {
-            must(from.dot(to) > 0.0, || format!("players {i} and {j} come through: {from} to {to}"))?;
+            must(from.dot(to) > 0.0, || {
+                format!("players {i} and {j} come through: {from} to {to}")
+            })?;
         } else if to.length() >= separation::CONTACT_M {
             self.apart[i] |= 1 << j;
         }
@@ -97,9 +115,13 @@ impl TickMemory {
 
 /// Whether a step played again has the same result.
 fn same(again: &Match, judged: &Match) -> Result<(), LabError> {
-    must(again.ball == judged.ball && again.score == judged.score, || "the ball went another way".to_owned())?;
+    must(again.ball == judged.ball && again.score == judged.score, || {
+        "the ball went another way".to_owned()
+    })?;
     for (i, (a, b)) in again.players.iter().zip(&judged.players).enumerate() {
-        must((a.pos, a.vel, a.active) == (b.pos, b.vel, b.active), || format!("player {i} went another way"))?;
+        must((a.pos, a.vel, a.active) == (b.pos, b.vel, b.active), || {
+            format!("player {i} went another way")
+        })?;
     }
     Ok(())
 }
@@ -127,11 +149,15 @@ fn ball(was: &Match, now: &Match) -> Result<(), LabError> {
     let reach = BALL_RADIUS + FRAME_RADIUS - GIVE_M;
     for [foot, head] in FRAME {
         let near = between(from, to, foot, head);
-        must(near >= reach, || format!("the ball comes through the frame, {near} m off: {from} to {to}"))?;
+        must(near >= reach, || {
+            format!("the ball comes through the frame, {near} m off: {from} to {to}")
+        })?;
     }
     let near = nets(to);
     must(near >= BALL_RADIUS + NET_HALF - GIVE_M, || format!("the ball is in a net: {to}"))?;
-    must(scored || !in_goal(to), || format!("the ball is in the goal at {to} and nobody has scored"))
+    must(scored || !in_goal(to), || {
+        format!("the ball is in the goal at {to} and nobody has scored")
+    })
 }
 
 /// Mirrors a point to the right goal, if `end` is at the left one.
@@ -166,7 +192,10 @@ fn through_mouth(from: Vec3, to: Vec3) -> bool {
     let room = BALL_RADIUS + NET_HALF - GIVE_M;
     let share = (OUT_X - from.x.abs()) / (to.x.abs() - from.x.abs());
     let at = from.lerp(to, share.clamp(0.0, 1.0));
-    from.x.abs() <= OUT_X && to.x.abs() > OUT_X && at.y.abs() <= POST_Y - room && at.z <= BAR_Z - room
+    from.x.abs() <= OUT_X
+        && to.x.abs() > OUT_X
+        && at.y.abs() <= POST_Y - room
+        && at.z <= BAR_Z - room
 }
 
 /// The least distance between two segments.
@@ -197,18 +226,24 @@ fn player(i: usize, from: Vec2, to: Vec2) -> Result<(), LabError> {
         [corner(REAR_X, -POST_Y), corner(REAR_X, POST_Y)],
     ] {
         let away = between(from, to, near, far);
-        must(away >= NET_M, || format!("player {i} runs into a net, {away} m off: {from} to {to}"))?;
+        must(away >= NET_M, || {
+            format!("player {i} runs into a net, {away} m off: {from} to {to}")
+        })?;
     }
     Ok(())
 }
 
 /// Opponents keep out of the centre circle until a kick-off has been taken.
 fn circle(now: &Match) -> Result<(), LabError> {
-    let Some(team) = now.play.kick_off.filter(|_| now.rule(Rule::KickoffCircle)) else { return Ok(()) };
+    let Some(team) = now.play.kick_off.filter(|_| now.rule(Rule::KickoffCircle)) else {
+        return Ok(());
+    };
     for (i, player) in now.players.iter().enumerate() {
         let keeps = !player.active || PlayerId(i as u8).team() == team;
         let away = player.pos.length();
-        must(keeps || away > CIRCLE_RADIUS_M as f32 - 0.001, || format!("player {i} is in the circle: {away} m"))?;
+        must(keeps || away > CIRCLE_RADIUS_M as f32 - 0.001, || {
+            format!("player {i} is in the circle: {away} m")
+        })?;
     }
     Ok(())
 }

@@ -30,9 +30,17 @@ struct Taken {
 
 impl Taken {
     fn hold(&self) -> Result<(), LabError> {
-        let mut witness =
-            Witness { before: self.before.clone(), film: TickMemory::default(), waiting: Waiting::default() };
-        let step = Step { actions: &self.actions, judged: &self.judged, after: &self.after, events: &self.events };
+        let mut witness = Witness {
+            before: self.before.clone(),
+            film: TickMemory::default(),
+            waiting: Waiting::default(),
+        };
+        let step = Step {
+            actions: &self.actions,
+            judged: &self.judged,
+            after: &self.after,
+            events: &self.events,
+        };
         witness.see(&step, &mut Scratch::default()).map(|_| ())
     }
 
@@ -70,7 +78,9 @@ fn open(steps: &[Taken]) -> Taken {
 
 /// A step that an event stopped.
 fn stopped(steps: &[Taken], kind: EventKind) -> Taken {
-    let stops = |step: &&Taken| step.events.iter().any(|event| event.kind == kind && event.qualifier.is_none());
+    let stops = |step: &&Taken| {
+        step.events.iter().any(|event| event.kind == kind && event.qualifier.is_none())
+    };
     steps.iter().find(stops).unwrap_or_else(|| panic!("no {kind:?}")).clone()
 }
 
@@ -127,15 +137,30 @@ fn what_goes_through_something_is_seen() {
     };
     for side in [1.0, -1.0] {
         let at = |x: f32, y: f32, z: f32| Vec3::new(x * side, y * side, z);
-        assert_eq!(fly(at(54.8, 0.0, 1.0), at(55.1, 0.0, 1.0)), "", "through the mouth, not yet over the line");
-        assert_eq!(fly(at(54.8, 0.0, 1.0), at(OUT_X, 0.0, 1.0)), "", "on the line to the last hair");
+        assert_eq!(
+            fly(at(54.8, 0.0, 1.0), at(55.1, 0.0, 1.0)),
+            "",
+            "through the mouth, not yet over the line"
+        );
+        assert_eq!(
+            fly(at(54.8, 0.0, 1.0), at(OUT_X, 0.0, 1.0)),
+            "",
+            "on the line to the last hair"
+        );
         assert!(fly(at(54.8, 3.7, 1.0), at(55.2, 3.7, 1.0)).contains("frame"), "through a post");
         assert!(fly(at(54.8, 1.0, 2.5), at(55.2, 1.0, 2.5)).contains("frame"), "through the bar");
         assert!(fly(at(55.1, 3.95, 1.0), at(55.4, 3.7, 1.0)).contains("net"), "in the side net");
-        assert!(fly(at(55.16, 4.0, 1.0), at(55.5, 3.4, 1.0)).contains("in the goal"), "through the side net");
-        assert!(fly(at(55.16, 0.0, 2.8), at(55.5, 0.0, 2.2)).contains("in the goal"), "through the top net");
+        assert!(
+            fly(at(55.16, 4.0, 1.0), at(55.5, 3.4, 1.0)).contains("in the goal"),
+            "through the side net"
+        );
+        assert!(
+            fly(at(55.16, 0.0, 2.8), at(55.5, 0.0, 2.2)).contains("in the goal"),
+            "through the top net"
+        );
     }
-    let jump = film(&ball(&free, Vec3::Z, Vec3::X), &ball(&free, Vec3::Z + Vec3::X, Vec3::X)).unwrap_err();
+    let jump =
+        film(&ball(&free, Vec3::Z, Vec3::X), &ball(&free, Vec3::Z + Vec3::X, Vec3::X)).unwrap_err();
     assert!(jump.contains("the ball has jumped"), "{jump}");
     let scored = |from: Vec3, to: Vec3| {
         let vel = (to - from) * 100.0;
@@ -154,14 +179,18 @@ fn what_goes_through_something_is_seen() {
         game.players[i].body.pose = Pose::Up;
         game
     };
-    let run = |from: Vec2, to: Vec2| film(&man(&free, 7, from), &man(&free, 7, to)).err().unwrap_or_default();
+    let run = |from: Vec2, to: Vec2| {
+        film(&man(&free, 7, from), &man(&free, 7, to)).err().unwrap_or_default()
+    };
     assert!(run(Vec2::new(20.0, 39.0), Vec2::new(20.3, 39.0)).contains("has jumped"));
     assert_eq!(run(Vec2::new(56.0, 4.2), Vec2::new(56.0, 4.1)), "");
     assert!(run(Vec2::new(56.0, 3.95), Vec2::new(56.0, 3.85)).contains("into a net"));
     assert!(run(Vec2::new(-57.5, 0.0), Vec2::new(-57.6, 0.0)).contains("into a net"));
 
     let pair = |there: Vec2, back: Vec2| {
-        let at = |game: &Match, way: Vec2| man(&man(game, 7, Vec2::new(30.0, 38.0)), 8, Vec2::new(30.0, 38.0) + way);
+        let at = |game: &Match, way: Vec2| {
+            man(&man(game, 7, Vec2::new(30.0, 38.0)), 8, Vec2::new(30.0, 38.0) + way)
+        };
         let mut film = TickMemory::default();
         film.pair(&at(&free, there), &at(&free, there), 7, 8).unwrap();
         film.pair(&at(&free, there), &at(&free, back), 7, 8).is_ok()
@@ -184,7 +213,9 @@ fn a_clock_that_is_wrong_is_seen() {
     spoilt(&step, "follows", |step| step.judged.step += 1);
     spoilt(&step, "ticks", |step| step.judged.tick -= 1);
     spoilt(&step, "took time", |step| step.after.tick += 1);
-    spoilt(&step, "half-time without", |step| step.states().into_iter().for_each(|game| game.play.second_half = true));
+    spoilt(&step, "half-time without", |step| {
+        step.states().into_iter().for_each(|game| game.play.second_half = true)
+    });
     spoilt(&step, "half-time is late", |step| {
         step.states().into_iter().for_each(|game| game.rules[Rule::HalfTime.index()] = 1.0);
     });
@@ -200,7 +231,9 @@ fn a_clock_that_is_wrong_is_seen() {
         step.events.retain(|event| event.kind != EventKind::HalfTime);
     });
     spoilt(&half, "tired by", |step| step.judged.players[4].fatigue = 0.1);
-    spoilt(&all[999], "full time", |step| step.events.retain(|event| event.kind != EventKind::FullTime));
+    spoilt(&all[999], "full time", |step| {
+        step.events.retain(|event| event.kind != EventKind::FullTime)
+    });
 }
 
 #[test]
@@ -222,7 +255,9 @@ fn a_score_or_a_card_that_is_wrong_is_seen() {
     spoilt(&step, "changed the score", |step| step.after.score[0] += 1);
     spoilt(&step, "own goals", |step| step.events.push(event(EventKind::OwnGoal, 3)));
 
-    spoilt(&step, "cards, not", |step| step.states().into_iter().for_each(|game| game.players[3].yellow_cards = 1));
+    spoilt(&step, "cards, not", |step| {
+        step.states().into_iter().for_each(|game| game.players[3].yellow_cards = 1)
+    });
     spoilt(&step, "cards, not", |step| step.before.players[3].yellow_cards = 1);
     spoilt(&step, "a second yellow", |step| {
         step.before.players[3].yellow_cards = 1;
@@ -263,7 +298,9 @@ fn a_restart_that_is_wrong_is_seen() {
     let kick = stopped(&all, EventKind::GoalKick);
     spoilt(&kick, "awards", |step| step.events.retain(|event| event.kind != EventKind::GoalKick));
     spoilt(&kick, "awards", |step| step.events.push(*step.events.last().unwrap()));
-    spoilt(&kick, "nothing is worth", |step| step.events.retain(|event| event.kind != EventKind::OutOfPlay));
+    spoilt(&kick, "nothing is worth", |step| {
+        step.events.retain(|event| event.kind != EventKind::OutOfPlay)
+    });
     spoilt(&kick, "waits after", |step| step.judged.play.pending = None);
     spoilt(&kick, "is not where", |step| step.after.ball.pos.x += 1.0);
     spoilt(&kick, "the mode is", |step| step.after.mode = step.before.mode);
@@ -275,11 +312,17 @@ fn a_restart_that_is_wrong_is_seen() {
         let set_piece = step.after.play.set_piece.as_mut().unwrap();
         set_piece.team = set_piece.team.other();
     });
-    let waits = |step: &&Taken| step.before.play.set_piece.is_some() && step.judged.play.set_piece.is_none();
+    let waits = |step: &&Taken| {
+        step.before.play.set_piece.is_some() && step.judged.play.set_piece.is_none()
+    };
     let taken = all.iter().find(waits).unwrap();
-    spoilt(taken, "was taken as", |step| step.events.retain(|event| event.qualifier != Some(Qualifier::Taken)));
+    spoilt(taken, "was taken as", |step| {
+        step.events.retain(|event| event.qualifier != Some(Qualifier::Taken))
+    });
     let goal = stopped(&all, EventKind::Goal);
-    spoilt(&goal, "kicks off after", |step| step.after.play.kick_off = step.after.play.kick_off.map(Team::other));
+    spoilt(&goal, "kicks off after", |step| {
+        step.after.play.kick_off = step.after.play.kick_off.map(Team::other)
+    });
     spoilt(&goal, "goals", |step| step.events.retain(|event| event.kind != EventKind::Goal));
 }
 
@@ -291,7 +334,8 @@ fn what_waits_for_too_long_is_seen() {
         let (mut waiting, mut step) = (Waiting::default(), waits.clone());
         step.judged.dead = false;
         spoil(&mut step.after);
-        let see = Step { actions: &step.actions, judged: &step.judged, after: &step.after, events: &[] };
+        let see =
+            Step { actions: &step.actions, judged: &step.judged, after: &step.after, events: &[] };
         (0..1000).position(|_| waiting.hold(&see).is_err()).map(|steps| steps as u32) == Some(most)
     };
     let taker = waits.after.play.set_piece.unwrap().taker;
@@ -300,8 +344,12 @@ fn what_waits_for_too_long_is_seen() {
     assert!(wait(&|game| game.play.driven = 1 << taker.0, 27), "the rule hurries agents");
     let unhurried = |game: &mut Match| game.rules[Rule::AntiStalling.index()] = 0.0;
     assert!(wait(&unhurried, 27), "bots wait for nothing");
-    assert!(!wait(&|game| (unhurried(game), game.play.driven = 1 << taker.0).0, 27), "agents may wait");
-    let keeper = waits.after.players.iter().position(|player| player.role == Role::GK).unwrap() as u8;
+    assert!(
+        !wait(&|game| (unhurried(game), game.play.driven = 1 << taker.0).0, 27),
+        "agents may wait"
+    );
+    let keeper =
+        waits.after.players.iter().position(|player| player.role == Role::GK).unwrap() as u8;
     let hold = |game: &mut Match| (none(game), game.play.hands = Some((PlayerId(keeper), 0))).0;
     assert!(wait(&hold, 61));
     assert!(wait(&|game| (none(game), game.play.kick_off = Some(Team::Left)).0, 21));

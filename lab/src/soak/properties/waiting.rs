@@ -43,7 +43,9 @@ impl Waiting {
         let hurried = game.rule(Rule::AntiStalling);
         let taker = game.play.set_piece.map(|set_piece| set_piece.taker);
         count(&mut self.set_piece, game, taker, hurried);
-        must(self.set_piece <= WAIT_STEPS, || format!("{:?} has waited too long", game.play.set_piece))?;
+        must(self.set_piece <= WAIT_STEPS, || {
+            format!("{:?} has waited too long", game.play.set_piece)
+        })?;
         let keeper = game.play.hands.map(|(keeper, _)| keeper);
         count(&mut self.hands, game, keeper, game.rule(Rule::SixSeconds));
         must(self.hands <= HOLD_STEPS, || format!("{keeper:?} holds the ball for too long"))?;
@@ -57,7 +59,9 @@ impl Waiting {
     /// Counts the steps in which the ball lies although there are bots, and only bots.
     fn lie(&mut self, game: &Match) {
         let ball = game.ball.pos.truncate();
-        let waits = game.play.set_piece.is_some() || game.play.hands.is_some() || game.play.led != [false; 2];
+        let waits = game.play.set_piece.is_some()
+            || game.play.hands.is_some()
+            || game.play.led != [false; 2];
         let mut there = game.players.iter().filter(|player| player.active).peekable();
         let bots = there.peek().is_some() && there.all(|player| player.ai == Ai::Bot);
         if waits || !bots || ball.distance(self.spot) > LIES_M {

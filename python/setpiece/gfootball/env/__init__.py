@@ -19,7 +19,12 @@ from setpiece._errors import ParameterError
 from setpiece._words import check_word, similar
 from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env import config as _config
-from setpiece.gfootball.env import football_action_set, football_env, observation_preprocessing, wrappers
+from setpiece.gfootball.env import (
+    football_action_set,
+    football_env,
+    observation_preprocessing,
+    wrappers,
+)
 from setpiece.gfootball.env.config import Config
 from setpiece.gfootball.env.football_env import FootballEnv
 
@@ -80,7 +85,9 @@ def create_environment(
     """
     if not isinstance(env_name, str) or not env_name:
         raise ParameterError(
-            "`env_name` is empty" if env_name == "" else f"`env_name` is {env_name!r}; it is a name",
+            "`env_name` is empty"
+            if env_name == ""
+            else f"`env_name` is {env_name!r}; it is a name",
             name="env_name",
             help="name a level, for example `academy_3_vs_1_with_keeper`",
         )
@@ -97,8 +104,12 @@ def create_environment(
     checkpoints = "checkpoints" in _check_rewards(rewards)
     if stacked and representation == "raw":
         raise ParameterError("raw observations can't be stacked", name="stacked")
-    left = _check_count("number_of_left_players_agent_controls", number_of_left_players_agent_controls)
-    right = _check_count("number_of_right_players_agent_controls", number_of_right_players_agent_controls)
+    left = _check_count(
+        "number_of_left_players_agent_controls", number_of_left_players_agent_controls
+    )
+    right = _check_count(
+        "number_of_right_players_agent_controls", number_of_right_players_agent_controls
+    )
     frequency = _check_count("dump_frequency", dump_frequency, 1)
     dimensions = wrappers.check_dimensions(channel_dimensions)
     folder = _config.check_folder("logdir", logdir)
@@ -112,21 +123,29 @@ def create_environment(
     options = dict(other_config_options or {})
     slots = _slots(options.get("level", env_name), left, right)
     agent = f"agent:left_players={slots[0]},right_players={slots[1]}"
-    env: Env = FootballEnv(Config({**values, "players": [agent, *_check_players(extra_players)], **options}))
+    env: Env = FootballEnv(
+        Config({**values, "players": [agent, *_check_players(extra_players)], **options})
+    )
     if slots != (left, right) and "players" not in options:
         env = wrappers.MultiAgentToSingleAgent(env, *slots)
     if frequency > 1:
         env = wrappers.PeriodicDumpWriter(env, frequency)
     if checkpoints:
         env = wrappers.CheckpointRewardWrapper(env)
-    return wrappers.GetStateWrapper(_shown(env, wrappers.agents_of(env), representation, dimensions, stacked))
+    return wrappers.GetStateWrapper(
+        _shown(env, wrappers.agents_of(env), representation, dimensions, stacked)
+    )
 
 
-def _shown(env: Env, agents: int, representation: str, channel_dimensions: tuple[int, int], stacked: bool) -> Env:
+def _shown(
+    env: Env, agents: int, representation: str, channel_dimensions: tuple[int, int], stacked: bool
+) -> Env:
     """Wraps an environment to show a representation; without an agent, the whole match."""
     if agents == 0:
         if stacked:
-            raise ParameterError("there is no agent whose observations could be stacked", name="stacked")
+            raise ParameterError(
+                "there is no agent whose observations could be stacked", name="stacked"
+            )
         return env
     if representation.startswith("simple115"):
         env = wrappers.Simple115StateWrapper(env, fixed_positions=representation == "simple115v2")
@@ -142,9 +161,17 @@ def _shown(env: Env, agents: int, representation: str, channel_dimensions: tuple
 def _slots(env_name: str, left: int, right: int) -> tuple[int, int]:
     """How many players the agent controls inside: all of a team if the scenario requires that."""
     scenario = Config({"level": env_name}).ScenarioConfig()
-    if not scenario.control_all_players or left not in (0, 1) or right not in (0, 1) or left + right == 0:
+    if (
+        not scenario.control_all_players
+        or left not in (0, 1)
+        or right not in (0, 1)
+        or left + right == 0
+    ):
         return left, right
-    return left and scenario.controllable_left_players, right and scenario.controllable_right_players
+    return (
+        left and scenario.controllable_left_players,
+        right and scenario.controllable_right_players,
+    )
 
 
 def _check_rewards(rewards: object) -> list[str]:
@@ -159,7 +186,9 @@ def _check_rewards(rewards: object) -> list[str]:
                 help=similar(name, REWARDS),
             )
     if "scoring" not in names:
-        raise ParameterError("`rewards` lacks `scoring`", name="rewards", help="write `scoring,checkpoints`")
+        raise ParameterError(
+            "`rewards` lacks `scoring`", name="rewards", help="write `scoring,checkpoints`"
+        )
     return names
 
 
@@ -190,5 +219,17 @@ def create_remote_environment(
     include_rendering: bool = False,
 ) -> Any:
     """Raises `UnavailableError`: the service that GRF's clients used no longer exists."""
-    del username, token, model_name, track, stacked, representation, rewards, channel_dimensions, include_rendering
-    raise unavailable("create_remote_environment", "play against a server", "`create_environment` plays here")
+    del (
+        username,
+        token,
+        model_name,
+        track,
+        stacked,
+        representation,
+        rewards,
+        channel_dimensions,
+        include_rendering,
+    )
+    raise unavailable(
+        "create_remote_environment", "play against a server", "`create_environment` plays here"
+    )

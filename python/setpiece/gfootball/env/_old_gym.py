@@ -49,7 +49,7 @@ class Wrapper(gymnasium.Wrapper[Any, Any, Any, Any]):
         return observation, reward, bool(done), info
 
     def get_state(self, to_pickle: dict[str, Any] | None = None) -> bytes:
-        """Returns the whole state, with the content of `to_pickle` from the wrappers outside this one."""
+        """Returns the whole state, with the outer wrappers' content of `to_pickle`."""
         state: bytes = self.env.get_state({} if to_pickle is None else to_pickle)  # type: ignore[attr-defined]
         return state
 

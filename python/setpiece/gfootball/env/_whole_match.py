@@ -44,12 +44,18 @@ def whole_match(
     - `first`: a view in that frame, and whether it is one of the left team's own.
     - `left`, `right`: what each slot sees, in its team's own frame.
     """
-    whole = {key: value for key, value in first.items() if key not in ("active", "designated", "sticky_actions")}
+    whole = {
+        key: value
+        for key, value in first.items()
+        if key not in ("active", "designated", "sticky_actions")
+    }
     for side, views in (("left", left), ("right", right)):
         whole[f"{side}_agent_controlled_player"] = [view["active"] for view in views]
         whole[f"{side}_team_designated_player"] = views[0]["designated"] if views else -1
     if seen_by_left:
         whole["left_team_designated_player"] = first["designated"]
     whole["left_agent_sticky_actions"] = [view["sticky_actions"] for view in left]
-    whole["right_agent_sticky_actions"] = [flip_observation(view, config)["sticky_actions"] for view in right]
+    whole["right_agent_sticky_actions"] = [
+        flip_observation(view, config)["sticky_actions"] for view in right
+    ]
     return whole

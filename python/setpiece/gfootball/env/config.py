@@ -38,14 +38,18 @@ def parse_player_definition(definition: str) -> PlayerDefinition:
     ('bot', {'left_players': 1, 'right_players': 0})
     """
     if not isinstance(definition, str) or not definition:
-        raise ParameterError(f"expected a player's definition, found `{definition!r}`", name="players")
+        raise ParameterError(
+            f"expected a player's definition, found `{definition!r}`", name="players"
+        )
     name, _, rest = definition.partition(":")
     settings: dict[str, Any] = {"left_players": 0, "right_players": 0}
     for part in filter(None, rest.split(",")):
         key, equals, value = part.partition("=")
         if not equals:
             raise ParameterError(
-                f"`{part}` in `{definition}` is not a setting", name="players", help="write `agent:left_players=1`"
+                f"`{part}` in `{definition}` is not a setting",
+                name="players",
+                help="write `agent:left_players=1`",
             )
         settings[key] = value
     # GRF compares with the number 0, so an explicit zero counts as given.
@@ -75,7 +79,9 @@ def count_players(definition: str) -> int:
 
 def get_agent_number_of_players(players: list[str]) -> int:
     """Returns how many players the `agent` among some definitions plays."""
-    return sum(count_players(each) for each in players if parse_player_definition(each)[0] == "agent")
+    return sum(
+        count_players(each) for each in players if parse_player_definition(each)[0] == "agent"
+    )
 
 
 def defaults() -> dict[str, Any]:
@@ -127,7 +133,9 @@ class Config:
         if key in self._scenario_values:
             return self._scenario_values[key]
         if key not in self._values:
-            raise ParameterError(f"no setting `{key}`", name=str(key), help=similar(key, self._values))
+            raise ParameterError(
+                f"no setting `{key}`", name=str(key), help=similar(key, self._values)
+            )
         return self._values[key]
 
     def __setitem__(self, key: str, value: Any) -> None:
@@ -188,7 +196,10 @@ class Config:
         return self._scenario.config()
 
     def NewScenario(self, inc: int = 1) -> None:  # noqa: N802
-        """Builds the scenario of the next episode, or the same one again with `inc=0`; draws its seed."""
+        """Builds the scenario of the next episode and draws its seed.
+
+        `inc=0` builds the same scenario again.
+        """
         self._scenario_values = {}
         self._values["episode_number"] += inc
         self._scenario = Scenario(self)
@@ -211,7 +222,11 @@ def has_bug(config: object, name: str) -> bool:
 
     Anything else restores none.
     """
-    bugs = config["grf_bugs"] if isinstance(config, (Config, Mapping)) and "grf_bugs" in config else False
+    bugs = (
+        config["grf_bugs"]
+        if isinstance(config, (Config, Mapping)) and "grf_bugs" in config
+        else False
+    )
     if isinstance(bugs, str):
         return bugs == name
     return name in bugs if isinstance(bugs, (list, tuple)) else bugs is True
@@ -229,7 +244,9 @@ def _checked(key: str, value: Any) -> Any:
         check_word(key, value, tuple(action_set_dict))
     elif key == "level":
         if not isinstance(value, str) or not value:
-            raise ParameterError("the level needs a name", name=key, help="for example `academy_3_vs_1_with_keeper`")
+            raise ParameterError(
+                "the level needs a name", name=key, help="for example `academy_3_vs_1_with_keeper`"
+            )
     elif key == "players":
         _check_players(value)
     elif key == "tracesdir":
@@ -250,7 +267,9 @@ def _checked(key: str, value: Any) -> Any:
     elif key == "grf_bugs" and not isinstance(value, bool):
         names = [value] if isinstance(value, str) else value
         if not isinstance(names, (list, tuple)):
-            raise ParameterError(f"`{key}` is {value!r}; it is True, False or a list of names", name=key)
+            raise ParameterError(
+                f"`{key}` is {value!r}; it is True, False or a list of names", name=key
+            )
         for name in names:
             check_word(key, name, BUGS)
     return value
@@ -281,11 +300,17 @@ def check_folder(name: str, value: object) -> str:
 
 def _check_players(definitions: Any) -> None:
     if isinstance(definitions, str) or not isinstance(definitions, (list, tuple)):
-        raise ParameterError(f"expected a list of players' definitions, found `{definitions!r}`", name="players")
+        raise ParameterError(
+            f"expected a list of players' definitions, found `{definitions!r}`", name="players"
+        )
     if sum(parse_player_definition(each)[0] == "agent" for each in definitions) > 1:
         raise ParameterError("there is at most one `agent` among the players", name="players")
 
 
 def no_pictures(name: str) -> Exception:
     """Returns the error for everything that needs a picture of the pitch."""
-    return unavailable(name, "a picture of the pitch", "`setpiece render` draws an episode of a scenario from above")
+    return unavailable(
+        name,
+        "a picture of the pitch",
+        "`setpiece render` draws an episode of a scenario from above",
+    )

@@ -16,10 +16,43 @@ if TYPE_CHECKING:
     from setpiece.gfootball.env.config import Config
 
 BACKEND_NAMES = (
-    *("idle", "left", "top_left", "top", "top_right", "right", "bottom_right", "bottom", "bottom_left"),
-    *("long_pass", "high_pass", "short_pass", "shot", "keeper_rush", "sliding", "pressure", "team_pressure", "switch"),
-    *("sprint", "dribble", "release_direction", "release_long_pass", "release_high_pass", "release_short_pass"),
-    *("release_shot", "release_keeper_rush", "release_sliding", "release_pressure", "release_team_pressure"),
+    *(
+        "idle",
+        "left",
+        "top_left",
+        "top",
+        "top_right",
+        "right",
+        "bottom_right",
+        "bottom",
+        "bottom_left",
+    ),
+    *(
+        "long_pass",
+        "high_pass",
+        "short_pass",
+        "shot",
+        "keeper_rush",
+        "sliding",
+        "pressure",
+        "team_pressure",
+        "switch",
+    ),
+    *(
+        "sprint",
+        "dribble",
+        "release_direction",
+        "release_long_pass",
+        "release_high_pass",
+        "release_short_pass",
+    ),
+    *(
+        "release_shot",
+        "release_keeper_rush",
+        "release_sliding",
+        "release_pressure",
+        "release_team_pressure",
+    ),
     *("release_switch", "release_sprint", "release_dribble", "builtin_ai"),
 )
 """Every action's name, by its number in GRF's engine."""
@@ -36,7 +69,9 @@ class CoreAction:
     set.
     """
 
-    def __init__(self, backend_action: int, name: str, sticky: bool = False, directional: bool = False) -> None:
+    def __init__(
+        self, backend_action: int, name: str, sticky: bool = False, directional: bool = False
+    ) -> None:
         self._backend_action = backend_action
         self._name = name
         self._sticky = sticky
@@ -80,7 +115,9 @@ class CoreAction:
 
 
 _BY_NAME = {
-    name: CoreAction(number, name, sticky=name in DIRECTIONS or name in HELD, directional=name in DIRECTIONS)
+    name: CoreAction(
+        number, name, sticky=name in DIRECTIONS or name in HELD, directional=name in DIRECTIONS
+    )
     for number, name in enumerate(BACKEND_NAMES)
 }
 
@@ -119,12 +156,34 @@ action_release_dribble = _BY_NAME["release_dribble"]
 action_builtin_ai = _BY_NAME["builtin_ai"]
 
 _DEFAULT = (
-    *("idle", *DIRECTIONS, "long_pass", "high_pass", "short_pass", "shot", "sprint", "release_direction"),
+    *(
+        "idle",
+        *DIRECTIONS,
+        "long_pass",
+        "high_pass",
+        "short_pass",
+        "shot",
+        "sprint",
+        "release_direction",
+    ),
     *("release_sprint", "sliding", "dribble", "release_dribble"),
 )
 _ONLY_FULL = (
-    *("keeper_rush", "pressure", "team_pressure", "switch", "release_long_pass", "release_high_pass"),
-    *("release_short_pass", "release_shot", "release_keeper_rush", "release_sliding", "release_pressure"),
+    *(
+        "keeper_rush",
+        "pressure",
+        "team_pressure",
+        "switch",
+        "release_long_pass",
+        "release_high_pass",
+    ),
+    *(
+        "release_short_pass",
+        "release_shot",
+        "release_keeper_rush",
+        "release_sliding",
+        "release_pressure",
+    ),
     *("release_team_pressure", "release_switch"),
 )
 
@@ -157,12 +216,15 @@ def disable_action(action: CoreAction) -> CoreAction:
     """
     if not isinstance(action, CoreAction):
         raise ActionError(
-            f"expected a `CoreAction`, found `{action!r}`", help="take it from the action set by its number"
+            f"expected a `CoreAction`, found `{action!r}`",
+            help="take it from the action set by its number",
         )
     if action.directional or action == action_release_direction:
         return action_release_direction
     if action.name not in _COUNTERPARTS:
-        raise ActionError(f"no action ends `{action.name}`", help="directions and buttons can be released")
+        raise ActionError(
+            f"no action ends `{action.name}`", help="directions and buttons can be released"
+        )
     return _BY_NAME[_COUNTERPARTS[action.name]]
 
 
@@ -199,7 +261,9 @@ def named_action_from_action_set(action_set: list[CoreAction], action: object) -
             raise TypeError
         number = index(held)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise ActionError(f"expected an action's number or a `CoreAction`, found `{action!r}`") from None
+        raise ActionError(
+            f"expected an action's number or a `CoreAction`, found `{action!r}`"
+        ) from None
     if not 0 <= number < len(action_set):
         raise ActionError(f"action {number} is outside 0..{len(action_set) - 1}")
     return action_set[number]

@@ -62,7 +62,9 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         count = len(self._agent_slots)
         actions = len(get_action_set(config))
         self.action_space = (
-            spaces.Discrete(actions) if count == 1 else spaces.MultiDiscrete(np.full(count, actions, np.int64))
+            spaces.Discrete(actions)
+            if count == 1
+            else spaces.MultiDiscrete(np.full(count, actions, np.int64))
         )
         self._core.reset(inc=0)
         self.observation_space = _raw_space(self.observation())
@@ -80,11 +82,15 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def step(self, action: Any) -> Stepped:  # type: ignore[override]
         """Plays 100 ms; see the class."""
         if self._core.done:
-            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+            raise gymnasium.error.ResetNeeded(
+                "call `reset` before `step`: no episode is being played"
+            )
         chosen = self._actions(action)
         reward = self._core.step(chosen)
         core = self._core
-        trace = trace_of(chosen, core.step_count, reward, core.cumulative_reward, time.time(), core.whole)
+        trace = trace_of(
+            chosen, core.step_count, reward, core.cumulative_reward, time.time(), core.whole
+        )
         info: dict[str, Any] = {"score_reward": reward}
         dumps = self._processor.add(trace, reward, self._core.done)
         if dumps:
@@ -93,7 +99,12 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             return self.observation(), reward, self._core.done, info
         left = self._agent.num_controlled_left_players()
         right = self._agent.num_controlled_right_players()
-        return self.observation(), np.array([reward] * left + [-reward] * right, np.float32), self._core.done, info
+        return (
+            self.observation(),
+            np.array([reward] * left + [-reward] * right, np.float32),
+            self._core.done,
+            info,
+        )
 
     def observation(self) -> Any:
         """Returns the current observation, without playing."""
@@ -111,7 +122,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def get_state(self, to_pickle: dict[str, Any] | None = None) -> bytes:
         """Returns the whole state: the match, and the content of `to_pickle` from wrappers."""
-        state = {"level": self._config["level"], "core": self._core.state(), "wrappers": dict(to_pickle or {})}
+        state = {
+            "level": self._config["level"],
+            "core": self._core.state(),
+            "wrappers": dict(to_pickle or {}),
+        }
         # Twice, so that the identity of equal objects doesn't affect the bytes.
         return pickle.dumps(pickle.loads(pickle.dumps(state)))
 
@@ -170,9 +185,16 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         for name, settings in definitions:
             ordinal = counts.get(name, 0)
             counts[name] = ordinal + 1
-            settings = {**settings, "index": left if settings["left_players"] else right, f"player_{name}": ordinal}
+            settings = {
+                **settings,
+                "index": left if settings["left_players"] else right,
+                f"player_{name}": ordinal,
+            }
             player = _player_class(name)(settings, self._config)
-            lefts, rights = player.num_controlled_left_players(), player.num_controlled_right_players()
+            lefts, rights = (
+                player.num_controlled_left_players(),
+                player.num_controlled_right_players(),
+            )
             slots = [*range(left, left + lefts), *range(right, right + rights)]
             left, right = left + lefts, right + rights
             made.append((player, slots, lefts))
@@ -197,14 +219,18 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 continue
             turned = player.can_play_right()
             views = [
-                flip_observation(slots[slot], self._config) if turned and at >= lefts else dict(slots[slot])
+                flip_observation(slots[slot], self._config)
+                if turned and at >= lefts
+                else dict(slots[slot])
                 for at, slot in enumerate(own)
             ]
             taken = player.take_action(views)
             taken = taken if isinstance(taken, (list, tuple, np.ndarray)) else [taken]
             for at, (slot, each) in enumerate(zip(own, taken, strict=True)):
                 named = named_action_from_action_set(actions, each)
-                chosen[slot] = flip_single_action(named, self._config) if at >= lefts and not turned else named
+                chosen[slot] = (
+                    flip_single_action(named, self._config) if at >= lefts and not turned else named
+                )
         return chosen
 
 
@@ -220,7 +246,9 @@ def _player_class(name: str) -> Any:
             if error.name not in (module, package, *(package.rsplit(".", n)[0] for n in (1, 2))):
                 raise
     raise ParameterError(
-        f"no player `{name}`; there are `{'`, `'.join(PLAYERS)}`", name="players", help=similar(name, PLAYERS)
+        f"no player `{name}`; there are `{'`, `'.join(PLAYERS)}`",
+        name="players",
+        help=similar(name, PLAYERS),
     )
 
 

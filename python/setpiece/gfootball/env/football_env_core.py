@@ -31,7 +31,13 @@ TURNING = 30
 Clock = tuple[int | None, int | None]
 """The steps of an episode and those before its second half, or None."""
 
-_KINDS = {"snapshot": bytes, "waiting": int, "step_count": int, "cumulative_reward": float, "done": bool}
+_KINDS = {
+    "snapshot": bytes,
+    "waiting": int,
+    "step_count": int,
+    "cumulative_reward": float,
+    "done": bool,
+}
 """Types of the parts of a state that are stored unchanged."""
 
 # Where GRF assumes that the players of a team stand, by index, when it assigns the slots of the
@@ -99,9 +105,13 @@ class FootballEnvCore:
         Actions are in the frame of the pitch.
         """
         if self.done or self._env is None:
-            raise gymnasium.error.ResetNeeded("call `reset` before `step`: no episode is being played")
+            raise gymnasium.error.ResetNeeded(
+                "call `reset` before `step`: no episode is being played"
+            )
         numbers = self._numbers(self._hurried(chosen))
-        observed, _, terminated, truncated, info = self._env.step(numbers[0] if len(numbers) == 1 else numbers)
+        observed, _, terminated, truncated, info = self._env.step(
+            numbers[0] if len(numbers) == 1 else numbers
+        )
         lead = self.score[0] - self.score[1]
         self._see(observed, info)
         reward = float(self.score[0] - self.score[1] - lead)
@@ -138,13 +148,17 @@ class FootballEnvCore:
         `LookupError`.
         """
         if tuple(state["agents"]) != self._asked:
-            raise SnapshotError(f"the state has {state['agents']} played players, this environment {self._asked}")
+            raise SnapshotError(
+                f"the state has {state['agents']} played players, this environment {self._asked}"
+            )
         for part, kind in _KINDS.items():
             if not isinstance(state[part], kind):
                 raise SnapshotError(f"the state is damaged: its `{part}` is {state[part]!r}")
         source = Source(*state["source"])
         if self._source is None or source.name != self._source.name:
-            raise SnapshotError(f"the state is one of `{source.name}`, not of `{self._config['level']}`")
+            raise SnapshotError(
+                f"the state is one of `{source.name}`, not of `{self._config['level']}`"
+            )
         before = self._env, self._source, self._clock, self._played, self._swapped
         try:
             self._enter(source, state["clock"], state["played"], state["swapped"])
@@ -166,7 +180,9 @@ class FootballEnvCore:
         if self._env is None or wanted != (self._source, self._clock, self._played, self._swapped):
             left, right = reversed(played) if swapped else played
             scenario = source.compiled(str(left), str(right), *clock)
-            self._env = setpiece.FootballEnv(scenario, observation="raw", rewards=[], action_set="full")
+            self._env = setpiece.FootballEnv(
+                scenario, observation="raw", rewards=[], action_set="full"
+            )
             self._source, self._clock, self._played, self._swapped = wanted
 
     def _playable(self, recorded: ScenarioConfig) -> tuple[int, int]:
@@ -181,7 +197,9 @@ class FootballEnvCore:
         """Stores what the engine shows."""
         self.score = (info["score"][0], info["score"][1])
         left, right = self._played
-        views = [self._view(each) for each in (observed if isinstance(observed, tuple) else (observed,))]
+        views = [
+            self._view(each) for each in (observed if isinstance(observed, tuple) else (observed,))
+        ]
         if self._swapped:
             self.score = (info["score"][1], info["score"][0])
             views = views[right:] + views[:right]
@@ -242,7 +260,9 @@ class FootballEnvCore:
             if not 0 < len(views) < len(playable):
                 continue
             dealt = sorted(sorted(playable, key=lambda number: _CENTRAL[number])[: len(views)])
-            slots[side] = [{**view, "active": number} for view, number in zip(views, dealt, strict=True)]
+            slots[side] = [
+                {**view, "active": number} for view, number in zip(views, dealt, strict=True)
+            ]
             self.whole[f"{('left', 'right')[side]}_agent_controlled_player"] = dealt
         self.slots = slots[0] + slots[1]
 
@@ -284,7 +304,11 @@ def _is_symmetric(recorded: ScenarioConfig) -> bool:
 
 def _half_time(recorded: ScenarioConfig) -> int | None:
     """The steps before half-time, or None: GRF plays one more than it says."""
-    return recorded.second_half + 1 if recorded.second_half < min(recorded.game_duration, LIMIT_MAX) else None
+    return (
+        recorded.second_half + 1
+        if recorded.second_half < min(recorded.game_duration, LIMIT_MAX)
+        else None
+    )
 
 
 def _length(recorded: ScenarioConfig) -> int | None:

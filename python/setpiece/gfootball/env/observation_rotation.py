@@ -26,14 +26,24 @@ _OPPOSITE = {
 _ACTIONS = {action.name: action for action in action_set_dict["full"]}
 _TURNED = ("_team", "_team_direction")
 _KEPT = (
-    *("_team_tired_factor", "_team_active", "_team_yellow_card", "_team_roles", "_team_designated_player"),
+    *(
+        "_team_tired_factor",
+        "_team_active",
+        "_team_yellow_card",
+        "_team_roles",
+        "_team_designated_player",
+    ),
     "_agent_controlled_player",
 )
 _STICKY = "_agent_sticky_actions"
 
 
 def flip_team_observation(
-    observation: dict[str, Any], result: dict[str, Any], config: Config | dict[str, Any], from_team: str, to_team: str
+    observation: dict[str, Any],
+    result: dict[str, Any],
+    config: Config | dict[str, Any],
+    from_team: str,
+    to_team: str,
 ) -> None:
     """Writes a team of an observation into another one, turned, as team `left` or `right`."""
     for key in _TURNED:
@@ -46,7 +56,9 @@ def flip_team_observation(
         result[to_team + _STICKY] = [rotate_sticky_actions(each, config) for each in sticky]
 
 
-def flip_observation(observation: dict[str, Any], config: Config | dict[str, Any]) -> dict[str, Any]:
+def flip_observation(
+    observation: dict[str, Any], config: Config | dict[str, Any]
+) -> dict[str, Any]:
     """Returns an observation as the other side sees it: of the whole match, or an agent's own.
 
     Turned points are arrays, even if the observation has lists. Arrays keep their dtypes, and

@@ -18,7 +18,13 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import setpiece
-from setpiece._errors import FileError, GrfScriptError, ParameterError, SetpieceError, UnknownScenarioError
+from setpiece._errors import (
+    FileError,
+    GrfScriptError,
+    ParameterError,
+    SetpieceError,
+    UnknownScenarioError,
+)
 from setpiece._words import similar
 from setpiece.gfootball import scenarios
 from setpiece.gfootball._translation import identifier, to_pitch
@@ -72,7 +78,9 @@ class Recorder:
             self.team = Team(team)
         except ValueError:
             raise ParameterError(
-                f"no team `{team!r}`", name="team", help="there are `Team.e_Left` and `Team.e_Right`"
+                f"no team `{team!r}`",
+                name="team",
+                help="there are `Team.e_Left` and `Team.e_Right`",
             ) from None
 
     def AddPlayer(  # noqa: N802
@@ -87,7 +95,9 @@ class Recorder:
                 name="AddPlayer",
                 help="write two numbers and a role such as `e_PlayerRole_CM`",
             ) from None
-        (self.recorded.left_team if self.team == Team.e_Left else self.recorded.right_team).append(entry)
+        (self.recorded.left_team if self.team == Team.e_Left else self.recorded.right_team).append(
+            entry
+        )
 
     def SetBallPosition(self, x: float, y: float) -> None:  # noqa: N802
         """Places the ball, in the left team's frame."""
@@ -95,7 +105,9 @@ class Recorder:
             self.recorded.ball_position[:2] = _place(x, y)
         except (TypeError, ValueError):
             raise ParameterError(
-                f"SetBallPosition({x!r}, {y!r}) is not a place", name="SetBallPosition", help="write two numbers"
+                f"SetBallPosition({x!r}, {y!r}) is not a place",
+                name="SetBallPosition",
+                help="write two numbers",
             ) from None
 
     def EpisodeNumber(self) -> int:  # noqa: N802
@@ -135,7 +147,9 @@ class Source:
     text: str = ""
     folder: str = ""
 
-    def compiled(self, left: str, right: str, steps: int | None, half_time: int | None = None) -> setpiece.Scenario:
+    def compiled(
+        self, left: str, right: str, steps: int | None, half_time: int | None = None
+    ) -> setpiece.Scenario:
         """Returns the scenario with these agents, steps, and steps before half-time.
 
         A count of agents is a number, or `all`. GRF hurries agents but never lazy players, so the
@@ -143,7 +157,10 @@ class Source:
         """
         half = "" if half_time is None else f", half_time: {half_time} steps"
         limit = "" if steps is None else f" end limit {steps} steps"
-        return _compiled(self, f"rules {{ anti_stalling: off{half} }} agents {{ left: {left}, right: {right} }}{limit}")
+        return _compiled(
+            self,
+            f"rules {{ anti_stalling: off{half} }} agents {{ left: {left}, right: {right} }}{limit}",
+        )
 
     def agents_on_the_left(self) -> int:
         """Returns how many agents the scenario itself requests."""
@@ -172,8 +189,12 @@ def _measured(source: Source) -> ScenarioConfig:
     recorded = ScenarioConfig()
     recorded.game_duration = int(first["steps_left"]) if first["steps_left"] >= 0 else NEVER
     defaults = {name: param.default for name, param in scenario.params.items()}
-    recorded.left_team_difficulty = float(defaults.get("left_difficulty", recorded.left_team_difficulty))
-    recorded.right_team_difficulty = float(defaults.get("difficulty", recorded.right_team_difficulty))
+    recorded.left_team_difficulty = float(
+        defaults.get("left_difficulty", recorded.left_team_difficulty)
+    )
+    recorded.right_team_difficulty = float(
+        defaults.get("difficulty", recorded.right_team_difficulty)
+    )
     if SECOND_HALF in defaults:
         recorded.second_half = round(float(defaults[SECOND_HALF]) * STEPS_PER_S)
     recorded.ball_position = [float(number) for number in first["ball"]]
@@ -183,10 +204,14 @@ def _measured(source: Source) -> ScenarioConfig:
         own = (team == 1) == turned
         block, sign = ("left_team", 1.0) if own else ("right_team", -1.0)
         played = {view["active"] for view, side in zip(views, teams, strict=True) if side == team}
-        for number, (place, role) in enumerate(zip(first[block], first[f"{block}_roles"], strict=True)):
+        for number, (place, role) in enumerate(
+            zip(first[block], first[f"{block}_roles"], strict=True)
+        ):
             position = (sign * float(place[0]), sign * float(place[1]))
             entries.append(FormationEntry(position, PlayerRole(int(role)), False, number in played))
-    recorded.control_all_players = 1 < recorded.controllable_left_players == source.agents_on_the_left()
+    recorded.control_all_players = (
+        1 < recorded.controllable_left_players == source.agents_on_the_left()
+    )
     return recorded
 
 
@@ -225,7 +250,9 @@ def find(level: object) -> Source | Script:
     module that fails.
     """
     if not isinstance(level, str) or not level:
-        raise ParameterError("the level needs a name", name="level", help="for example `academy_3_vs_1_with_keeper`")
+        raise ParameterError(
+            "the level needs a name", name="level", help="for example `academy_3_vs_1_with_keeper`"
+        )
     if level.endswith(".py"):
         return script_of(load_script(level), level)
     if level.endswith(".pitch"):
@@ -243,7 +270,8 @@ def find(level: object) -> Source | Script:
     raise UnknownScenarioError(
         f"no scenario `{level}`",
         name=level,
-        help=similar(level, all_scenarios()) or "a module of your own goes by its dotted name or its path",
+        help=similar(level, all_scenarios())
+        or "a module of your own goes by its dotted name or its path",
     )
 
 
@@ -266,7 +294,9 @@ def _running(path: str) -> Iterator[None]:
         yield
     except ParameterError as error:
         file, line = _failed_at(error) or (path, None)
-        raise ParameterError(f"`{file}`{_at(line)}: {error.args[0]}", name=error.name, help=error.help) from error
+        raise ParameterError(
+            f"`{file}`{_at(line)}: {error.args[0]}", name=error.name, help=error.help
+        ) from error
     except SetpieceError:
         raise
     except (Exception, SystemExit) as error:
@@ -286,7 +316,9 @@ def _failed_at(error: BaseException) -> tuple[str, int] | None:
     ran = [(frame.f_code.co_filename, line) for frame, line in walk_tb(error.__traceback__)]
     # Frames that load the script come before it, and checks after its end have no line of it.
     loading = {__file__, scenario_config.__file__, importlib.__file__}
-    file = next((file for file, _ in ran if file not in loading and not file.startswith("<frozen ")), None)
+    file = next(
+        (file for file, _ in ran if file not in loading and not file.startswith("<frozen ")), None
+    )
     return None if file is None else (file, [line for each, line in ran if each == file][-1])
 
 
@@ -318,7 +350,8 @@ def script_of(module: ModuleType, name: str) -> Script:
     script: Any = getattr(module, "build_scenario", None)
     if not callable(script):
         raise SetpieceError(
-            f"`{name}` has no `build_scenario`", help="write `def build_scenario(builder):`, as scenarios of GRF do"
+            f"`{name}` has no `build_scenario`",
+            help="write `def build_scenario(builder):`, as scenarios of GRF do",
         )
     found: Script = script
     return found

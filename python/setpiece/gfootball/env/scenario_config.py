@@ -34,7 +34,9 @@ class FormationEntry:
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in ("position", "role") and name in self.__dict__:
-            raise ParameterError(f"a player's `{name}` can only be read", name=name, help="say it in `AddPlayer`")
+            raise ParameterError(
+                f"a player's `{name}` can only be read", name=name, help="say it in `AddPlayer`"
+            )
         super().__setattr__(name, value)
 
 
@@ -69,7 +71,9 @@ class ScenarioConfig:
     def __setattr__(self, name: str, value: Any) -> None:
         kinds = {each.name: each.type for each in fields(self)}
         if name not in kinds:
-            raise ParameterError(f"no scenario setting `{name}`", name=name, help=similar(name, kinds))
+            raise ParameterError(
+                f"no scenario setting `{name}`", name=name, help=similar(name, kinds)
+            )
         super().__setattr__(name, _checked(name, value, str(kinds[name])))
 
     def check(self) -> None:

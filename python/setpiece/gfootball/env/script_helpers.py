@@ -33,7 +33,10 @@ class ScriptHelpers:
         """
         records = read_dump(dump_file)
         if not include_debug:
-            records = [{key: value for key, value in record.items() if key != "debug"} for record in records]
+            records = [
+                {key: value for key, value in record.items() if key != "debug"}
+                for record in records
+            ]
         text = "".join(f"{pformat(record)}\n" for record in records)
         _native.write(check_path("output", output), text.encode())
 
@@ -47,7 +50,9 @@ class ScriptHelpers:
         sides = ["left_players"] * left + ["right_players"] * right
         given = list(spec or [])
         if len(given) > len(sides):
-            raise ParameterError(f"{len(given)} players are given, the dump has {len(sides)}", name="spec")
+            raise ParameterError(
+                f"{len(given)} players are given, the dump has {len(sides)}", name="spec"
+            )
         return [*given, *(f"replay:path={dump_file},{side}=1" for side in sides[len(given) :])]
 
     def replay(
@@ -68,7 +73,9 @@ class ScriptHelpers:
         if render:
             raise no_pictures("render")
         if fps != FPS:
-            raise unavailable("fps", "another length of a step than 100 ms", f"leave `fps` at {FPS}")
+            raise unavailable(
+                "fps", "another length of a step than 100 ms", f"leave `fps` at {FPS}"
+            )
         config = _config_of(dump)
         config["players"] = self.build_players(dump)
         config.update(config_update or {})

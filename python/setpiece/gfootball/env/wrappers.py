@@ -40,7 +40,9 @@ class PeriodicDumpWriter(Wrapper):
     def __init__(self, env: Env, dump_frequency: int, render: bool = False) -> None:
         super().__init__(env)
         if dump_frequency < 1:
-            raise ParameterError(f"`dump_frequency` is {dump_frequency}; it is 1 or more", name="dump_frequency")
+            raise ParameterError(
+                f"`dump_frequency` is {dump_frequency}; it is 1 or more", name="dump_frequency"
+            )
         if render:
             raise no_pictures("render")
         self._dump_frequency = dump_frequency
@@ -81,7 +83,11 @@ class CheckpointRewardWrapper(Wrapper):
         observation, reward, done, info = self._stepped(action)
         if isinstance(observation, list):
             reward = np.array(
-                [self._paid(slot, *pair) for slot, pair in enumerate(zip(observation, reward, strict=True))], np.float32
+                [
+                    self._paid(slot, *pair)
+                    for slot, pair in enumerate(zip(observation, reward, strict=True))
+                ],
+                np.float32,
             )
         return observation, reward, done, info
 
@@ -101,7 +107,9 @@ class CheckpointRewardWrapper(Wrapper):
 
     def get_state(self, to_pickle: dict[str, Any] | None = None) -> bytes:
         """Returns the whole state."""
-        return super().get_state({**(to_pickle or {}), "CheckpointRewardWrapper": dict(self._collected_checkpoints)})
+        return super().get_state(
+            {**(to_pickle or {}), "CheckpointRewardWrapper": dict(self._collected_checkpoints)}
+        )
 
     def set_state(self, state: bytes) -> dict[str, Any]:
         """Continues from a state of `get_state`."""
@@ -125,7 +133,9 @@ class Simple115StateWrapper(ObservationWrapper):
 
     def observation(self, observation: Any) -> NDArray[np.float32]:
         """Returns the numbers of raw observations."""
-        return Simple115StateWrapper.convert_observation(observation, self._fixed_positions, self._sent_off_stay)
+        return Simple115StateWrapper.convert_observation(
+            observation, self._fixed_positions, self._sent_off_stay
+        )
 
     @staticmethod
     def convert_observation(
@@ -145,7 +155,9 @@ class Simple115StateWrapper(ObservationWrapper):
             for number, block in enumerate(BLOCKS):
                 values = np.asarray(seen[block], np.float64)
                 if not sent_off_stay:
-                    playing = observation_preprocessing.playing(seen, block.removesuffix("_direction"))
+                    playing = observation_preprocessing.playing(
+                        seen, block.removesuffix("_direction")
+                    )
                     values = np.where(playing[:, None], values, -1.0)
                 values = values.ravel()
                 at = number * BLOCK if fixed_positions else at
@@ -178,7 +190,9 @@ class SMMWrapper(ObservationWrapper):
         self._channel_dimensions = check_dimensions(channel_dimensions)
         width, height = self._channel_dimensions
         layers = len(observation_preprocessing.get_smm_layers())
-        self.observation_space = spaces.Box(0, 255, (agents_of(env), height, width, layers), np.uint8)
+        self.observation_space = spaces.Box(
+            0, 255, (agents_of(env), height, width, layers), np.uint8
+        )
 
     def observation(self, observation: Any) -> NDArray[np.uint8]:
         """Returns the minimaps of raw observations."""
@@ -189,7 +203,9 @@ class SMMWrapper(ObservationWrapper):
 class PixelsStateWrapper(ObservationWrapper):
     """Raises `UnavailableError`: pictures aren't supported in this version."""
 
-    def __init__(self, env: Env, grayscale: bool = True, channel_dimensions: tuple[int, int] = (96, 72)) -> None:
+    def __init__(
+        self, env: Env, grayscale: bool = True, channel_dimensions: tuple[int, int] = (96, 72)
+    ) -> None:
         del env, grayscale, channel_dimensions
         raise no_pictures("representation")
 
@@ -224,7 +240,9 @@ class FrameStack(Wrapper):
         super().__init__(env)
         space = env.observation_space
         if not isinstance(space, spaces.Box):
-            raise ParameterError("only arrays can be stacked, raw observations can't", name="stacked")
+            raise ParameterError(
+                "only arrays can be stacked, raw observations can't", name="stacked"
+            )
         self._seen: deque[NDArray[Any]] = deque(maxlen=stack)
         low, high = (np.concatenate([bound] * stack, axis=-1) for bound in (space.low, space.high))
         self.observation_space = spaces.Box(low, high, dtype=space.dtype.type)
@@ -269,7 +287,9 @@ class MultiAgentToSingleAgent(Wrapper):
     def __init__(self, env: Env, left_players: int, right_players: int) -> None:
         super().__init__(env)
         self._sides = [
-            range(start, start + count) for start, count in ((0, left_players), (left_players, right_players)) if count
+            range(start, start + count)
+            for start, count in ((0, left_players), (left_players, right_players))
+            if count
         ]
         self._chosen: list[int] = []
         inner = env.action_space
@@ -291,7 +311,11 @@ class MultiAgentToSingleAgent(Wrapper):
         """Plays 100 ms and returns observation, reward, done and info."""
         if not self._chosen:  # Before the first `reset`.
             self._of(self.env.unwrapped.observation())  # type: ignore[attr-defined]
-        given = list(action) if hasattr(action, "__len__") and getattr(action, "ndim", 1) != 0 else [action]
+        given = (
+            list(action)
+            if hasattr(action, "__len__") and getattr(action, "ndim", 1) != 0
+            else [action]
+        )
         if len(given) != len(self._chosen):
             raise ActionError(f"expected {len(self._chosen)} actions, found {len(given)}")
         actions: list[Any] = [football_action_set.action_builtin_ai] * sum(map(len, self._sides))
@@ -310,7 +334,14 @@ class MultiAgentToSingleAgent(Wrapper):
     def _of(self, observation: list[dict[str, Any]]) -> list[dict[str, Any]]:
         """The designated players' observations; a team's first if there is none."""
         self._chosen = [
-            next((slot for slot in side if observation[slot]["active"] == observation[slot]["designated"]), side[0])
+            next(
+                (
+                    slot
+                    for slot in side
+                    if observation[slot]["active"] == observation[slot]["designated"]
+                ),
+                side[0],
+            )
             for side in self._sides
         ]
         return [observation[slot] for slot in self._chosen]
@@ -327,6 +358,7 @@ def check_dimensions(dimensions: Any) -> tuple[int, int]:
             raise ValueError
     except (TypeError, ValueError):
         raise ParameterError(
-            f"`channel_dimensions` is {dimensions!r}; it is a width and a height", name="channel_dimensions"
+            f"`channel_dimensions` is {dimensions!r}; it is a width and a height",
+            name="channel_dimensions",
         ) from None
     return width, height

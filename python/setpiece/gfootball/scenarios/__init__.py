@@ -1,7 +1,9 @@
 """What a scenario in Google Research Football's form imports: teams and roles.
 
-A module of such a form has `build_scenario(builder)`. `create_environment` finds it below this package (append a folder
-to `__path__`, or put the module into `sys.modules`), by its own dotted name, or as a path that ends in `.py`.
+A module of such a form has `build_scenario(builder)`. `create_environment` finds it below this
+package (append a folder
+to `__path__`, or put the module into `sys.modules`), by its own dotted name, or as a path that ends
+in `.py`.
 """
 
 from enum import IntEnum

@@ -23,13 +23,21 @@ pub(crate) struct Function {
 
 const OWN: &[Function] = &[
     own("random", &[1], "ctx.random(): a number in 0..1, from the episode's seed"),
-    own("distance", &[2], "distance(a, b): metres along the ground, between players, points and the ball"),
+    own(
+        "distance",
+        &[2],
+        "distance(a, b): metres along the ground, between players, points and the ball",
+    ),
     own("grf_distance", &[2], "grf_distance(a, b): in normalised units"),
     own("angle", &[2], "angle(a, b): the heading from a to b in the reader's frame, radians"),
     own("nearest", &[2], "nearest(players, to): the player nearest to a place, or ()"),
     own("pressed", &[2], "pressed(player, within): whether an opponent is within this many metres"),
     own("speed", &[1], "speed(x): of a player or the ball, m/s"),
-    own("point", &[3], "now.point(x, y): a place from normalised coordinates of the reader's frame"),
+    own(
+        "point",
+        &[3],
+        "now.point(x, y): a place from normalised coordinates of the reader's frame",
+    ),
     own(
         "count",
         &[2, 3],
@@ -187,19 +195,27 @@ const ELEMENT_BYTES: usize = 64;
 
 pub(super) fn register(engine: &mut Engine) {
     engine.register_fn("random", |ctx: &mut Ctx| {
-        let mut random = ctx.0.scene.random.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut random =
+            ctx.0.scene.random.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         random.unit_f64()
     });
     between(engine, "distance", apart_m);
     between(engine, "grf_distance", |a, b| {
-        libm::hypot((a.metres[0] - b.metres[0]) / X_SCALE_M, (a.metres[1] - b.metres[1]) / Y_SCALE_M)
+        libm::hypot(
+            (a.metres[0] - b.metres[0]) / X_SCALE_M,
+            (a.metres[1] - b.metres[1]) / Y_SCALE_M,
+        )
     });
     between(engine, "angle", |a, b| {
         libm::atan2(a.side * (b.metres[1] - a.metres[1]), a.side * (b.metres[0] - a.metres[0]))
     });
     engine.register_fn("nearest", nearest);
-    engine.register_fn("pressed", |player: SeenPlayer, within: f64| player.nearest_opponent_m() < within);
-    engine.register_fn("pressed", |player: SeenPlayer, within: i64| player.nearest_opponent_m() < within as f64);
+    engine.register_fn("pressed", |player: SeenPlayer, within: f64| {
+        player.nearest_opponent_m() < within
+    });
+    engine.register_fn("pressed", |player: SeenPlayer, within: i64| {
+        player.nearest_opponent_m() < within as f64
+    });
     engine.register_fn("speed", |player: SeenPlayer| {
         let [x, y] = player.view().vel.map(f64::from);
         libm::hypot(x, y)
@@ -209,15 +225,21 @@ pub(super) fn register(engine: &mut Engine) {
         libm::sqrt(x * x + y * y + z * z)
     });
     engine.register_fn("point", |now: &mut ShownState, x: f64, y: f64| now.normalised(x, y));
-    engine.register_fn("point", |now: &mut ShownState, x: Dynamic, y: Dynamic| -> Failable<Point> {
-        Ok(now.normalised(to_number(&x)?, to_number(&y)?))
-    });
+    engine.register_fn(
+        "point",
+        |now: &mut ShownState, x: Dynamic, y: Dynamic| -> Failable<Point> {
+            Ok(now.normalised(to_number(&x)?, to_number(&y)?))
+        },
+    );
     engine.register_fn("count", |context: NativeCallContext, events: &mut Array, words: &str| {
         count(&context, events, words, None)
     });
-    engine.register_fn("count", |context: NativeCallContext, events: &mut Array, words: &str, team: &str| {
-        count(&context, events, words, Some(team))
-    });
+    engine.register_fn(
+        "count",
+        |context: NativeCallContext, events: &mut Array, words: &str, team: &str| {
+            count(&context, events, words, Some(team))
+        },
+    );
     register_equality(engine);
 }
 
@@ -234,7 +256,9 @@ fn between(engine: &mut Engine, name: &str, f: fn(Point, Point) -> f64) {
     from::<SeenBall>(engine, name, f);
     from::<SeenEvent>(engine, name, f);
     // Anything else gets an error about what was expected. Rhai tries this form last.
-    engine.register_fn(name, move |a: Dynamic, b: Dynamic| -> Failable<f64> { Ok(f(place(&a)?, place(&b)?)) });
+    engine.register_fn(name, move |a: Dynamic, b: Dynamic| -> Failable<f64> {
+        Ok(f(place(&a)?, place(&b)?))
+    });
 }
 
 /// Values are equal if they are the same thing, whenever they were read.
@@ -353,9 +377,15 @@ fn nearest(context: NativeCallContext, players: &mut Array, to: Dynamic) -> Fail
 
 /// Counts matching events. `words` are a kind and optionally a qualifier; a kind alone means the
 /// same as in the language.
-fn count(context: &NativeCallContext, events: &Array, words: &str, team: Option<&str>) -> Failable<i64> {
+fn count(
+    context: &NativeCallContext,
+    events: &Array,
+    words: &str,
+    team: Option<&str>,
+) -> Failable<i64> {
     look_at_each(context, events)?;
-    let (kind, qualifier) = words.split_once(' ').map_or((words, None), |(kind, word)| (kind, Some(word)));
+    let (kind, qualifier) =
+        words.split_once(' ').map_or((words, None), |(kind, word)| (kind, Some(word)));
     let Some(kind) = EventKind::from_name(kind) else { return Ok(0) };
     let qualifier = qualifier.map(Qualifier::from_name);
     if qualifier == Some(None) {

@@ -23,12 +23,20 @@ pub(super) fn register(engine: &mut Engine) {
             Subject::Event => add(engine, name, event(name)),
             Subject::Point => add(engine, name, point(name)),
             Subject::Vector => add(engine, name, vector(name)),
-            Subject::Players | Subject::Events | Subject::Params | Subject::Memory | Subject::Plain => {}
+            Subject::Players
+            | Subject::Events
+            | Subject::Params
+            | Subject::Memory
+            | Subject::Plain => {}
         }
     }
 }
 
-fn add<T: Clone + Send + Sync + 'static>(engine: &mut Engine, name: &str, getter: Option<Getter<T>>) {
+fn add<T: Clone + Send + Sync + 'static>(
+    engine: &mut Engine,
+    name: &str,
+    getter: Option<Getter<T>>,
+) {
     if let Some(getter) = getter {
         engine.register_get(name, move |subject: &mut T| getter(subject));
     }
@@ -47,7 +55,9 @@ pub(super) fn is_registered(of: Subject, name: &str) -> bool {
         Subject::Event => event(name).is_some(),
         Subject::Point => point(name).is_some(),
         Subject::Vector => vector(name).is_some(),
-        Subject::Players | Subject::Events | Subject::Params | Subject::Memory | Subject::Plain => true,
+        Subject::Players | Subject::Events | Subject::Params | Subject::Memory | Subject::Plain => {
+            true
+        }
     }
 }
 
@@ -154,12 +164,18 @@ fn team(name: &str) -> Option<Getter<SeenTeam>> {
     }
     Some(match name {
         "players" => |team| team.0.players(Some(team.1)),
-        "goal" => |team| Dynamic::from(Point { metres: [-team.1.side() * HALF_LENGTH_M, 0.0], side: team.0.side() }),
+        "goal" => |team| {
+            Dynamic::from(Point {
+                metres: [-team.1.side() * HALF_LENGTH_M, 0.0],
+                side: team.0.side(),
+            })
+        },
         "score" => |team| whole(view(team).score[team.1.index()]),
         "has_ball" => |team| view(team).owner.is_some_and(|owner| owner.team() == team.1).into(),
-        "offside_line" => {
-            |team| (team.0.side() * view::Sight::Kept(view(team)).offside_line_m(team.1) / X_SCALE_M).into()
-        }
+        "offside_line" => |team| {
+            (team.0.side() * view::Sight::Kept(view(team)).offside_line_m(team.1) / X_SCALE_M)
+                .into()
+        },
         _ => return None,
     })
 }

@@ -1,8 +1,9 @@
 //! Encodes what a script keeps in its memory as plain data, for snapshots.
 //!
-//! A value becomes a flat list of nodes, parts before wholes, so that no list however wild is read by recursion. What a
-//! hook was shown (`this.last = now`) leads to its scene; scenes stand on a [`Shelf`] of their own, each once, so that
-//! what was one is one again. The shelf is handed along beside the archive of an episode.
+//! A value becomes a flat list of nodes, parts before wholes, so that no list however wild is read
+//! by recursion. What a hook was shown (`this.last = now`) leads to its scene; scenes stand on a
+//! [`Shelf`] of their own, each once, so that what was one is one again. The shelf is handed along
+//! beside the archive of an episode.
 
 use super::{Ctx, Point, SeenBall, SeenEvent, SeenPlayer, SeenScore, SeenTeam, ShownState, Vector};
 use super::{HookScene, Perspective};
@@ -113,7 +114,8 @@ impl Memory {
         archive.value(name, &mut nodes)?;
         if archive.is_reading() {
             self.this = shelf.read(nodes.0).map_err(|why| SnapshotError::damaged(name, why))?;
-            host::check_size(&self.this, MEMORIES_BYTES_MAX).map_err(|why| SnapshotError::damaged(name, why))?;
+            host::check_size(&self.this, MEMORIES_BYTES_MAX)
+                .map_err(|why| SnapshotError::damaged(name, why))?;
         }
         Ok(())
     }
@@ -127,7 +129,11 @@ impl Shelf {
         scene: &mut Option<Arc<HookScene>>,
         archive: &mut Archive<'_>,
     ) -> Result<(), SnapshotError> {
-        let mut at = scene.as_ref().map(|scene| self.place(scene)).transpose().map_err(Unkept::within_this)?;
+        let mut at = scene
+            .as_ref()
+            .map(|scene| self.place(scene))
+            .transpose()
+            .map_err(Unkept::within_this)?;
         archive.value(name, &mut at)?;
         if archive.is_reading() {
             let found = |at| self.scene(at).map_err(|why| SnapshotError::damaged(name, why));
@@ -137,11 +143,16 @@ impl Shelf {
     }
 
     /// Writes or reads the scenes themselves. They come before the memories that refer to them.
-    pub(crate) fn archive_scenes(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
+    pub(crate) fn archive_scenes(
+        &mut self,
+        archive: &mut Archive<'_>,
+    ) -> Result<(), SnapshotError> {
         archive.value("scenes", &mut self.kept)?;
         if archive.is_reading() {
             for (at, kept) in std::mem::take(&mut self.kept).into_iter().enumerate() {
-                let scene = self.stage(kept).map_err(|why| SnapshotError::damaged(format!("scenes[{at}]"), why))?;
+                let scene = self
+                    .stage(kept)
+                    .map_err(|why| SnapshotError::damaged(format!("scenes[{at}]"), why))?;
                 self.scenes.push(Arc::new(scene));
             }
         }
@@ -175,13 +186,19 @@ impl Shelf {
     }
 
     fn scene(&self, at: u32) -> Result<Arc<HookScene>, String> {
-        self.scenes.get(at as usize).cloned().ok_or_else(|| format!("leads to scene {at}, which is not there"))
+        self.scenes
+            .get(at as usize)
+            .cloned()
+            .ok_or_else(|| format!("leads to scene {at}, which is not there"))
     }
 
     /// Appends a value as nodes.
     fn write(&mut self, value: &Dynamic, nodes: &mut Vec<KeptValue>) -> Result<(), Unkept> {
         if nodes.len() >= NODES_MAX {
-            return Err(Unkept { place: String::new(), what: format!("more than {NODES_MAX} values") });
+            return Err(Unkept {
+                place: String::new(),
+                what: format!("more than {NODES_MAX} values"),
+            });
         }
         if let Some(map) = value.read_lock::<Map>() {
             return self.write_map(&map, nodes);
@@ -210,7 +227,11 @@ impl Shelf {
     fn shown(&mut self, value: &Dynamic) -> Result<KeptValue, Unkept> {
         let Some((shown, sight)) = shown(value) else {
             let function = value.is::<FnPtr>();
-            let what = if function { "a function".to_owned() } else { host::type_words(value.type_name()) };
+            let what = if function {
+                "a function".to_owned()
+            } else {
+                host::type_words(value.type_name())
+            };
             return Err(Unkept { place: String::new(), what });
         };
         let Perspective { us, me, agent } = sight.perspective;
@@ -242,7 +263,11 @@ impl Shelf {
             let value = match node {
                 KeptValue::List(_) => Dynamic::from_array(parts.collect()),
                 KeptValue::Table(names) => Dynamic::from_map(
-                    names.into_iter().zip(&mut parts).map(|(name, part)| (name.into(), part)).collect(),
+                    names
+                        .into_iter()
+                        .zip(&mut parts)
+                        .map(|(name, part)| (name.into(), part))
+                        .collect(),
                 ),
                 KeptValue::Nothing => Dynamic::UNIT,
                 KeptValue::Truth(truth) => truth.into(),
@@ -359,13 +384,19 @@ mod tests {
             bytes.resize(bytes.len() + length, 0);
             bytes
         };
-        assert_eq!(postcard::from_bytes::<KeptValues>(&bytes(NODES_MAX)).unwrap().0.len(), NODES_MAX);
+        assert_eq!(
+            postcard::from_bytes::<KeptValues>(&bytes(NODES_MAX)).unwrap().0.len(),
+            NODES_MAX
+        );
         assert!(postcard::from_bytes::<KeptValues>(&bytes(NODES_MAX + 1)).is_err());
         let mut shelf = Shelf::default();
         let nothings = || vec![KeptValue::Nothing; NODES_MAX / 2];
         let first = shelf.read(nothings()).unwrap_err();
         assert_eq!(first, "is not one value");
         shelf.read(nothings()).unwrap_err();
-        assert!(shelf.read(vec![KeptValue::Nothing]).unwrap_err().contains("all memories"), "they add up");
+        assert!(
+            shelf.read(vec![KeptValue::Nothing]).unwrap_err().contains("all memories"),
+            "they add up"
+        );
     }
 }

@@ -96,7 +96,12 @@ const EXTRA: &[Member] = &[
     row(Subject::Team, "goal", Subject::Point, "the middle of the team's own goal"),
     row(Subject::Team, "score", Subject::Plain, "the team's goals"),
     row(Subject::Team, "has_ball", Subject::Plain, "a player of the team has the ball now"),
-    row(Subject::Team, "offside_line", Subject::Plain, "normalised x of the line beyond which its players are offside"),
+    row(
+        Subject::Team,
+        "offside_line",
+        Subject::Plain,
+        "normalised x of the line beyond which its players are offside",
+    ),
     row(Subject::Event, "kind", Subject::Plain, "the event's name"),
     row(Subject::Event, "qualifier", Subject::Plain, "completed, taken, …; empty without one"),
     row(Subject::Event, "team", Subject::Plain, "the event's team: us, them or none"),

@@ -167,7 +167,9 @@ impl<'a> Classes<'a> {
             let subjects = hook_arguments(&function.name).unwrap_or_default();
             for (place, param) in function.params.iter().enumerate() {
                 let class = match subjects.get(place) {
-                    Some((_, Subject::Events)) if subjects.len() == function.params.len() => Class::Squad,
+                    Some((_, Subject::Events)) if subjects.len() == function.params.len() => {
+                        Class::Squad
+                    }
                     Some(_) if subjects.len() == function.params.len() => Class::Short,
                     // Hooks are called from outside, but a script's own functions only by its own
                     // calls.
@@ -277,12 +279,18 @@ impl<'a> Classes<'a> {
                 let lhs = &assignment.1.lhs;
                 match lhs {
                     // Adding to a number, string or list doesn't change its type.
-                    Expr::Variable(variable, ..) if self.functions[at].name.starts_with(ANONYMOUS) => {
+                    Expr::Variable(variable, ..)
+                        if self.functions[at].name.starts_with(ANONYMOUS) =>
+                    {
                         self.moved |= self.escaped.insert(variable.1.to_string());
                     }
                     Expr::Variable(variable, ..) if assignment.0.is_op_assignment() => {
                         let known = self.class(at, lhs);
-                        self.bind(at, &variable.1, if known == Class::Short { class.min(Class::Text) } else { known });
+                        self.bind(
+                            at,
+                            &variable.1,
+                            if known == Class::Short { class.min(Class::Text) } else { known },
+                        );
                     }
                     Expr::Variable(variable, ..) => self.bind(at, &variable.1, class),
                     _ => {
@@ -332,9 +340,12 @@ impl<'a> Classes<'a> {
                     match link {
                         Link::Method(call) => {
                             self.arguments(at, call);
-                            let of_players = of == Class::Squad && EACH.contains(&call.name.as_str());
+                            let of_players =
+                                of == Class::Squad && EACH.contains(&call.name.as_str());
                             let element = if of_players { Class::Short } else { Class::Any };
-                            call.args.iter().for_each(|argument| self.closure(at, argument, element));
+                            call.args
+                                .iter()
+                                .for_each(|argument| self.closure(at, argument, element));
                             if !READING.contains(&call.name.as_str()) {
                                 self.change(root);
                             }
@@ -355,10 +366,11 @@ impl<'a> Classes<'a> {
         let Some((name, captured)) = closure(expr) else { return };
         let Some(own) = self.functions.iter().position(|own| own.name == name) else { return };
         for (place, param) in self.functions[own].params.iter().enumerate() {
-            let class = captured.get(place).map_or(given, |variable| match self.class(at, variable) {
-                Class::Squad => Class::Any,
-                class => class,
-            });
+            let class =
+                captured.get(place).map_or(given, |variable| match self.class(at, variable) {
+                    Class::Squad => Class::Any,
+                    class => class,
+                });
             self.bind(own, param, class);
         }
     }
@@ -383,7 +395,8 @@ impl<'a> Classes<'a> {
 
     /// Binds the arguments of a call of the script's own function to its parameters.
     fn arguments(&mut self, at: usize, call: &FnCallExpr) {
-        let classes: Vec<Class> = call.args.iter().map(|argument| self.argument(at, argument)).collect();
+        let classes: Vec<Class> =
+            call.args.iter().map(|argument| self.argument(at, argument)).collect();
         if call.op_token.is_some() {
             return;
         }
@@ -415,24 +428,31 @@ impl<'a> Classes<'a> {
                     class => class,
                 }
             }
-            Expr::Coalesce(list, _) => list.iter().map(|item| self.class(at, item)).max().unwrap_or(Class::Any),
+            Expr::Coalesce(list, _) => {
+                list.iter().map(|item| self.class(at, item)).max().unwrap_or(Class::Any)
+            }
             Expr::FnCall(call, _) => self.call_class(at, call),
             Expr::Dot(..) | Expr::Index(..) => {
                 let (root, links) = links(expr);
                 links.iter().fold(self.class(at, root), |class, link| self.step(class, link))
             }
-            Expr::Stmt(block) => block.statements().last().map_or(Class::Short, |last| self.tail_class(at, last)),
+            Expr::Stmt(block) => {
+                block.statements().last().map_or(Class::Short, |last| self.tail_class(at, last))
+            }
             _ => Class::Any,
         }
     }
 
     fn tail_class(&self, at: usize, statement: &Stmt) -> Class {
-        let block =
-            |block: &StmtBlock| block.statements().last().map_or(Class::Short, |last| self.tail_class(at, last));
+        let block = |block: &StmtBlock| {
+            block.statements().last().map_or(Class::Short, |last| self.tail_class(at, last))
+        };
         match statement {
             Stmt::Expr(expr) => self.class(at, expr),
             Stmt::FnCall(call, _) => self.call_class(at, call),
-            Stmt::If(flow, _) | Stmt::TryCatch(flow, _) => block(&flow.body).max(block(&flow.branch)),
+            Stmt::If(flow, _) | Stmt::TryCatch(flow, _) => {
+                block(&flow.body).max(block(&flow.branch))
+            }
             Stmt::Switch(switch, _) => {
                 let cases = switch.1.expressions.iter();
                 cases.map(|case| self.class(at, &case.rhs)).max().unwrap_or(Class::Short)
@@ -502,10 +522,14 @@ pub(super) fn closure(expr: &Expr) -> Option<(String, &[Expr])> {
     match expr {
         Expr::Stmt(block) => match block.statements() {
             [Stmt::Share(_), Stmt::Expr(expr)] => closure(expr),
-            [Stmt::Share(_), Stmt::FnCall(call, _)] => Some((pointer(call.args.first()?)?, call.args.get(1..)?)),
+            [Stmt::Share(_), Stmt::FnCall(call, _)] => {
+                Some((pointer(call.args.first()?)?, call.args.get(1..)?))
+            }
             _ => None,
         },
-        Expr::FnCall(call, _) if call.name == "curry" => Some((pointer(call.args.first()?)?, call.args.get(1..)?)),
+        Expr::FnCall(call, _) if call.name == "curry" => {
+            Some((pointer(call.args.first()?)?, call.args.get(1..)?))
+        }
         _ => Some((pointer(expr)?, &[])),
     }
 }
@@ -537,7 +561,8 @@ pub(super) fn links(expr: &Expr) -> (&Expr, Vec<Link<'_>>) {
         if links.is_empty() {
             root = &pair.lhs;
         }
-        let goes_on = matches!(pair.rhs, Expr::Dot(..) | Expr::Index(..)) && !options.contains(rhai::ASTFlags::BREAK);
+        let goes_on = matches!(pair.rhs, Expr::Dot(..) | Expr::Index(..))
+            && !options.contains(rhai::ASTFlags::BREAK);
         let step = match &pair.rhs {
             Expr::Dot(rest, ..) | Expr::Index(rest, ..) if goes_on => {
                 next = Some(&pair.rhs);

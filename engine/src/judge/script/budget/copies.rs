@@ -48,7 +48,9 @@ impl Edits {
     /// Maps a place in the text to the author's text.
     pub(in super::super) fn original(&self, (line, column): (usize, usize)) -> (usize, usize) {
         let first = self.written.partition_point(|written| written.0 < line);
-        let before = self.written[first..].iter().take_while(|written| written.0 == line && written.1 < column);
+        let before = self.written[first..]
+            .iter()
+            .take_while(|written| written.0 == line && written.1 < column);
         let shift: usize = before.map(|&(_, at, length)| length.min(column - at)).sum();
         (line, column - shift)
     }
@@ -59,13 +61,24 @@ impl Edits {
 /// # Errors
 /// A place that Rhai finds elsewhere: it stores lines and columns in two bytes, and has its own
 /// line ends.
-pub(in super::super) fn count_copies(source: &str, ast: &AST) -> Result<(String, Edits), (usize, usize)> {
+pub(in super::super) fn count_copies(
+    source: &str,
+    ast: &AST,
+) -> Result<(String, Edits), (usize, usize)> {
     let functions = functions(ast);
     let pointers = pointers(ast, &functions);
     let classes = Classes::of(&functions, pointers);
-    let lines = std::iter::once(0).chain(source.match_indices('\n').map(|(at, _)| at + 1)).collect();
-    let mut writer =
-        CopyWriter { source, lines, classes, walked: pointers.any, function: 0, insertions: Vec::new(), lost: None };
+    let lines =
+        std::iter::once(0).chain(source.match_indices('\n').map(|(at, _)| at + 1)).collect();
+    let mut writer = CopyWriter {
+        source,
+        lines,
+        classes,
+        walked: pointers.any,
+        function: 0,
+        insertions: Vec::new(),
+        lost: None,
+    };
     for (at, function) in functions.iter().enumerate() {
         writer.function = at;
         writer.statements(&function.body);
@@ -89,7 +102,9 @@ fn functions(ast: &AST) -> Vec<ScriptFunction> {
     for found in ast.iter_fn_def() {
         let (name, n_params) = (found.name.as_str(), found.params.len());
         let begins = found.body.start_position();
-        if let Some(known) = list.iter_mut().find(|(_, known)| known.name == name && known.params.len() == n_params) {
+        if let Some(known) =
+            list.iter_mut().find(|(_, known)| known.name == name && known.params.len() == n_params)
+        {
             known.0 = known.0.min(begins);
             continue;
         }
@@ -111,7 +126,8 @@ fn functions(ast: &AST) -> Vec<ScriptFunction> {
 
 /// The starts of a function's bodies.
 fn bodies<'a>(ast: &'a AST, function: &'a ScriptFunction) -> impl Iterator<Item = Position> + 'a {
-    let same = |name: &str, n_params: usize| name == function.name && n_params == function.params.len();
+    let same =
+        |name: &str, n_params: usize| name == function.name && n_params == function.params.len();
     ast.iter_fn_def()
         .filter(move |found| same(&found.name, found.params.len()))
         .map(|found| found.body.start_position())
@@ -119,11 +135,18 @@ fn bodies<'a>(ast: &'a AST, function: &'a ScriptFunction) -> impl Iterator<Item 
 
 fn pointers(ast: &AST, functions: &[ScriptFunction]) -> Pointers {
     let names: BTreeSet<&str> = functions.iter().map(|function| function.name.as_str()).collect();
-    let mut pointers = Pointers { any: functions.iter().any(|own| own.name.starts_with(ANONYMOUS)), by_name: false };
+    let mut pointers = Pointers {
+        any: functions.iter().any(|own| own.name.starts_with(ANONYMOUS)),
+        by_name: false,
+    };
     ast.walk(&mut |path: &[ASTNode]| {
         pointers.by_name |= match path.last() {
-            Some(ASTNode::Expr(Expr::FnCall(call, _)) | ASTNode::Stmt(Stmt::FnCall(call, _))) => call.name == "Fn",
-            Some(ASTNode::Expr(Expr::Variable(variable, ..))) => names.contains(variable.1.as_str()),
+            Some(ASTNode::Expr(Expr::FnCall(call, _)) | ASTNode::Stmt(Stmt::FnCall(call, _))) => {
+                call.name == "Fn"
+            }
+            Some(ASTNode::Expr(Expr::Variable(variable, ..))) => {
+                names.contains(variable.1.as_str())
+            }
             _ => false,
         };
         true
@@ -212,7 +235,9 @@ impl CopyWriter<'_> {
 
     fn statement(&mut self, statement: &Stmt) {
         match statement {
-            Stmt::Expr(expr) | Stmt::BreakLoop(Some(expr), ..) | Stmt::Return(Some(expr), ..) => self.value(expr),
+            Stmt::Expr(expr) | Stmt::BreakLoop(Some(expr), ..) | Stmt::Return(Some(expr), ..) => {
+                self.value(expr)
+            }
             Stmt::FnCall(call, _) => self.call(call),
             Stmt::Block(block) => self.block(block),
             Stmt::If(flow, _) => {
@@ -239,7 +264,9 @@ impl CopyWriter<'_> {
             Stmt::Assignment(assignment) => {
                 let (operator, sides) = &**assignment;
                 match &sides.lhs {
-                    place @ Expr::Variable(..) if operator.is_op_assignment() && self.class(place) <= Class::Text => {
+                    place @ Expr::Variable(..)
+                        if operator.is_op_assignment() && self.class(place) <= Class::Text =>
+                    {
                         self.operand(&sides.rhs);
                     }
                     Expr::Variable(..) | Expr::ThisPtr(_) => self.value(&sides.rhs),
@@ -251,7 +278,8 @@ impl CopyWriter<'_> {
             }
             Stmt::TryCatch(flow, _) => {
                 self.block(&flow.body);
-                let operations = if self.walked { CAUGHT_WAITING_OPERATIONS } else { CAUGHT_OPERATIONS };
+                let operations =
+                    if self.walked { CAUGHT_WAITING_OPERATIONS } else { CAUGHT_OPERATIONS };
                 self.call_first(flow.branch.position(), format!(" {WORKED}({operations});"));
                 self.block(&flow.branch);
             }
@@ -265,12 +293,14 @@ impl CopyWriter<'_> {
         self.value(value);
         let spelled = links(place).1.iter().all(|step| matches!(step, Link::Property(_)));
         let least = if spelled { Class::Squad } else { Class::Text };
-        let counted = matches!(value, Expr::Variable(..) | Expr::ThisPtr(_)) && self.class(value) >= Class::Squad;
+        let counted = matches!(value, Expr::Variable(..) | Expr::ThisPtr(_))
+            && self.class(value) >= Class::Squad;
         if counted || closure(value).is_some() || self.class(value) < least {
             return;
         }
         if let Some(at) = self.offset(operator) {
-            let length = self.source.get(at..).unwrap_or_default().find('=').map_or(0, |sign| sign + 1);
+            let length =
+                self.source.get(at..).unwrap_or_default().find('=').map_or(0, |sign| sign + 1);
             let start = at + length;
             self.count(start, expression_end(self.source, start));
         }
@@ -315,7 +345,9 @@ impl CopyWriter<'_> {
                     }
                 }
                 // Reading a list of players creates a new one.
-                Expr::Dot(..) | Expr::Index(..) if self.class(expr) > Class::Squad => self.chain_value(expr),
+                Expr::Dot(..) | Expr::Index(..) if self.class(expr) > Class::Squad => {
+                    self.chain_value(expr)
+                }
                 _ => {}
             }
         }
@@ -344,7 +376,8 @@ impl CopyWriter<'_> {
             _ => return,
         };
         if let Some(start) = self.offset_of(begins, "|") {
-            let parameters = self.source.get(start + 1..).and_then(|rest| rest.find('|')).unwrap_or_default();
+            let parameters =
+                self.source.get(start + 1..).and_then(|rest| rest.find('|')).unwrap_or_default();
             self.count(start, expression_end(self.source, start + 1 + parameters + 1));
         }
     }
@@ -355,7 +388,10 @@ impl CopyWriter<'_> {
         let Some(end) = self.chain_end(expr) else { return };
         let begins = match root {
             Expr::FnCall(call, _) => call.op_token.is_none(),
-            _ => matches!(root, Expr::Variable(..) | Expr::ThisPtr(_) | Expr::Array(..) | Expr::Map(..)),
+            _ => matches!(
+                root,
+                Expr::Variable(..) | Expr::ThisPtr(_) | Expr::Array(..) | Expr::Map(..)
+            ),
         };
         // An operator's result isn't shared.
         if begins && let Some(start) = self.offset(root.position()) {
@@ -428,7 +464,10 @@ impl CopyWriter<'_> {
                 match smallest {
                     Some(Class::Short) => self.operand(argument),
                     // Removing one string from another is counted wherever it stands.
-                    _ => self.value_from(argument, if call.name == "-" { Class::Text } else { Class::Squad }),
+                    _ => self.value_from(
+                        argument,
+                        if call.name == "-" { Class::Text } else { Class::Squad },
+                    ),
                 }
             }
         } else if call.op_token.is_some() || own {
@@ -436,7 +475,11 @@ impl CopyWriter<'_> {
         } else {
             // Rhai's functions may change their first argument in place.
             if let Some(first) = call.args.first() {
-                if call.name == "type_of" { self.value(first) } else { self.inside_or_closure(first) }
+                if call.name == "type_of" {
+                    self.value(first)
+                } else {
+                    self.inside_or_closure(first)
+                }
             }
             self.arguments(call, 1);
         }
@@ -464,25 +507,31 @@ impl CopyWriter<'_> {
     fn statement_nodes(&self, statement: &Stmt) -> usize {
         let block = |block: &StmtBlock| self.statements_nodes(block.statements());
         1 + match statement {
-            Stmt::Expr(expr) | Stmt::BreakLoop(Some(expr), ..) | Stmt::Return(Some(expr), ..) => self.nodes(expr),
+            Stmt::Expr(expr) | Stmt::BreakLoop(Some(expr), ..) | Stmt::Return(Some(expr), ..) => {
+                self.nodes(expr)
+            }
             Stmt::FnCall(call, _) => call.args.iter().map(|argument| self.nodes(argument)).sum(),
             Stmt::Block(inner) => block(inner),
             Stmt::If(flow, _) => self.nodes(&flow.expr) + block(&flow.body) + block(&flow.branch),
             Stmt::TryCatch(flow, _) => block(&flow.body) + block(&flow.branch),
             Stmt::Switch(switch, _) => {
                 let cases = switch.1.expressions.iter();
-                self.nodes(&switch.0) + cases.map(|case| self.nodes(&case.lhs) + self.nodes(&case.rhs)).sum::<usize>()
+                self.nodes(&switch.0)
+                    + cases.map(|case| self.nodes(&case.lhs) + self.nodes(&case.rhs)).sum::<usize>()
             }
             Stmt::While(flow, _) | Stmt::Do(flow, ..) => self.nodes(&flow.expr),
             Stmt::For(each, _) => {
                 let subject = &each.2.expr;
-                self.nodes(subject) + if self.class(subject) == Class::Text { SEARCH_NODES } else { 0 }
+                self.nodes(subject)
+                    + if self.class(subject) == Class::Text { SEARCH_NODES } else { 0 }
             }
             Stmt::Var(var, ..) => self.nodes(&var.1),
             Stmt::Assignment(assignment) => {
                 let sides = &assignment.1;
                 let stored = self.walked && !matches!(sides.lhs, Expr::Variable(..));
-                self.nodes(&sides.lhs) + self.nodes(&sides.rhs) + if stored { STORE_NODES } else { 0 }
+                self.nodes(&sides.lhs)
+                    + self.nodes(&sides.rhs)
+                    + if stored { STORE_NODES } else { 0 }
             }
             _ => 0,
         }
@@ -497,7 +546,11 @@ impl CopyWriter<'_> {
             Expr::And(list, _) | Expr::Or(list, _) | Expr::Coalesce(list, _) => all(list),
             Expr::Stmt(block) => self.statements_nodes(block.statements()),
             Expr::FnCall(call, _) => {
-                let searched = if call.op_token.is_some() && call.name == "contains" { SEARCH_NODES } else { 0 };
+                let searched = if call.op_token.is_some() && call.name == "contains" {
+                    SEARCH_NODES
+                } else {
+                    0
+                };
                 let short = call.args.iter().all(|argument| self.class(argument) == Class::Short);
                 searched + if short { 0 } else { call.args.len() } + all(&call.args)
             }

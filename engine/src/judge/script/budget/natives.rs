@@ -7,8 +7,8 @@ use super::super::host::ARRAY_MAX;
 use super::{Failable, bytes_of, count_bytes};
 use rhai::plugin::RhaiResult;
 use rhai::{
-    Array, Caches, Dynamic, Engine, EvalContext, FnPtr, FuncRegistration, ImmutableString, Map, Module,
-    NativeCallContext, Position, RhaiFunc, Scope,
+    Array, Caches, Dynamic, Engine, EvalContext, FnPtr, FuncRegistration, ImmutableString, Map,
+    Module, NativeCallContext, Position, RhaiFunc, Scope,
 };
 use std::any::TypeId;
 use std::ops::{Range, RangeInclusive};
@@ -97,7 +97,8 @@ const TABLE: &[(&str, &[Letters])] = &[
 ];
 
 /// Functions that read only a part of the value they are called on.
-const LIGHT: &[&str] = &["get", "get$is_empty", "get$len", "is_empty", "len", "pop", "push", "set", "clear"];
+const LIGHT: &[&str] =
+    &["get", "get$is_empty", "get$len", "is_empty", "len", "pop", "push", "set", "clear"];
 /// The factor by which their work is smaller.
 const LIGHT_SHARE: usize = 8;
 /// Lists up to this length are read element by element.
@@ -142,7 +143,11 @@ pub(in super::super) fn register(engine: &mut Engine, plain: &Engine) {
         for letters in all {
             if let Some(function) = find(plain, name, letters) {
                 let types: Vec<TypeId> = letters.bytes().map(type_of).collect();
-                FuncRegistration::new(name).set_into_module_raw(&mut module, types, counted(name, function));
+                FuncRegistration::new(name).set_into_module_raw(
+                    &mut module,
+                    types,
+                    counted(name, function),
+                );
             }
         }
     }

@@ -34,11 +34,17 @@ struct Size {
 impl Size {
     fn add(&mut self, value: &Dynamic, level: usize) -> Failable<()> {
         self.bytes += VALUE_BYTES;
-        if value.is_int() || value.is_float() || value.is_bool() || value.is_unit() || value.is_char() {
+        if value.is_int()
+            || value.is_float()
+            || value.is_bool()
+            || value.is_unit()
+            || value.is_char()
+        {
             return Ok(());
         }
         if level > EXPRESSION_DEPTH_MAX {
-            return self.too_large(format!("a value is nested deeper than {EXPRESSION_DEPTH_MAX} levels"));
+            return self
+                .too_large(format!("a value is nested deeper than {EXPRESSION_DEPTH_MAX} levels"));
         }
         if value.is_shared() {
             return match value.read_lock::<Dynamic>() {
@@ -80,7 +86,11 @@ pub(super) fn unshared(value: &Dynamic) -> Dynamic {
         return list.iter().map(unshared).collect::<Array>().into();
     }
     if let Some(map) = value.read_lock::<Map>() {
-        return map.iter().map(|(name, part)| (name.clone(), unshared(part))).collect::<Map>().into();
+        return map
+            .iter()
+            .map(|(name, part)| (name.clone(), unshared(part)))
+            .collect::<Map>()
+            .into();
     }
     if let Some(function) = value.read_lock::<FnPtr>() {
         let mut function = function.clone();

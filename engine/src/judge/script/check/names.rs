@@ -30,21 +30,33 @@ pub(super) struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    pub(super) fn of(source: &'a str, hook: &'a str, params: &'a [&'a str], ast: &AST) -> Names<'a> {
+    pub(super) fn of(
+        source: &'a str,
+        hook: &'a str,
+        params: &'a [&'a str],
+        ast: &AST,
+    ) -> Names<'a> {
         let mut names = Names {
             source,
             variables: BTreeMap::new(),
             keys: Vec::new(),
-            own_functions: ast.iter_functions().map(|f| (f.name.to_owned(), f.params.len())).collect(),
+            own_functions: ast
+                .iter_functions()
+                .map(|f| (f.name.to_owned(), f.params.len()))
+                .collect(),
             hook,
             params,
             faults: Vec::new(),
         };
         for function in ast.iter_functions() {
-            let subjects = if function.name == hook { hook_arguments(hook).unwrap_or_default() } else { &[] };
+            let subjects =
+                if function.name == hook { hook_arguments(hook).unwrap_or_default() } else { &[] };
             for (at, parameter) in function.params.iter().enumerate() {
                 // A helper's parameter with the name of a hook's argument holds the same thing.
-                let by_name = hook_arguments(hook).unwrap_or_default().iter().find(|(name, _)| name == parameter);
+                let by_name = hook_arguments(hook)
+                    .unwrap_or_default()
+                    .iter()
+                    .find(|(name, _)| name == parameter);
                 let subject = subjects.get(at).or(by_name).map(|(_, subject)| *subject);
                 names.bind(parameter, subject);
             }
@@ -113,8 +125,12 @@ impl<'a> Names<'a> {
     pub(super) fn visit(&mut self, path: &[ASTNode]) {
         let Some(ASTNode::Expr(expr)) = path.last() else {
             match path.last() {
-                Some(ASTNode::Stmt(Stmt::FnCall(call, position))) => self.check_call(call, false, *position),
-                Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => self.check_assignment(&assignment.1.lhs),
+                Some(ASTNode::Stmt(Stmt::FnCall(call, position))) => {
+                    self.check_call(call, false, *position)
+                }
+                Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
+                    self.check_assignment(&assignment.1.lhs)
+                }
                 _ => {}
             }
             return;
@@ -123,12 +139,18 @@ impl<'a> Names<'a> {
             Expr::FnCall(call, position) => self.check_call(call, false, *position),
             Expr::MethodCall(call, position) => self.check_call(call, true, *position),
             Expr::Dot(..) | Expr::Index(..) => {
-                let inside = path.len().checked_sub(2).and_then(|parent| path.get(parent)).is_some_and(|parent| {
-                    matches!(parent, ASTNode::Expr(Expr::Dot(pair, ..) | Expr::Index(pair, ..)) if std::ptr::eq(&raw const pair.rhs, *expr))
-                });
-                if !inside {
+                let parent = path.len().checked_sub(2).and_then(|parent| path.get(parent));
+                let is_inside = match parent {
+                    Some(ASTNode::Expr(Expr::Dot(pair, ..) | Expr::Index(pair, ..))) => {
+                        std::ptr::eq(&raw const pair.rhs, *expr)
+                    }
+                    _ => false,
+                };
+                if !is_inside {
                     let mut unknown = Vec::new();
-                    self.subject(expr, &mut |of, name, position| unknown.push((of, name.to_owned(), position)));
+                    self.subject(expr, &mut |of, name, position| {
+                        unknown.push((of, name.to_owned(), position))
+                    });
                     for (of, name, position) in unknown {
                         self.unknown_property(of, &name, position);
                     }
@@ -145,7 +167,8 @@ impl<'a> Names<'a> {
         if call.op_token.is_some() || !word || self.variables.contains_key(name) {
             return;
         }
-        let mut own: Vec<usize> = self.own_functions.iter().filter(|own| own.0 == name).map(|own| own.1).collect();
+        let mut own: Vec<usize> =
+            self.own_functions.iter().filter(|own| own.0 == name).map(|own| own.1).collect();
         own.sort_unstable();
         if !own.is_empty() {
             // The value before the dot is the function's `this`.
@@ -176,9 +199,12 @@ impl<'a> Names<'a> {
     /// Checks the words of `count`: an event, a team.
     fn check_words(&mut self, words: &[Expr]) {
         let events: Vec<&str> = EventKind::ALL.iter().map(|kind| kind.name()).collect();
-        for (noun, word, known) in [("event", words.first(), &events[..]), ("team", words.get(1), &["us", "them"])] {
+        for (noun, word, known) in
+            [("event", words.first(), &events[..]), ("team", words.get(1), &["us", "them"])]
+        {
             if let Some(Expr::StringConstant(word, position)) = word {
-                let (first, qualifier) = word.split_once(' ').map_or((word.as_str(), None), |(a, b)| (a, Some(b)));
+                let (first, qualifier) =
+                    word.split_once(' ').map_or((word.as_str(), None), |(a, b)| (a, Some(b)));
                 if known.contains(&first)
                     && (noun == "event" || qualifier.is_none())
                     && qualifier.is_none_or(|word| Qualifier::from_name(word).is_some())
@@ -200,7 +226,14 @@ impl<'a> Names<'a> {
         let Expr::Variable(variable, _, position) = root else { return };
         let shown = match self.variables.get(variable.1.as_str()).copied().flatten() {
             // A list is the script's own copy.
-            None | Some(Subject::Plain | Subject::Memory | Subject::Params | Subject::Players | Subject::Events) => {
+            None
+            | Some(
+                Subject::Plain
+                | Subject::Memory
+                | Subject::Params
+                | Subject::Players
+                | Subject::Events,
+            ) => {
                 return;
             }
             Some(shown) => shown,
@@ -212,12 +245,17 @@ impl<'a> Names<'a> {
     }
 
     fn unknown_property(&mut self, of: Option<Subject>, name: &str, position: Position) {
-        let candidates = members().filter(|member| of.is_none_or(|of| member.of == of)).map(|member| member.name);
+        let candidates = members()
+            .filter(|member| of.is_none_or(|of| member.of == of))
+            .map(|member| member.name);
         let params = self.params.iter().copied().filter(|_| of == Some(Subject::Params));
         let mut help = suggest(name, candidates.chain(params));
         let message = match of {
             Some(Subject::State) if name == ME => {
-                help = Some("go through `now.us.players`, or end by a condition on a player's name".to_owned());
+                help = Some(
+                    "go through `now.us.players`, or end by a condition on a player's name"
+                        .to_owned(),
+                );
                 "nobody is `me` where an episode's end is judged".to_owned()
             }
             Some(Subject::Params) => format!("no parameter is called `{name}`"),
@@ -236,7 +274,9 @@ impl<'a> Names<'a> {
     /// passed to `unknown`.
     fn subject(&self, expr: &Expr, unknown: &mut Unknown<'_>) -> Option<Subject> {
         match expr {
-            Expr::Variable(variable, ..) => self.variables.get(variable.1.as_str()).copied().flatten(),
+            Expr::Variable(variable, ..) => {
+                self.variables.get(variable.1.as_str()).copied().flatten()
+            }
             Expr::ThisPtr(_) => Some(Subject::Memory),
             Expr::Dot(pair, ..) => {
                 let of = self.subject(&pair.lhs, unknown);
@@ -253,7 +293,9 @@ impl<'a> Names<'a> {
     /// Continues along a chain; `rhs` is what follows the dot.
     fn chain(&self, of: Option<Subject>, rhs: &Expr, unknown: &mut Unknown<'_>) -> Option<Subject> {
         match rhs {
-            Expr::Property(property, position) => self.property(of, &property.2, *position, unknown),
+            Expr::Property(property, position) => {
+                self.property(of, &property.2, *position, unknown)
+            }
             Expr::Dot(pair, ..) => {
                 let of = self.chain(of, &pair.lhs, unknown);
                 self.chain(of, &pair.rhs, unknown)
@@ -268,10 +310,18 @@ impl<'a> Names<'a> {
 
     /// Continues after an index. Unless the chain is broken, the rest of it hangs on the index
     /// expression.
-    fn indexed(&self, of: Option<Subject>, rhs: &Expr, flags: ASTFlags, unknown: &mut Unknown<'_>) -> Option<Subject> {
+    fn indexed(
+        &self,
+        of: Option<Subject>,
+        rhs: &Expr,
+        flags: ASTFlags,
+        unknown: &mut Unknown<'_>,
+    ) -> Option<Subject> {
         let of = element(of);
         match rhs {
-            Expr::Dot(pair, ..) if !flags.contains(ASTFlags::BREAK) => self.chain(of, &pair.rhs, unknown),
+            Expr::Dot(pair, ..) if !flags.contains(ASTFlags::BREAK) => {
+                self.chain(of, &pair.rhs, unknown)
+            }
             Expr::Index(pair, inner, _) if !flags.contains(ASTFlags::BREAK) => {
                 self.indexed(of, &pair.rhs, *inner, unknown)
             }

@@ -104,9 +104,11 @@ fn copies_are_counted() {
 #[test]
 fn what_is_spent_on_sizes_has_its_place() {
     let failed = endless("let a = []; a.pad(4000, 7);\nloop {\n    let b = a;\n}");
-    let words =
-        "more than 200000 operations in one call: work on values counts by their size, 256 bytes to an operation";
-    assert_eq!((failed.line, failed.column, failed.message.as_str()), (HELPERS.lines().count() + 4, 13, words));
+    let words = "more than 200000 operations in one call: work on values counts by their size, 256 bytes to an operation";
+    assert_eq!(
+        (failed.line, failed.column, failed.message.as_str()),
+        (HELPERS.lines().count() + 4, 13, words)
+    );
     // Catching doesn't help either.
     endless(&format!("{LIST}loop {{ try {{ loop {{ let b = a; }} }} catch {{ }} }}"));
 }
@@ -163,7 +165,11 @@ fn memory_is_bounded_and_nothing_is_left() {
             }
         });
         assert!(counted.bytes_max <= MEMORY_BYTES, "{body}: {} bytes", counted.bytes_max);
-        assert!(counted.bytes_current < 100_000, "{body}: {} bytes are left", counted.bytes_current);
+        assert!(
+            counted.bytes_current < 100_000,
+            "{body}: {} bytes are left",
+            counted.bytes_current
+        );
     }
 }
 
@@ -197,7 +203,10 @@ fn remembered_steps_are_bounded() {
     });
     let (at, message) = kept.unwrap();
     assert!(at > 100, "only {at}");
-    assert!(message.starts_with(&format!("`this` holds what was shown in more than {at} steps")), "{message}");
+    assert!(
+        message.starts_with(&format!("`this` holds what was shown in more than {at} steps")),
+        "{message}"
+    );
 }
 
 /// Typical scripts have enough budget: lists of thousands, pairs of players, a loop over a string.
@@ -233,7 +242,8 @@ fn plain_scripts_stay_as_they_are() {
         "this.n += 1; this.gap = now.ball.x; `${now.ball.x} of ${this.n}`.len",
         "if now.us.has_ball && now.me != () && now.me.speed > 3.0 { \"text // { [\".len } else { 'a'; 0 }",
     ] {
-        let source = format!("fn half(x) {{ x / 2 }}\nfn reward(ctx, now, prev, events) {{ {body} }}");
+        let source =
+            format!("fn half(x) {{ x / 2 }}\nfn reward(ctx, now, prev, events) {{ {body} }}");
         assert_eq!(counted(&source), source);
     }
     let source = "fn reward(ctx, now, prev, events) { let a = this.a[\"]\"]; /* } */ let b = a; b.c[0].d /* a */ }";

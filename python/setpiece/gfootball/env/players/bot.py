@@ -46,7 +46,9 @@ class Player(PlayerBase):
                 help="other_config_options={'action_set': 'full'}; `builtin_ai` plays in any set",
             )
         if self.num_controlled_players() != 1:
-            raise ParameterError("a `bot` plays one player", name="players", help="write one definition for each")
+            raise ParameterError(
+                "a `bot` plays one player", name="players", help="write one definition for each"
+            )
         self._pressing = False
         self._turned = False
 
@@ -98,7 +100,9 @@ def _aside(me: NDArray[np.float64], other: NDArray[np.float64]) -> CoreAction:
     return _towards(across if across @ (other - me) < 0 else -across)
 
 
-def _nearest_ahead(me: NDArray[np.float64], team: NDArray[np.float64]) -> NDArray[np.float64] | None:
+def _nearest_ahead(
+    me: NDArray[np.float64], team: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
     before = team[(team - me) @ (GOAL - me) > 0]
     return None if not len(before) else before[np.argmin(np.linalg.norm(before - me, axis=1))]
 
@@ -107,7 +111,11 @@ def _best_mate(seen: dict[str, Any], me: NDArray[np.float64]) -> NDArray[np.floa
     """The teammate within reach who is most free and nearest to the goal."""
     best, best_value = None, 0.0
     for number, mate in enumerate(seen["left_team"]):
-        if number == seen["active"] or not seen["left_team_active"][number] or np.linalg.norm(mate - me) > MATE:
+        if (
+            number == seen["active"]
+            or not seen["left_team_active"][number]
+            or np.linalg.norm(mate - me) > MATE
+        ):
             continue
         opponents = seen["right_team"]
         room = float(np.min(np.linalg.norm(opponents - mate, axis=1))) if len(opponents) else 1.0

@@ -12,4 +12,8 @@ class Player(PlayerBase):
     """Raises `UnavailableError`."""
 
     def __init__(self, player_config: dict[str, Any], env_config: Any) -> None:  # noqa: ARG002
-        raise unavailable("players", "a player at the keyboard", "`bot`, `builtin_ai`, `lazy` and `replay` play alone")
+        raise unavailable(
+            "players",
+            "a player at the keyboard",
+            "`bot`, `builtin_ai`, `lazy` and `replay` play alone",
+        )

@@ -16,11 +16,15 @@ class Player(PlayerBase):
         super().__init__(player_config)
         if "path" not in player_config:
             raise ParameterError(
-                "the player `replay` needs a dump", name="players", help="write `replay:path=FILE.dump,left_players=1`"
+                "the player `replay` needs a dump",
+                name="players",
+                help="write `replay:path=FILE.dump,left_players=1`",
             )
         if self.num_controlled_left_players() and self.num_controlled_right_players():
             raise ParameterError(
-                "a `replay` plays on one side", name="players", help="write one definition for each side"
+                "a `replay` plays on one side",
+                name="players",
+                help="write one definition for each side",
             )
         self._path = str(player_config["path"])
         self._records = read_dump(self._path)

@@ -11,7 +11,16 @@ const ALL: &str = "AMSICRQFD";
 fn no_function_of_rhai_is_uncounted() {
     let plain = host::plain_engine();
     let mut missing = Vec::new();
-    let names = api::functions().chain(["+", "+=", "-", "-=", "get$len", "get$is_empty", "get$bytes", "get$chars"]);
+    let names = api::functions().chain([
+        "+",
+        "+=",
+        "-",
+        "-=",
+        "get$len",
+        "get$is_empty",
+        "get$bytes",
+        "get$chars",
+    ]);
     let names: BTreeSet<&str> = names.collect();
     for name in names {
         let mut known: Vec<String> = Vec::new();
@@ -39,8 +48,14 @@ fn no_function_of_rhai_is_uncounted() {
                 other == *letters || !all.contains(&other)
             })
         });
-        let counted = TABLE.iter().find(|(known, _)| *known == name).map_or(&[][..], |(_, all)| all);
-        missing.extend(known.into_iter().filter(|letters| !counted.contains(&letters.as_str())).map(|l| (name, l)));
+        let counted =
+            TABLE.iter().find(|(known, _)| *known == name).map_or(&[][..], |(_, all)| all);
+        missing.extend(
+            known
+                .into_iter()
+                .filter(|letters| !counted.contains(&letters.as_str()))
+                .map(|l| (name, l)),
+        );
     }
     assert_eq!(missing, []);
 }

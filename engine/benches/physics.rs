@@ -68,7 +68,7 @@ fn ticks(c: &mut Criterion<CpuTime>) {
         one_tick(c, &format!("tick/gated/bodies_{count}"), ball, &at(count), false);
     }
     c.bench_function("forecast/300_ticks", |b| {
-        b.iter(|| places(black_box(&FLYING), 10).take(30).last())
+        b.iter(|| places(black_box(&FLYING), 10).take(30).last());
     });
 }
 

@@ -331,7 +331,7 @@ mod tests {
         let digests = |lanes: usize, threads: usize| -> Vec<u64> {
             let mut batch = Batch::new(vec![prototype(); lanes], threads).unwrap();
             batch.each((0..).take(lanes).collect(), |_, lane, seed, _| {
-                lane.reset(Some(seed), None).unwrap()
+                lane.reset(Some(seed), None).unwrap();
             });
             for _ in 0..30 {
                 batch.each(vec![Action::Right; lanes], |_, lane, action, scratch| {

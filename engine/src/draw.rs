@@ -101,7 +101,7 @@ impl Drawer {
         for instr in &program.code {
             let mut tainted = matches!(instr, setpiece_scenario::Instr::Random { .. });
             instr.operands(&mut |reg| {
-                tainted |= random.get(reg.index()).copied().unwrap_or_default()
+                tainted |= random.get(reg.index()).copied().unwrap_or_default();
             });
             random.push(tainted);
         }

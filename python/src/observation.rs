@@ -276,7 +276,7 @@ impl Observer {
                 }
             }
             Observer::Map(_, film) if bytes.len() == film.held.len() => {
-                film.held.copy_from_slice(bytes)
+                film.held.copy_from_slice(bytes);
             }
             _ => {}
         }

@@ -64,7 +64,7 @@ impl Broadcast {
                     }
                 }
                 What::Goal { right, band } => {
-                    goals[usize::from(right)].draw(canvas, view, usize::from(band))
+                    goals[usize::from(right)].draw(canvas, view, usize::from(band));
                 }
                 What::Flag { right, near } => flag(canvas, view, pitch, right, near, time),
                 What::SceneBall => ball::draw(canvas, view, &scene.ball, time),

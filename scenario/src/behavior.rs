@@ -220,7 +220,7 @@ impl Act {
     fn regs_mut(&mut self, f: &mut dyn FnMut(&mut Reg)) {
         match self {
             Act::MoveTo(x, y) | Act::DribbleTo(x, y) | Act::Shoot(Some((x, y))) => {
-                [x, y].into_iter().for_each(f)
+                [x, y].into_iter().for_each(f);
             }
             Act::Run(reg)
             | Act::PassTo(reg)

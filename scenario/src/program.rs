@@ -481,7 +481,9 @@ impl Instr {
                     f(*b);
                 }
                 Distribution::TruncatedNormal(a, b, c, d) => {
-                    [a, b, c, d].into_iter().for_each(|&reg| f(reg))
+                    for &reg in [a, b, c, d] {
+                        f(reg);
+                    }
                 }
                 Distribution::Weighted(weights) => weights.iter().for_each(|&reg| f(reg)),
             },

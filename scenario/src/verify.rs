@@ -227,7 +227,7 @@ fn verify_program(
                 return Err(format!("instruction {at} looks back inside a loop"));
             }
             (Instr::Give { term, .. }, ProgramPlace::Step { terms }) => {
-                below("term", *term, terms)?
+                below("term", *term, terms)?;
             }
             (Instr::Random { .. }, ProgramPlace::Start)
             | (Instr::Assign { .. }, ProgramPlace::Init | ProgramPlace::Step { .. })

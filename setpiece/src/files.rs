@@ -136,7 +136,7 @@ pub fn name_of(path: &Path) -> String {
                 match u32::from(letter).checked_sub(FOREIGN) {
                     // Otherwise it would be decoded as a byte.
                     Some(0x80..=0xFF) => {
-                        name.extend(letter.to_string().as_bytes().iter().filter_map(foreign))
+                        name.extend(letter.to_string().as_bytes().iter().filter_map(foreign));
                     }
                     _ => name.push(letter),
                 }

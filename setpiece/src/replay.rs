@@ -318,7 +318,7 @@ impl Replay {
                         ResetError::Draw(why) => broken(why.into()),
                         ResetError::Snapshot(why) => Error::Snapshot(why),
                     }
-                })?
+                })?;
             }
             None => environment
                 .reset(Some(self.seed), Some(self.index))

@@ -85,7 +85,7 @@ pub fn run(
         options.threads.min(options.episodes.clone().count().max(1)),
         players,
         |episode: &Result<EpisodeSummary, EpisodeError>| {
-            progress(episode.as_ref().map_or(0, |episode| episode.length))
+            progress(episode.as_ref().map_or(0, |episode| episode.length));
         },
     )
     .map_err(|why| Error::Threads(why.to_string()))?;

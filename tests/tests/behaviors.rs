@@ -84,7 +84,7 @@ fn play(
 fn presses(environment: &mut Environment, steps: u32) -> Vec<Action> {
     let mut pressed = Vec::new();
     play(environment, 1, steps, |_, environment| {
-        pressed.push(environment.action_of(FIRST).unwrap())
+        pressed.push(environment.action_of(FIRST).unwrap());
     });
     pressed
 }
@@ -408,7 +408,7 @@ fn literals_are_read_in_the_own_frame_and_arguments_where_they_stand() {
     );
     let mut pressed = Vec::new();
     play(&mut environment, 1, 4, |_, environment| {
-        pressed.push(environment.action_of(RIGHT_FIRST).unwrap())
+        pressed.push(environment.action_of(RIGHT_FIRST).unwrap());
     });
     // Presses are in the own frame too: world +x is back for the right team.
     assert_eq!(pressed, [Action::Left, Action::Right, Action::Left, Action::Right]);
@@ -495,7 +495,7 @@ fn the_presses_of_a_behavior_replayed_by_an_agent_give_the_same_match() {
     let mut scripted = environment(&text);
     let mut pressed = Vec::new();
     play(&mut scripted, 4, 200, |_, environment| {
-        pressed.push(environment.action_of(FIRST).unwrap())
+        pressed.push(environment.action_of(FIRST).unwrap());
     });
     let mut agent = environment(&text.replace("left: 0", "left: [anna]"));
     let mut scratch = Scratch::default();

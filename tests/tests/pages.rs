@@ -141,7 +141,7 @@ fn every_broken_text_earns_its_code_and_every_other_one_is_sound() {
                 }
                 // A text that fails only when played.
                 Some(("file", _)) => {
-                    assert!(found.iter().all(|code| code.starts_with("SP06")), "{code}: {found:?}")
+                    assert!(found.iter().all(|code| code.starts_with("SP06")), "{code}: {found:?}");
                 }
                 _ => assert!(found.is_empty(), "{code} mends into {found:?}:\n{}", block.text),
             }

@@ -71,7 +71,7 @@ fn of_reward<'a>(body: &'a [RewardStmt], named: &mut Vec<&'a ScriptRef>) {
     for stmt in body {
         match &stmt.kind {
             RewardStmtKind::Give(GiveStmt { value: GiveValue::Script(script), .. }) => {
-                named.push(script)
+                named.push(script);
             }
             RewardStmtKind::On { body, .. } => of_reward(body, named),
             RewardStmtKind::When { then, otherwise, .. } => {
@@ -90,7 +90,7 @@ fn of_behavior<'a>(body: &'a [BehaviorStmt], named: &mut Vec<&'a ScriptRef>) {
             Kind::Do(DoStmt { what: DoWhat::Script(script), .. }) => named.push(script),
             Kind::Interrupt { body, .. } | Kind::Repeat { body, .. } => of_behavior(body, named),
             Kind::Choose(chances) => {
-                chances.iter().for_each(|chance| of_behavior(&chance.body, named))
+                chances.iter().for_each(|chance| of_behavior(&chance.body, named));
             }
             Kind::If { arms, otherwise } => {
                 for (_, body) in arms {

@@ -317,7 +317,7 @@ fn chain_players<'w>(
             match &stmt.kind {
                 TeamStmtKind::Player(_) if !has_room(world, &players, stmt.span, team) => break,
                 TeamStmtKind::Player(player) => {
-                    players.extend(copies(world, player, stmt.span, &scope, team))
+                    players.extend(copies(world, player, stmt.span, &scope, team));
                 }
                 TeamStmtKind::Override { who, change } => overrides.push((who, change)),
                 TeamStmtKind::Each { who, fields } => each.push((who, fields.as_slice())),

@@ -87,7 +87,7 @@ impl<'w> Lower<'_, 'w> {
             }
             match script_type(&value) {
                 Some(ty) => {
-                    args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() })
+                    args.push(ScriptArg { name: decl.name.node.clone(), ty, regs: value.regs() });
                 }
                 None if !every => {}
                 None => self.report(Problem::new(

@@ -85,7 +85,7 @@ pub(crate) fn lower_player_options<'w>(
             set_ai(lower, None);
             for field in &player.fields {
                 lower.drawing(&format!("{stream} {}", field.key.node), |lower| {
-                    option(lower, field, &mut options)
+                    option(lower, field, &mut options);
                 });
             }
             if let Some(when) = player.when {

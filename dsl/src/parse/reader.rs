@@ -159,7 +159,7 @@ impl<'t> Reader<'t> {
             let index = self.comments.partition_point(|comment| comment.end < trimmed);
             match self.comments.get(index) {
                 Some(comment) if comment.end == trimmed && comment.start > start => {
-                    end = comment.start
+                    end = comment.start;
                 }
                 _ => return trimmed,
             }

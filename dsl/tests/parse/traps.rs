@@ -42,7 +42,7 @@ fn p2_a_blocks_head_is_not_a_gives_clause() {
     }
     match reward("give 1 on goal by us when c as \"x\"").first().map(|statement| &statement.kind) {
         Some(RewardStmtKind::Give(give)) => {
-            assert!(give.on.len() == 1 && give.when.is_some() && give.label.is_some())
+            assert!(give.on.len() == 1 && give.when.is_some() && give.label.is_some());
         }
         other => panic!("{other:?}"),
     }
@@ -201,7 +201,7 @@ fn p11_spans_are_trimmed() {
 fn p12_keys_may_be_weights() {
     match value("choice(a: 3, 0.5: 1, (0, 1): 2, for: 2s, on: off)").kind {
         ExprKind::Call { args, .. } => {
-            assert!(args.len() == 5 && args.iter().all(|arg| arg.key.is_some()))
+            assert!(args.len() == 5 && args.iter().all(|arg| arg.key.is_some()));
         }
         other => panic!("{other:?}"),
     }
@@ -260,7 +260,7 @@ fn p17_a_count_stands_before_a_role() {
     assert_eq!(body.len(), 4);
     match body.get(1).map(|statement| &statement.kind) {
         Some(TeamStmtKind::Player(player)) => {
-            assert_eq!(player.count.as_ref().map(|count| count.node), Some(2))
+            assert_eq!(player.count.as_ref().map(|count| count.node), Some(2));
         }
         other => panic!("{other:?}"),
     }

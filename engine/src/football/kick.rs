@@ -134,7 +134,7 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
                 continue;
             }
             Some(swing) if now > swing.ready_at + MISSED_TICKS && swing.way.is_some() => {
-                plan.swing = None
+                plan.swing = None;
             }
             Some(_) => {}
             None => plan.swing = first_time(game, id, &mut plan).or_else(|| begin(game, id, &plan)),

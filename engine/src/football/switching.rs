@@ -67,7 +67,7 @@ pub fn update(game: &mut Match) {
     }
 }
 
-/// Switches players after the first step of a start. A key that is still down is pressed anew for
+/// Switches players after the first step of a start. A key that is still down is pressed again for
 /// the next player.
 pub fn after_first_step(game: &mut Match) {
     let before: ArrayVec<_, PLAYERS_MAX> = game.agents.iter().map(|slot| slot.player).collect();

@@ -200,10 +200,10 @@ impl<const W: usize> Machine<'_, W> {
                 Op::Neg => self.one(step, |a| UnaryOp::Neg.apply(a, |_| false)),
                 Op::Select => self.select(step),
                 Op::BallX => {
-                    self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[0].into()))
+                    self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[0].into()));
                 }
                 Op::BallY => {
-                    self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[1].into()))
+                    self.all(step, self.input.now.map_or(f64::NAN, |now| now.ball()[1].into()));
                 }
                 Op::BallOwner => self
                     .all(step, self.input.now.map_or(f64::NAN, |now| player_number(now.owner()))),
@@ -221,7 +221,7 @@ impl<const W: usize> Machine<'_, W> {
                 Op::Assign => self.assign(step),
                 Op::Rare => self.rare(step, &plan.rare[step.a as usize], event),
                 Op::Temporal => {
-                    self.regs[step.at as usize] = self.temporal(&plan.rare[step.a as usize])
+                    self.regs[step.at as usize] = self.temporal(&plan.rare[step.a as usize]);
                 }
                 Op::Loop => {
                     let each = &plan.loops[step.a as usize];

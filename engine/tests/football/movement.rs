@@ -40,7 +40,7 @@ fn a_sprint_from_standstill_follows_the_measured_curve() {
 fn the_gaits_top_out_where_they_should() {
     let top = |layout, keys: &[Action]| *speeds(layout, keys, 60).last().unwrap();
     let near = |is: f32, should: f32| {
-        assert!((is - should).abs() <= 0.05 * should, "{is} against {should}")
+        assert!((is - should).abs() <= 0.05 * should, "{is} against {should}");
     };
     near(top(Layout::Alone, &[Action::Right]), 5.0);
     near(top(Layout::Alone, &[Action::Right, Action::Dribble]), 3.5);

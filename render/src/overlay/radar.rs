@@ -18,7 +18,7 @@ pub(super) fn draw(canvas: &mut Raster<'_>, scene: &Scene, pitch: &Pitch, unit: 
     let (x, y) = (pitch.length_m * 0.5, pitch.width_m * 0.5);
     let width = (0.65 * unit).max(0.4);
     let mut line = |ax: f32, ay: f32, bx: f32, by: f32| {
-        canvas.stroke(at(ax, ay), at(bx, by), width, LINE, 0.6)
+        canvas.stroke(at(ax, ay), at(bx, by), width, LINE, 0.6);
     };
     for side in [-1.0, 1.0] {
         line(-x, side * y, x, side * y);

@@ -22,11 +22,11 @@ pub(super) fn verify_nodes(behavior: &Behavior, n_scripts: usize) -> Result<(), 
         };
         match node {
             Node::Do(Do { act: Act::Script { script, .. }, .. }) => {
-                below("script", *script, n_scripts)?
+                below("script", *script, n_scripts)?;
             }
             Node::Do(_) | Node::Return => {}
             Node::Let(pairs) | Node::Assign(pairs) => {
-                pairs.iter().try_for_each(|(to, _)| cell(*to))?
+                pairs.iter().try_for_each(|(to, _)| cell(*to))?;
             }
             Node::Draw { cell: to, count, .. } => cell(*to).and_then(|()| cell(*count))?,
             Node::Branch { otherwise, .. } => forward(*otherwise)?,

@@ -65,7 +65,7 @@ fn legend(canvas: &mut Canvas<'_>, right: f32, y: f32) -> f32 {
     };
     let cloth = |team, keeper| {
         move |canvas: &mut Canvas<'_>, middle: Point| {
-            canvas.disc(middle, 9.0, shirt(team, keeper).cloth)
+            canvas.disc(middle, 9.0, shirt(team, keeper).cloth);
         }
     };
     let [left, left_keeper, right_team, right_keeper] =

@@ -111,7 +111,7 @@ fn uses(code: &str, depth: usize) -> Vec<(&str, usize)> {
             match rest.strip_prefix('{') {
                 None => found.extend(word(rest).map(|word| (word, line(rest)))),
                 Some(group) => {
-                    found.extend(members(group).filter_map(|rest| Some((word(rest)?, line(rest)))))
+                    found.extend(members(group).filter_map(|rest| Some((word(rest)?, line(rest)))));
                 }
             }
         }

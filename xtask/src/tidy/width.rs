@@ -1,4 +1,4 @@
-//! The width of lines: 100 columns for code and comments. A line that holds a part of a string may be
+//! The width of lines: 100 columns for code and comments. A line with a part of a string may be
 //! longer.
 
 use super::read;

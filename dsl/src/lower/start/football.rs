@@ -84,7 +84,7 @@ fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, spa
     match lower.interval(place.1) {
         Some((low, high)) if low >= nearest || high <= -nearest => {}
         Some((low, high)) if low > -nearest && high < nearest => {
-            lower.report(Problem::new(span, Starts::NoSideLine))
+            lower.report(Problem::new(span, Starts::NoSideLine));
         }
         _ => {
             let (least, aside) =

@@ -38,7 +38,7 @@ impl Scanner<'_> {
             b"if" => self.chain = Chain { ifs: ifs + 1, phrases: 0, too_deep },
             b"of" | b"by" | b"to" | b"from" => self.chain.phrases += 1,
             b"and" | b"or" | b"then" | b"else" => {
-                self.unchain(at, Chain { ifs, phrases: 0, too_deep })
+                self.unchain(at, Chain { ifs, phrases: 0, too_deep });
             }
             // No expression goes on behind these.
             b"as" | b"at" | b"facing" | b"give" | b"jitter" | b"let" | b"on" | b"once"

@@ -260,7 +260,7 @@ impl Thread {
                     }
                 }
                 Node::Return => {
-                    self.at = self.interrupted.pop().unwrap_or(NodeProgress::at(u32::MAX))
+                    self.at = self.interrupted.pop().unwrap_or(NodeProgress::at(u32::MAX));
                 }
                 Node::Finish { from, to } => self.leave(*from, *to),
             }

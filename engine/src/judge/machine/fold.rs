@@ -47,10 +47,10 @@ impl<const N: usize> Folding<N> {
                 });
             }
             FoldKind::Any => {
-                self.each(counts, values, |any, value| if truth(value) { 1.0 } else { any })
+                self.each(counts, values, |any, value| if truth(value) { 1.0 } else { any });
             }
             FoldKind::All => {
-                self.each(counts, values, |all, value| if truth(value) { all } else { 0.0 })
+                self.each(counts, values, |all, value| if truth(value) { all } else { 0.0 });
             }
             FoldKind::ArgMin => self.choose(element, counts, values, |value, least| value < least),
             FoldKind::ArgMax => self.choose(element, counts, values, |value, most| value > most),

@@ -214,7 +214,7 @@ fn a_clock_that_is_wrong_is_seen() {
     spoilt(&step, "ticks", |step| step.judged.tick -= 1);
     spoilt(&step, "took time", |step| step.after.tick += 1);
     spoilt(&step, "half-time without", |step| {
-        step.states().into_iter().for_each(|game| game.play.second_half = true)
+        step.states().into_iter().for_each(|game| game.play.second_half = true);
     });
     spoilt(&step, "half-time is late", |step| {
         step.states().into_iter().for_each(|game| game.rules[Rule::HalfTime.index()] = 1.0);
@@ -232,7 +232,7 @@ fn a_clock_that_is_wrong_is_seen() {
     });
     spoilt(&half, "tired by", |step| step.judged.players[4].fatigue = 0.1);
     spoilt(&all[999], "full time", |step| {
-        step.events.retain(|event| event.kind != EventKind::FullTime)
+        step.events.retain(|event| event.kind != EventKind::FullTime);
     });
 }
 
@@ -256,7 +256,7 @@ fn a_score_or_a_card_that_is_wrong_is_seen() {
     spoilt(&step, "own goals", |step| step.events.push(event(EventKind::OwnGoal, 3)));
 
     spoilt(&step, "cards, not", |step| {
-        step.states().into_iter().for_each(|game| game.players[3].yellow_cards = 1)
+        step.states().into_iter().for_each(|game| game.players[3].yellow_cards = 1);
     });
     spoilt(&step, "cards, not", |step| step.before.players[3].yellow_cards = 1);
     spoilt(&step, "a second yellow", |step| {
@@ -299,7 +299,7 @@ fn a_restart_that_is_wrong_is_seen() {
     spoilt(&kick, "awards", |step| step.events.retain(|event| event.kind != EventKind::GoalKick));
     spoilt(&kick, "awards", |step| step.events.push(*step.events.last().unwrap()));
     spoilt(&kick, "nothing is worth", |step| {
-        step.events.retain(|event| event.kind != EventKind::OutOfPlay)
+        step.events.retain(|event| event.kind != EventKind::OutOfPlay);
     });
     spoilt(&kick, "waits after", |step| step.judged.play.pending = None);
     spoilt(&kick, "is not where", |step| step.after.ball.pos.x += 1.0);
@@ -317,11 +317,11 @@ fn a_restart_that_is_wrong_is_seen() {
     };
     let taken = all.iter().find(waits).unwrap();
     spoilt(taken, "was taken as", |step| {
-        step.events.retain(|event| event.qualifier != Some(Qualifier::Taken))
+        step.events.retain(|event| event.qualifier != Some(Qualifier::Taken));
     });
     let goal = stopped(&all, EventKind::Goal);
     spoilt(&goal, "kicks off after", |step| {
-        step.after.play.kick_off = step.after.play.kick_off.map(Team::other)
+        step.after.play.kick_off = step.after.play.kick_off.map(Team::other);
     });
     spoilt(&goal, "goals", |step| step.events.retain(|event| event.kind != EventKind::Goal));
 }

@@ -236,7 +236,7 @@ impl CopyWriter<'_> {
     fn statement(&mut self, statement: &Stmt) {
         match statement {
             Stmt::Expr(expr) | Stmt::BreakLoop(Some(expr), ..) | Stmt::Return(Some(expr), ..) => {
-                self.value(expr)
+                self.value(expr);
             }
             Stmt::FnCall(call, _) => self.call(call),
             Stmt::Block(block) => self.block(block),
@@ -346,7 +346,7 @@ impl CopyWriter<'_> {
                 }
                 // Reading a list of players creates a new one.
                 Expr::Dot(..) | Expr::Index(..) if self.class(expr) > Class::Squad => {
-                    self.chain_value(expr)
+                    self.chain_value(expr);
                 }
                 _ => {}
             }
@@ -476,9 +476,9 @@ impl CopyWriter<'_> {
             // Rhai's functions may change their first argument in place.
             if let Some(first) = call.args.first() {
                 if call.name == "type_of" {
-                    self.value(first)
+                    self.value(first);
                 } else {
-                    self.inside_or_closure(first)
+                    self.inside_or_closure(first);
                 }
             }
             self.arguments(call, 1);

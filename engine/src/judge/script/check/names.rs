@@ -126,10 +126,10 @@ impl<'a> Names<'a> {
         let Some(ASTNode::Expr(expr)) = path.last() else {
             match path.last() {
                 Some(ASTNode::Stmt(Stmt::FnCall(call, position))) => {
-                    self.check_call(call, false, *position)
+                    self.check_call(call, false, *position);
                 }
                 Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
-                    self.check_assignment(&assignment.1.lhs)
+                    self.check_assignment(&assignment.1.lhs);
                 }
                 _ => {}
             }
@@ -149,7 +149,7 @@ impl<'a> Names<'a> {
                 if !is_inside {
                     let mut unknown = Vec::new();
                     self.subject(expr, &mut |of, name, position| {
-                        unknown.push((of, name.to_owned(), position))
+                        unknown.push((of, name.to_owned(), position));
                     });
                     for (of, name, position) in unknown {
                         self.unknown_property(of, &name, position);

@@ -8,7 +8,7 @@ use crate::football::{dribble, first_touch, kick};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
 use crate::state::player::{Intent, KickKind, Pose};
-use crate::state::{Match, Player, PlayerId, Squad};
+use crate::state::{AgentSlot, Match, Player, PlayerId, Squad};
 use glam::Vec2;
 use setpiece_scenario::Ai;
 use setpiece_scenario::vocabulary::{Rule, Team};
@@ -177,11 +177,16 @@ fn pushes_off(game: &Match, player: &Player) -> bool {
 fn is_kick_pressed(game: &Match, team: Team) -> bool {
     let mut slots = game.agents.iter().filter(|slot| slot.team == team && !slot.fixed);
     slots.any(|slot| {
-        slot.player
-            .and_then(|id| game.play.acting[id.index()].played)
-            .and_then(KickKind::of)
-            .is_some()
+        let played = slot.player.and_then(|id| game.play.acting[id.index()].played);
+        played.and_then(KickKind::of).is_some()
     })
+}
+
+/// Whether the ball of a start would be left for the kick that this agent presses now.
+pub fn is_left_for(game: &Match, slot: &AgentSlot) -> bool {
+    let mut team = game.team(slot.team);
+    let is_free = |id| slot.player != Some(id);
+    game.step == 0 && !slot.fixed && team.any(|(id, mate)| is_free(id) && waits_at_ball(game, mate))
 }
 
 /// Whether a player stands at the ball of a start, so near that one step takes them to it.

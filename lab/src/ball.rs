@@ -116,6 +116,7 @@ fn kick(action: Action, mate: Option<f64>, run_up: RunUp) -> Result<Vec<Kick>, L
     Ok(kicks)
 }
 
+#[expect(clippy::too_many_lines, reason = "one table, row by row")]
 fn kicks(section: &mut Section) -> Result<(), LabError> {
     use Action::{HighPass, LongPass, ShortPass, Shot};
     let cases = [

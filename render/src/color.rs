@@ -1,6 +1,6 @@
 //! Colours, and the kits: one accent per team, distinct with every kind of colour vision.
 
-use crate::scene::{Role, ScenePlayer};
+use crate::scene::{Role, ScenePlayer, Side};
 
 /// Red, green, blue.
 pub(crate) type Rgb = [u8; 3];
@@ -80,6 +80,12 @@ const KITS: [[Kit; 2]; 2] = [
 /// A player's kit.
 pub(crate) fn kit(player: &ScenePlayer) -> &'static Kit {
     &KITS[player.id.team.index()][usize::from(player.role == Role::GK)]
+}
+
+/// The colours of a shirt and of its number, for who labels pictures.
+pub fn shirt(side: Side, is_keeper: bool) -> [Rgb; 2] {
+    let kit = &KITS[side.index()][usize::from(is_keeper)];
+    [kit.shirt, kit.number]
 }
 
 /// Skin, from dark to light, and the hair that goes with it.

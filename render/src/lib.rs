@@ -56,6 +56,7 @@ mod view;
 /// What is drawn.
 pub mod scene;
 
+pub use color::shirt;
 pub use overlay::Overlays;
 pub use pixels::{PixelObserver, Pixels};
 pub use renderer::{Options, RenderError, Renderer, SIDE_MAX, gray};

@@ -32,6 +32,8 @@ pub struct Scene {
     pub mode: Mode,
     /// The team that takes the set piece.
     pub mode_team: Option<Side>,
+    /// The team that had the ball last.
+    pub possession: Option<Side>,
     /// What has just happened, for the banner.
     pub news: Vec<News>,
     /// The rewards of this step by term.
@@ -54,6 +56,7 @@ impl Default for Scene {
             clock_s: 0.0,
             mode: Mode::Normal,
             mode_team: None,
+            possession: None,
             news: Vec::new(),
             rewards: Vec::new(),
             placed: false,

@@ -1,9 +1,9 @@
 //! Setpiece: football scenarios from text files, and the engine that runs them.
 //!
 //! This is the facade, for whatever needs both the compiler and the engine. [`load`](mod@load)
-//! turns a name, path or text into a scenario, [`run`] plays episodes of it, and [`mod@render`]
-//! draws them. [`watch`] recompiles a scenario when its files change, and [`probe`] finds problems
-//! that only a dry run shows.
+//! turns a name, path or text into a scenario, and [`run`] plays episodes of it. [`mod@film`] keeps
+//! an episode as scenes, which [`mod@render`] draws. [`watch`] recompiles a scenario when its files
+//! change, and [`probe`] finds problems that only a dry run shows.
 
 pub mod bench;
 #[cfg(feature = "cli")]
@@ -13,15 +13,17 @@ pub mod drawing;
 pub mod error;
 pub mod explain;
 pub mod files;
+pub mod film;
 pub mod live;
 pub mod load;
 pub mod picture;
 pub mod probe;
-#[cfg(feature = "render")]
-pub mod render;
 pub mod replay;
 pub mod run;
+pub mod scene;
 pub mod script_api;
+#[cfg(feature = "render")]
+pub mod sheet;
 mod stdlib;
 pub mod watch;
 
@@ -33,4 +35,5 @@ pub use load::{
 };
 pub use setpiece_dsl as dsl;
 pub use setpiece_engine as engine;
+pub use setpiece_render as render;
 pub use setpiece_scenario as scenario;

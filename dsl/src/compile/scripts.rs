@@ -90,7 +90,9 @@ fn of_behavior<'a>(body: &'a [BehaviorStmt], named: &mut Vec<&'a ScriptRef>) {
             Kind::Do(DoStmt { what: DoWhat::Script(script), .. }) => named.push(script),
             Kind::Interrupt { body, .. } | Kind::Repeat { body, .. } => of_behavior(body, named),
             Kind::Choose(chances) => {
-                chances.iter().for_each(|chance| of_behavior(&chance.body, named));
+                for chance in chances {
+                    of_behavior(&chance.body, named);
+                }
             }
             Kind::If { arms, otherwise } => {
                 for (_, body) in arms {

@@ -5,8 +5,9 @@ use crate::Error;
 use crate::dsl::problem::Code;
 use crate::error::{FileFault, Packed};
 use crate::files::{read_file, refuse_overwriting, write};
-use crate::render::{FilmOptions, film, frame, replayed, sheet};
+use crate::film::{FilmOptions, film, replayed};
 use crate::replay::{REPLAY_MAX_BYTES, Replay};
+use crate::sheet::{frame, sheet};
 use clap::Args;
 use std::path::PathBuf;
 

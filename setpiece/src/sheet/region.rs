@@ -1,7 +1,7 @@
-//! How the world is mapped to a picture.
+//! The part of the pitch that a sheet shows.
 
 use crate::scenario::pitch::{RIM_X_M, RIM_Y_M};
-use tiny_skia::Point;
+use setpiece_render::{Camera, PitchRegion};
 
 /// Least size of a region, metres.
 const LEAST_M: [f32; 2] = [46.0, 40.0];
@@ -25,6 +25,13 @@ impl Region {
         corner_m: [-RIM_X_M as f32, -RIM_Y_M as f32],
         size_m: [2.0 * RIM_X_M as f32, 2.0 * RIM_Y_M as f32],
     };
+
+    /// The camera that shows it from above.
+    pub fn camera(&self) -> Camera {
+        let [left, top] = self.corner_m;
+        let high = [left + self.size_m[0], top + self.size_m[1]];
+        Camera::Above(PitchRegion::Box { low: self.corner_m, high })
+    }
 
     /// Width over height.
     pub fn aspect(&self) -> f32 {
@@ -60,31 +67,6 @@ impl Region {
     }
 }
 
-/// A region laid over a picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
-    region: Region,
-    scale: f32,
-}
-
-impl View {
-    /// The region over the whole width of a picture.
-    pub fn new(region: Region, width: u32) -> View {
-        View { region, scale: width as f32 / region.size_m[0] }
-    }
-
-    /// The pixel of a point in the world.
-    pub fn point(&self, x_m: f32, y_m: f32) -> Point {
-        let [left, top] = self.region.corner_m;
-        Point { x: (x_m - left) * self.scale, y: (y_m - top) * self.scale }
-    }
-
-    /// A length in pixels.
-    pub fn length(&self, metres: f32) -> f32 {
-        metres * self.scale
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,13 +82,11 @@ mod tests {
                 "{region:?}"
             );
         }
-        let view = View::new(region, 600);
-        for [x, y] in points {
-            let at = view.point(x, y);
-            assert!(
-                (0.0..600.0).contains(&at.x) && (0.0..600.0 / region.aspect()).contains(&at.y),
-                "{at:?}"
-            );
+        for point in points {
+            for axis in 0..2 {
+                let from = point[axis] - region.corner_m[axis];
+                assert!((0.0..region.size_m[axis]).contains(&from), "{point:?} {region:?}");
+            }
         }
     }
 

@@ -1,16 +1,16 @@
 //! The caption under a frame: the clock, who has the ball, the score, what happened.
 
+use super::badge::badge;
 use super::canvas::{Canvas, at};
 use super::colours::{FAINT, GOAL, INK, shirt};
-use super::film::Film;
-use super::people;
-use super::scene::SheetScene;
 use super::text::{Style, fitted, width};
 use super::words::{self, DECISIVE, Piece, Sentence, waiting};
 use crate::engine::state::PlayerId;
 use crate::engine::state::event::Event;
+use crate::film::Film;
 use crate::scenario::Team;
-use crate::scenario::pitch::STEPS_PER_S;
+use crate::scene::{player_id, team};
+use setpiece_render::Scene;
 use tiny_skia::Point;
 
 /// The most lines of events under a frame.
@@ -23,7 +23,7 @@ const NOTABLE: u32 = 30;
 /// The caption of a moment.
 pub struct Caption<'a> {
     film: &'a Film,
-    scene: &'a SheetScene,
+    scene: &'a Scene,
     size: f32,
     room: f32,
     sentences: Vec<Sentence>,
@@ -38,7 +38,7 @@ impl<'a> Caption<'a> {
     /// - `events`: what happened since the last frame.
     pub fn new(
         film: &'a Film,
-        scene: &'a SheetScene,
+        scene: &'a Scene,
         size: f32,
         room: f32,
         events: &[Event],
@@ -82,7 +82,7 @@ impl<'a> Caption<'a> {
             at(x, middle),
             Style::bold(size, INK),
         ) + size * 0.6;
-        x += canvas.write(&clock(self.scene.clock_steps), at(x, middle), Style::plain(size, FAINT))
+        x += canvas.write(&clock(self.scene.clock_s), at(x, middle), Style::plain(size, FAINT))
             + size * 1.1;
         for piece in ball_of(self.scene) {
             x += self.piece(canvas, &piece, at(x, middle), Style::plain(size, FAINT)) + size * 0.35;
@@ -106,8 +106,8 @@ pub fn height(size: f32, lines: usize) -> f32 {
 }
 
 /// Minutes and seconds.
-pub fn clock(steps: u32) -> String {
-    let seconds = (f64::from(steps) / STEPS_PER_S) as u32;
+pub fn clock(seconds: f32) -> String {
+    let seconds = seconds as u32;
     format!("{}:{:02}", seconds / 60, seconds % 60)
 }
 
@@ -132,8 +132,9 @@ pub fn score(canvas: &mut Canvas<'_>, end: Point, size: f32, score: [u16; 2]) {
 }
 
 /// Who has the ball, or who takes which set piece.
-fn ball_of(scene: &SheetScene) -> Vec<Piece> {
-    match (waiting(scene.mode), scene.owner, scene.possession) {
+fn ball_of(scene: &Scene) -> Vec<Piece> {
+    let owner = scene.ball.owner.map(player_id);
+    match (waiting(scene.mode), owner, scene.possession.map(team)) {
         (Some(what), Some(taker), _) => vec![Piece::Text(what), Piece::Player(taker)],
         (Some(what), None, Some(team)) => vec![Piece::Text(what), Piece::Team(team)],
         (Some(what), None, None) => vec![Piece::Text(what)],
@@ -167,7 +168,7 @@ impl Caption<'_> {
                 canvas.write(text, start, style);
             }
             Piece::Player(id) => {
-                people::badge(
+                badge(
                     canvas,
                     at(start.x + size * 0.6, start.y),
                     size * 0.6,

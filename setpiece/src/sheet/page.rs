@@ -3,15 +3,17 @@
 use super::canvas::{Canvas, at};
 use super::caption::{self, Caption};
 use super::colours::{CARD, PAGE};
-use super::film::Film;
 use super::moments::{Happening, choose};
-use super::stage::{self, TRAIL_STEPS};
-use super::view::Region;
+use super::region::Region;
 use super::{head, words};
 use crate::engine::state::event::Event;
+use crate::film::Film;
 use crate::scenario::pitch::HALF_LENGTH_M;
+use setpiece_render::{Options, Overlays, Renderer};
 use tiny_skia::{Pixmap, PixmapMut, PixmapPaint, Transform};
 
+/// Number of steps in a trail.
+const TRAIL_STEPS: usize = 12;
 /// Width of a picture of one moment, pixels.
 const LARGE: u32 = 1680;
 /// Width of a sheet, pixels.
@@ -89,12 +91,12 @@ pub fn frame(film: &Film, moment: usize) -> Option<Pixmap> {
 fn region(film: &Film) -> Region {
     let goal = [HALF_LENGTH_M as f32, 0.0];
     Region::around(film.scenes.iter().flat_map(|scene| {
-        let ball = [scene.ball[0], scene.ball[1]];
+        let ball = [scene.ball.pos[0], scene.ball.pos[1]];
         let within = move |place: [f32; 2], most_m: f32| {
             (place[0] - ball[0]).hypot(place[1] - ball[1]) < most_m
         };
         let people =
-            scene.people.iter().map(|person| person.pos).filter(move |&pos| within(pos, NEAR_M));
+            scene.players.iter().map(|player| player.pos).filter(move |&pos| within(pos, NEAR_M));
         let goals =
             [goal, [-goal[0], 0.0]].into_iter().filter(move |&goal| within(goal, NEAR_GOAL_M));
         std::iter::once((ball, AROUND_BALL_M))
@@ -127,7 +129,11 @@ impl<'a> Frame<'a> {
     ) -> Option<Frame<'a>> {
         let mut picture = Pixmap::new(width, (width as f32 / region.aspect()).round() as u32)?;
         let first = moment.saturating_sub(TRAIL_STEPS);
-        stage::draw(picture.as_mut(), film.scenes.get(first..=moment)?, region);
+        let options = Options { camera: region.camera(), overlays: Overlays::NONE };
+        let (width_px, height_px) = (picture.width() as usize, picture.height() as usize);
+        let mut renderer = Renderer::new(width_px, height_px, options).ok()?;
+        let (scene, way) = film.scenes.get(first..=moment)?.split_last()?;
+        renderer.render_after(way, scene, picture.data_mut()).ok()?;
         let since = film
             .events
             .iter()

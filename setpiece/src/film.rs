@@ -1,6 +1,5 @@
 //! A played episode, kept scene by scene.
 
-use super::scene::SheetScene;
 use crate::Error;
 use crate::engine::batch::{EpisodeError, Policy, ReadyMade, STEPS_MAX};
 use crate::engine::control::agents::Agent;
@@ -12,6 +11,8 @@ use crate::replay::Replay;
 use crate::scenario::pitch::PLAYERS_MAX;
 use crate::scenario::vocabulary::{Action, EventKind, Role};
 use crate::scenario::{Scenario, Team};
+use crate::scene::SceneWriter;
+use setpiece_render::Scene;
 use std::sync::Arc;
 
 /// What to play.
@@ -29,7 +30,7 @@ pub struct FilmOptions {
     pub until_step: Option<u32>,
 }
 
-/// An episode to draw.
+/// A played episode.
 #[derive(Clone, Debug)]
 pub struct Film {
     /// The scenario's name.
@@ -41,7 +42,7 @@ pub struct Film {
     pub origin: String,
     /// The start and the result of every step. A step in which play was stopped has two scenes: the
     /// stop, and the restart.
-    pub scenes: Vec<SheetScene>,
+    pub scenes: Vec<Scene>,
     /// The events, each with the scene that shows it best.
     pub events: Vec<(usize, Event)>,
     /// Everybody's label, by [`PlayerId::index`]: their name, else their role.
@@ -50,6 +51,7 @@ pub struct Film {
     pub keepers: [bool; PLAYERS_MAX],
     /// How the episode ended, if it did.
     pub outcome: Option<Outcome>,
+    writer: SceneWriter,
 }
 
 impl Film {
@@ -127,11 +129,16 @@ impl Film {
     /// The first moment of an episode.
     fn begun(environment: &Environment, origin: String) -> Film {
         let scenario = environment.scenario();
+        let writer = SceneWriter::default();
+        let mut first = Scene::default();
+        writer.write(environment, &mut first);
+        first.placed = true;
         Film {
+            writer,
             name: scenario.name.clone(),
             title: scenario.title().to_owned(),
             origin,
-            scenes: vec![SheetScene::of(environment.state(), true)],
+            scenes: vec![first],
             events: Vec::new(),
             names: names(scenario),
             keepers: keepers(scenario),
@@ -144,11 +151,17 @@ impl Film {
         let (judged, now) = (environment.judged_state(), environment.state());
         let stop = self.scenes.len();
         let stopped = !std::ptr::eq::<Match>(judged, now);
-        self.scenes.push(SheetScene::of(judged, false));
+        self.writer.note(environment);
+        let mut scene = Scene::default();
+        self.writer.write_judged(environment, &mut scene);
+        self.scenes.push(scene);
         // A restart after the end isn't part of the episode.
         let goes_on = stopped && environment.is_running();
         if goes_on {
-            self.scenes.push(SheetScene::of(now, true));
+            let mut scene = Scene::default();
+            self.writer.write(environment, &mut scene);
+            scene.placed = true;
+            self.scenes.push(scene);
         }
         for event in environment.events() {
             let of_restart = goes_on && event.qualifier.is_none() && is_award(event.kind);
@@ -209,7 +222,7 @@ fn keepers(scenario: &Scenario) -> [bool; PLAYERS_MAX] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::vocabulary::GameMode;
+    use setpiece_render::scene::Mode;
 
     fn played(text: &str, until_step: Option<u32>) -> Result<Film, Error> {
         let options = FilmOptions {
@@ -237,9 +250,9 @@ mod tests {
         let (award, _) =
             film.events.iter().find(|(_, event)| event.kind == EventKind::ThrowIn).unwrap();
         let (stop, restart) = (&film.scenes[*out], &film.scenes[*award]);
-        assert!(stop.ball[1] > 36.0 && !stop.placed, "{stop:?}");
+        assert!(stop.ball.pos[1] > 36.0 && !stop.placed, "{stop:?}");
         assert!(
-            restart.ball[1] <= 36.0 && restart.placed && restart.mode == GameMode::ThrowIn,
+            restart.ball.pos[1] <= 36.0 && restart.placed && restart.mode == Mode::ThrowIn,
             "{restart:?}"
         );
         assert_eq!((stop.step, *award), (restart.step, out + 1));
@@ -252,7 +265,7 @@ mod tests {
         let film =
             played(&ROLLS_OUT.replace("END", "end failure out when out_of_play"), None).unwrap();
         let last = film.scenes.last().unwrap();
-        assert!(last.ball[1] > 36.0 && !last.placed, "{last:?}");
+        assert!(last.ball.pos[1] > 36.0 && !last.placed, "{last:?}");
         assert_eq!(&*film.outcome.unwrap().label, "out");
     }
 

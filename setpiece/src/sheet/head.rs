@@ -3,8 +3,8 @@
 use super::canvas::{Canvas, at};
 use super::caption;
 use super::colours::{AGENT, DARK, FAINT, INK, VERDICTS, faded, shirt};
-use super::film::Film;
 use super::text::{Style, fitted, width};
+use crate::film::Film;
 use crate::scenario::Verdict;
 use crate::scenario::pitch::STEPS_PER_S;
 use tiny_skia::Point;

@@ -8,15 +8,18 @@
 
 use setpiece::engine::control::agents::Agent;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece::engine::state::player::Pose;
-use setpiece::render::colours::{AGENT, Colour, shirt};
-use setpiece::render::view::View;
-use setpiece::render::{Film, FilmOptions, Region, SheetScene, draw, film, frame, replayed, sheet};
+use setpiece::film::{Film, FilmOptions, film, replayed};
+use setpiece::render::scene::{Posture, Role, ScenePlayer};
+use setpiece::render::{Options, Overlays, Renderer, Scene};
 use setpiece::replay::{Recorder, Replay};
 use setpiece::scenario::Action;
+use setpiece::scenario::pitch::{RIM_X_M, RIM_Y_M};
+use setpiece::scene::team;
+use setpiece::sheet::colours::{AGENT, Colour, shirt};
+use setpiece::sheet::{Region, frame, sheet};
 use std::path::Path;
 use std::process::{Command, Output};
-use tiny_skia::{Pixmap, PixmapMut, Point};
+use tiny_skia::{Pixmap, Point};
 
 fn setpiece(folder: &Path, args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_setpiece")).args(args).current_dir(folder).output().unwrap()
@@ -60,11 +63,12 @@ fn played(name: &str, agent: Agent) -> Film {
 }
 
 /// A scene on the whole pitch, 10 pixels per metre.
-fn drawn(moments: &[SheetScene]) -> Pixmap {
-    let mut pixels = vec![0; 1200 * 800 * 4];
-    draw(PixmapMut::from_bytes(&mut pixels, 1200, 800).unwrap(), moments, Region::WHOLE);
+fn drawn(scenes: &[Scene]) -> Pixmap {
     let mut picture = Pixmap::new(1200, 800).unwrap();
-    picture.data_mut().copy_from_slice(&pixels);
+    let options = Options { camera: Region::WHOLE.camera(), overlays: Overlays::NONE };
+    let mut renderer = Renderer::new(1200, 800, options).unwrap();
+    let (scene, before) = scenes.split_last().unwrap();
+    renderer.render_after(before, scene, picture.data_mut()).unwrap();
     picture
 }
 
@@ -85,7 +89,7 @@ fn count(picture: &Pixmap, middle: Point, within: f32, [red, green, blue, _]: Co
 }
 
 fn spot(x_m: f32, y_m: f32) -> Point {
-    View::new(Region::WHOLE, 1200).point(x_m, y_m)
+    Point { x: (x_m + RIM_X_M as f32) * 10.0, y: (y_m + RIM_Y_M as f32) * 10.0 }
 }
 
 #[test]
@@ -160,34 +164,34 @@ fn players_are_drawn_in_their_colours_at_their_places() {
     let film = played("academy_3_vs_1_with_keeper", Agent::Idle);
     let start = &film.scenes[0];
     let picture = drawn(&film.scenes[..1]);
-    assert_eq!(start.people.len(), 6);
-    for person in &start.people {
-        let (team, at) = (person.id.team(), spot(person.pos[0], person.pos[1]));
-        let cloth = shirt(team, person.keeper).cloth;
-        assert!(count(&picture, at, 12.0, cloth) > 80, "{person:?}");
-        let opposite = spot(-person.pos[0], person.pos[1] + 3.0);
-        assert_eq!(count(&picture, opposite, 5.0, cloth), 0, "{person:?}");
+    assert_eq!(start.players.len(), 6);
+    for player in &start.players {
+        let (team, at) = (team(player.id.team), spot(player.pos[0], player.pos[1]));
+        let cloth = shirt(team, player.role == Role::GK).cloth;
+        assert!(count(&picture, at, 12.0, cloth) > 80, "{player:?}");
+        let opposite = spot(-player.pos[0], player.pos[1] + 3.0);
+        assert_eq!(count(&picture, opposite, 5.0, cloth), 0, "{player:?}");
         let ringed = count(&picture, at, 14.0, AGENT);
-        assert_eq!(person.agent, ringed > 60, "{person:?}: {ringed}");
+        assert_eq!(player.agent, ringed > 50, "{player:?}: {ringed}");
     }
 }
 
 #[test]
 fn poses_cards_and_the_way_a_player_faces_are_seen() {
     let scene = &played("academy_3_vs_1_with_keeper", Agent::Idle).scenes[0];
-    let changed = |change: &dyn Fn(&mut setpiece::render::scene::Person)| {
+    let changed = |change: &dyn Fn(&mut ScenePlayer)| {
         let mut scene = scene.clone();
-        change(&mut scene.people[3]);
+        change(&mut scene.players[3]);
         drawn(&[scene]).data().to_vec()
     };
     let mut pictures = vec![
         changed(&|_| {}),
-        changed(&|person| person.facing = [0.0, 1.0]),
-        changed(&|person| person.yellow_cards = 1),
-        changed(&|person| person.agent = !person.agent),
-        changed(&|person| person.pose = Pose::Sliding),
-        changed(&|person| person.pose = Pose::Down),
-        changed(&|person| person.pose = Pose::Diving),
+        changed(&|player| player.facing = [0.0, 1.0]),
+        changed(&|player| player.yellow_cards = 1),
+        changed(&|player| player.agent = !player.agent),
+        changed(&|player| player.posture = Posture::Sliding),
+        changed(&|player| player.posture = Posture::Fallen),
+        changed(&|player| player.posture = Posture::Diving),
     ];
     let all = pictures.len();
     pictures.sort();
@@ -198,14 +202,15 @@ fn poses_cards_and_the_way_a_player_faces_are_seen() {
 #[test]
 fn the_height_of_the_ball_is_seen() {
     let mut scene = played("academy_3_vs_1_with_keeper", Agent::Idle).scenes[0].clone();
-    scene.ball = [0.0, 20.0, 0.11];
-    let white = |scene: &SheetScene, y_m: f32| {
-        count(&drawn(std::slice::from_ref(scene)), spot(0.0, y_m), 4.0, AGENT)
+    scene.ball.pos = [0.0, 20.0, 0.11];
+    let white = |scene: &Scene, y_m: f32| {
+        count(&drawn(std::slice::from_ref(scene)), spot(0.0, y_m), 9.0, AGENT)
     };
-    assert!(white(&scene, 20.0) > 10);
-    scene.ball[2] = 5.0;
-    assert_eq!(white(&scene, 20.0), 0, "its shadow lies there");
-    assert!(white(&scene, 16.1) > 10, "it is drawn above it");
+    let low = white(&scene, 20.0);
+    assert!(low > 10);
+    scene.ball.pos[2] = 9.0;
+    let high = white(&scene, 20.0);
+    assert!(high > low, "the higher the ball, the larger it is: {high} after {low}");
 }
 
 #[test]

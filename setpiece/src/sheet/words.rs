@@ -3,7 +3,8 @@
 use crate::engine::state::PlayerId;
 use crate::engine::state::event::Event;
 use crate::scenario::Team;
-use crate::scenario::vocabulary::{EventKind, GameMode, Qualifier};
+use crate::scenario::vocabulary::{EventKind, Qualifier};
+use setpiece_render::scene::Mode;
 
 /// A part of a sentence.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -166,15 +167,15 @@ fn verb(event: &Event) -> &'static str {
 }
 
 /// A pending set piece in words; none in open play.
-pub const fn waiting(mode: GameMode) -> Option<&'static str> {
+pub const fn waiting(mode: Mode) -> Option<&'static str> {
     match mode {
-        GameMode::Normal => None,
-        GameMode::KickOff => Some("kick-off"),
-        GameMode::GoalKick => Some("goal kick"),
-        GameMode::FreeKick => Some("free kick"),
-        GameMode::Corner => Some("corner"),
-        GameMode::ThrowIn => Some("throw-in"),
-        GameMode::Penalty => Some("penalty"),
+        Mode::Normal => None,
+        Mode::KickOff => Some("kick-off"),
+        Mode::GoalKick => Some("goal kick"),
+        Mode::FreeKick => Some("free kick"),
+        Mode::Corner => Some("corner"),
+        Mode::ThrowIn => Some("throw-in"),
+        Mode::Penalty => Some("penalty"),
     }
 }
 

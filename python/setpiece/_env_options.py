@@ -17,19 +17,25 @@ from setpiece._callbacks import (
     read_rewards,
 )
 from setpiece._casting import behaviors, revivable
-from setpiece._errors import ParameterError
 from setpiece._opponents import Opponent, native_action_set
+from setpiece._optional import need
 from setpiece._options import ParamValue, check_flag, check_number, check_params
 from setpiece._seats import Seats
 from setpiece._spaces import (
+    MAP_MAX,
+    PICTURE_MAX,
     check_action_set,
     check_observation,
     check_scale,
     check_size,
     check_stack,
 )
+from setpiece._words import check_word
 
-RENDER_MODES = ("ansi",)
+RENDER_MODES = ("ansi", "rgb_array", "human")
+
+CAMERAS = ("broadcast", "above")
+"""Where pictures for people are taken from."""
 
 
 class VectorArguments(TypedDict, total=False):
@@ -44,6 +50,8 @@ class VectorArguments(TypedDict, total=False):
     seed: int | None
     copy: bool
     render_mode: str | None
+    render_size: tuple[int, int]
+    camera: str
     action_set: str
     stack: int
     size: tuple[int, int]
@@ -86,6 +94,8 @@ class EnvOptions:
     """Whether the caller's `info` lists events."""
     copy: bool
     render_mode: str | None
+    render_size: tuple[int, int]
+    camera: str
     action_set: str
     native_action_set: str
     """The actions of all agents: opponents may have one more than the caller."""
@@ -107,10 +117,10 @@ class EnvOptions:
                 raise TypeError(f"unexpected keyword argument '{name}'")
         given = arguments.get
         render_mode = given("render_mode")
-        if render_mode is not None and render_mode not in RENDER_MODES:
-            raise ParameterError(
-                f"no render mode `{render_mode}`; there is `ansi`", name="render_mode"
-            )
+        if render_mode is not None:
+            check_word("render_mode", render_mode, RENDER_MODES)
+        if render_mode == "human":
+            need("pygame", "human", '`render_mode="human"`')
         reward_names, reward_functions = read_rewards(given("rewards"))
         ends = read_ends(given("ends"))
         observation = check_observation(given("observation", "simple115v2"))
@@ -131,11 +141,15 @@ class EnvOptions:
             events=check_flag("events", given("events", False)),
             copy=check_flag("copy", given("copy", True)),
             render_mode=render_mode,
+            render_size=check_size(given("render_size", (1280, 720)), PICTURE_MAX, "render_size"),
+            camera=check_word("camera", given("camera", "broadcast"), CAMERAS),
             action_set=action_set,
             native_action_set=native_action_set(action_set, opponents),
             bot_action=check_flag("bot_action", given("bot_action", False)),
             stack=check_stack(given("stack", 1), observation),
-            size=check_size(given("size", (96, 72))),
+            size=check_size(
+                given("size", (96, 72)), MAP_MAX if observation == "smm" else PICTURE_MAX
+            ),
             scale=check_scale(given("scale", False), observation),
             allow_outside=check_flag("allow_outside", given("allow_outside", False)),
         )

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._casting import scripted_scenario
-from setpiece._env_options import RENDER_MODES, EnvArguments, EnvOptions
+from setpiece._env_options import CAMERAS, RENDER_MODES, EnvArguments, EnvOptions
 from setpiece._errors import CallbackError, DrawError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Scenario
@@ -34,14 +34,18 @@ from setpiece._record import Record, When, read_record, write
 from setpiece._reload import Reload, Watcher, check_watch
 from setpiece._source import Source
 from setpiece._spaces import (
+    PICTURE_MAX,
     Layout,
     check_observation,
     check_scale,
+    check_size,
     observation_layout,
     observation_space,
 )
 from setpiece._state import state_space
 from setpiece._turn import Turn, one_thread
+from setpiece._window import Window
+from setpiece._words import check_word
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -131,6 +135,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Sets up everything except files, before the first episode."""
         self._options, self.render_mode = options, options.render_mode
         self._callbacks = options.callbacks()
+        self._window: Window | None = None
         # Whether another scenario must have the same agents, by name: PettingZoo's agents are
         # fixed.
         self._same_agents = False
@@ -178,7 +183,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         `DrawError` or `CallbackError`, or that has reloaded a change, ends it.
         """
         with self._turn:
-            return self._begun(seed, read_reset_options(options))
+            begun = self._begun(seed, read_reset_options(options))
+        if self.render_mode == "human":
+            self.render()
+        return begun
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """Plays 100 ms and returns observation, reward, terminated, truncated and `info`.
@@ -221,11 +229,15 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             self._playing = not (terminated or truncated or self._turn.closed)
             if terminated or truncated:
                 self._sum_up(info)
-            return observation, reward, terminated, truncated, info
+        if self.render_mode == "human":
+            self.render()
+        return observation, reward, terminated, truncated, info
 
     def close(self) -> None:
         """Closes the environment; `reset` and `step` then raise `ClosedEnvironmentError`."""
         self._playing, self._turn.closed = False, True
+        if self._window is not None:
+            self._window.close()
         super().close()
 
     def save_replay(self, path: str | PathLike[str]) -> None:
@@ -530,12 +542,51 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         with one_thread:
             return self._native.played()
 
-    def render(self) -> str | None:
-        """Returns a text drawing for `render_mode="ansi"`; None without a render mode."""
-        if self.render_mode is None:
+    def render(self) -> str | NDArray[np.uint8] | None:
+        """Returns what `render_mode` says: text, a picture, or None.
+
+        `"human"` shows the picture in its window. Raises `ResetNeeded` for a picture before the
+        first episode.
+        """
+        mode = self.render_mode
+        if mode is None:
             return None
+        if mode == "ansi":
+            with one_thread:
+                return self._native.drawing()
+        frame = self.picture()
+        if mode == "rgb_array":
+            return frame
+        if self._window is None:
+            self._window = Window(self.scenario.name, self.metadata["render_fps"])
+        self._window.show(frame)
+        return None
+
+    def picture(
+        self, size: tuple[int, int] | None = None, camera: str | None = None
+    ) -> NDArray[np.uint8]:
+        """Returns a picture of the match for people, uint8 `(height, width, 3)`.
+
+        - `size`: width and height, each at most 4096; None: the `render_size`.
+        - `camera`: `"broadcast"` or `"above"`; None: the environment's `camera`.
+
+        It needs no `render_mode`. Raises `ResetNeeded` before the first episode.
+
+        >>> import setpiece
+        >>> env = setpiece.make("academy_corner")
+        >>> _ = env.reset(seed=1)
+        >>> env.picture((640, 360)).shape
+        (360, 640, 3)
+        """
+        options = self._options
+        size = options.render_size if size is None else check_size(size, PICTURE_MAX)
+        camera = options.camera if camera is None else check_word("camera", camera, CAMERAS)
         with one_thread:
-            return self._native.drawing()
+            if self._native.episode is None:
+                raise gymnasium.error.ResetNeeded(
+                    "call `reset` before `render`: there is nothing to be seen yet"
+                )
+            return self._native.frame(size, camera)
 
     def __repr__(self) -> str:
         agents = ", ".join(self.agents)

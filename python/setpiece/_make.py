@@ -32,6 +32,8 @@ def make(
     events: bool = False,
     copy: bool = True,
     render_mode: str | None = None,
+    render_size: tuple[int, int] = (1280, 720),
+    camera: str = "broadcast",
     watch: bool | Literal["now"] = False,
     on_reload: Callable[[Reload], object] | None = None,
     action_set: str = "default",
@@ -71,10 +73,13 @@ def make(
         players;
       - `"vector"`: float32 `(n,)`, what the scenario's `observe vector` declares;
       - `"smm"` (GRF's `extracted`): uint8 `(72, 96, 4)`;
+      - `"pixels"`: uint8 `(72, 96, 3)`, a picture from the stand that follows the ball, without
+        display or GPU; only the agent's own player is ringed;
+      - `"pixels_gray"`: uint8 `(72, 96, 1)`, the same in gray;
       - `"raw"`: a dict.
     - `stack`: how many observations are shown at once, on the last axis, the oldest first. The
       first one of an episode, or after `restore`, fills the whole stack.
-    - `size`: width and height of `"smm"`.
+    - `size`: width and height of `"smm"` (at most 1024 each) and of pixels (at most 4096).
     - `scale`: whether the numbers of `"simple115v2"`, `"simple115v2+sticky"` and `"egocentric"` are
       in units that suit learning: lengths in 50 m, heights in 10 m, velocities in 10 m/s; missing
       players are 0. Flags and shares stay 0..1. Raises `ParameterError` with other observations.
@@ -94,7 +99,11 @@ def make(
     - `events`: whether `info["events"]` lists what happened in each step.
     - `copy`: False returns the same array from every `reset` and `step`, overwritten by the next
       one; several agents with opponents always get copies.
-    - `render_mode`: None or `"ansi"`.
+    - `render_mode`: what `render` returns. None: nothing; `"ansi"`: a drawing in text;
+      `"rgb_array"`: a picture, uint8 `(height, width, 3)`; `"human"`: every `reset` and `step` shows
+      the picture in a window (needs `setpiece[human]`).
+    - `render_size`: width and height of these pictures, each at most 4096.
+    - `camera`: `"broadcast"`, from the stand, or `"above"`, a plan.
     - `watch`: whether every `reset` reloads the scenario's file, its imports and scripts if they
       have changed; with `"now"` every `step` reloads changed scripts, but nothing else. A change of
       the last 50 ms or so may wait for the next `reset` or `step`. A broken file leaves the last

@@ -34,6 +34,8 @@ def parallel_env(
     seed: int | None = None,
     events: bool = False,
     render_mode: str | None = None,
+    render_size: tuple[int, int] = (1280, 720),
+    camera: str = "broadcast",
     action_set: str = "default",
     bot_action: bool = False,
     stack: int = 1,

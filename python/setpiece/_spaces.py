@@ -10,7 +10,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from setpiece import _native
-from setpiece._errors import ParameterError, UnavailableError
+from setpiece._errors import ParameterError
 from setpiece._options import check_flag
 from setpiece._words import check_word
 
@@ -23,6 +23,8 @@ OBSERVATIONS = (
     "simple115",
     "egocentric",
     "smm",
+    "pixels",
+    "pixels_gray",
     "raw",
     "vector",
 )
@@ -30,6 +32,8 @@ OBSERVATIONS = (
 UNSCALED = {
     "simple115": "what its columns hold depends on how many players there are",
     "smm": "its pixels are bytes",
+    "pixels": "they are bytes",
+    "pixels_gray": "they are bytes",
     "raw": "raw observations are dicts",
     "vector": "its units are those that the scenario declares",
 }
@@ -38,8 +42,11 @@ UNSCALED = {
 ALIASES = {"extracted": "smm"}
 """GRF's names of observations that have another name here."""
 
-SIZE_MAX = 1024
+MAP_MAX = 1024
 """The most pixels of a super mini map on either side."""
+
+PICTURE_MAX = 4096
+"""The most pixels of a picture on either side."""
 
 STACK_MAX = 64
 """The most observations of a stack."""
@@ -87,10 +94,6 @@ Layout = tuple[Block, ...] | tuple[Key, ...]
 def check_observation(name: object) -> str:
     """Returns the name of an observation, or raises `ParameterError`."""
     name = ALIASES.get(name, name) if isinstance(name, str) else name
-    if isinstance(name, str) and name.startswith("pixels"):
-        raise UnavailableError(
-            "pixels are not in this version", name="observation", help="`smm` is a map of the pitch"
-        )
     return check_word("observation", name, OBSERVATIONS)
 
 
@@ -114,19 +117,19 @@ def check_stack(stack: object, observation: str) -> int:
     return int(stack)
 
 
-def check_size(size: object) -> tuple[int, int]:
-    """Returns the width and height of a super mini map, or raises `ParameterError`."""
+def check_size(size: object, most: int, name: str = "size") -> tuple[int, int]:
+    """Returns the width and height of a map or a picture, or raises `ParameterError`."""
     if (
         isinstance(size, Sequence)
         and len(size) == 2
         and all(
-            isinstance(n, int | np.integer) and not isinstance(n, bool) and 1 <= n <= SIZE_MAX
+            isinstance(n, int | np.integer) and not isinstance(n, bool) and 1 <= n <= most
             for n in size
         )
     ):
         return int(size[0]), int(size[1])
     raise ParameterError(
-        f"`size` is {size!r}; it can be (width, height), each in 1..{SIZE_MAX}", name="size"
+        f"`{name}` is {size!r}; it can be (width, height), each in 1..{most}", name=name
     )
 
 
@@ -242,9 +245,9 @@ def observation_layout(native: Observing, observation: str, stack: int) -> Layou
             )
             for name, part in space.items()
         )
-    if observation == "smm":
-        planes = ("own team", "opponents", "the ball", "the controlled player")
-        blocks = [Block(i, 1, meaning, "0 or 255") for i, meaning in enumerate(planes)]
+    if observation in PLANES:
+        planes, unit = PLANES[observation]
+        blocks = [Block(i, 1, meaning, unit) for i, meaning in enumerate(planes)]
     else:
         blocks = [Block(one.start, one.length, one.meaning, one.unit) for one in native.blocks]
     width = blocks[-1].start + blocks[-1].length if blocks else 0
@@ -258,6 +261,14 @@ def observation_layout(native: Observing, observation: str, stack: int) -> Layou
         for i, when in enumerate(ago)
         for block in blocks
     )
+
+
+PLANES = {
+    "smm": (("own team", "opponents", "the ball", "the controlled player"), "0 or 255"),
+    "pixels": (("red", "green", "blue"), "0..255"),
+    "pixels_gray": (("gray",), "0..255"),
+}
+"""The meanings of the last axis of observations of bytes, and their unit."""
 
 
 RAW_MEANINGS = {

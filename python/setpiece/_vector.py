@@ -30,6 +30,7 @@ from setpiece._seats import Seats
 from setpiece._source import Source
 from setpiece._spaces import Layout, action_space, observation_layout, observation_space
 from setpiece._turn import Turn, one_thread
+from setpiece._window import Window, mosaic
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -94,6 +95,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 help="play the episode of its `seed` and `index` with `setpiece.make(…, record=…)`",
             )
         self.render_mode = options.render_mode
+        self._window: Window | None = None
         self.num_envs = _count("num_envs", num_envs, ENVS_MAX)
         threads = (
             min(os.cpu_count() or 1, self.num_envs)
@@ -178,7 +180,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 )
             self._begun = True
             self._over &= ~mask
-            return self._shown(), self._infos()
+            begun = self._shown(), self._infos()
+        if self.render_mode == "human":
+            self.render()
+        return begun
 
     def step(
         self, actions: Any
@@ -208,14 +213,18 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 self._tell(infos, over)
                 if self.autoreset_mode == AutoresetMode.SAME_STEP:
                     infos = self._begin_again(infos, over)
-                    self._over[:] = False
-                    return self._shown(), *self._outcomes(), infos
+                    over = np.zeros_like(over)
             self._over = over
-            return self._shown(), *self._outcomes(), infos
+            played = self._shown(), *self._outcomes(), infos
+        if self.render_mode == "human":
+            self.render()
+        return played
 
     def close_extras(self, **kwargs: Any) -> None:
         """Closes the environments; `reset` and `step` then raise `ClosedEnvironmentError`."""
         self._turn.closed = True
+        if self._window is not None:
+            self._window.close()
         super().close_extras(**kwargs)
 
     @property
@@ -229,12 +238,25 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         masks: NDArray[np.int8] = self._of_agents(self._arrays.masks)[..., : self._n_actions].copy()
         return masks
 
-    def render(self) -> tuple[str, ...] | None:
-        """Returns text drawings for `render_mode="ansi"`; None without a render mode."""
-        if self.render_mode is None:
+    def render(self) -> tuple[str, ...] | tuple[NDArray[np.uint8], ...] | None:
+        """Returns a drawing of each environment: texts, or pictures of the `render_size`.
+
+        `"human"` shows all pictures as a mosaic in one window. None without a render mode.
+        """
+        mode = self.render_mode
+        if mode is None:
             return None
         with one_thread:
-            return tuple(self._batch.drawing(at) for at in range(self.num_envs))
+            if mode == "ansi":
+                return tuple(self._batch.drawing(at) for at in range(self.num_envs))
+            size, camera = self._options.render_size, self._options.camera
+            frames = tuple(self._batch.frame(at, size, camera) for at in range(self.num_envs))
+        if mode == "rgb_array":
+            return frames
+        if self._window is None:
+            self._window = Window(self.scenario.name, self.metadata["render_fps"])
+        self._window.show(mosaic([*frames]))
+        return None
 
     def _read(self, given: Any) -> NDArray[Any]:
         """Everyone's actions: the caller's and the opponents'; the batch reads the numbers."""
@@ -379,6 +401,8 @@ def make_vec(
     opponents: Mapping[str, Opponent] | None = None,
     switching: Literal["auto", "fixed"] | None = None,
     render_mode: str | None = None,
+    render_size: tuple[int, int] = (1280, 720),
+    camera: str = "broadcast",
     record: str | PathLike[str] | None = None,
     allow_outside: bool = False,
 ) -> FootballVectorEnv:

@@ -3,68 +3,26 @@
 //! Everything that an agent sees is in arrays with a row per environment. They are written in
 //! place, on a few threads, without the interpreter.
 
+mod lane;
+
 use crate::actions::{self, ActionSet, GivenAction};
 use crate::environment::{
     AgentInfo, Prepared, SMM_SIZE, agents_of, from_episode, players_of, prepare,
 };
 use crate::errors;
-use crate::info::{records, write_mask};
-use crate::observation::{
-    self, BlockInfo, ObservationForm, ObservationKind, Observer, Stack, Wanted, write_floats,
-    write_map,
-};
+use crate::info::records;
+use crate::observation::{self, BlockInfo, ObservationForm, ObservationKind, Observer, Wanted};
 use crate::options::EnvOptions;
 use crate::params::bind;
+use crate::picture::Frames;
 use crate::scenario::Scenario;
-use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
+use lane::{BatchLane, BatchRow, NewestObservations, Rows};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use setpiece::engine::batch::Batch as Lanes;
-use setpiece::engine::environment::{Environment as Engine, ResetError, Scratch, StepError};
-use setpiece::engine::observe::ObserveError;
+use setpiece::engine::environment::{ResetError, Scratch};
 use setpiece::scenario::{Action, Verdict};
-
-/// One of the matches.
-struct BatchLane {
-    engine: Engine,
-    film: NewestObservations,
-    /// Whether the episode has ended and no other has begun.
-    over: bool,
-    /// The failure of the last step.
-    fault: Option<ResetError>,
-    broken: Option<StepError>,
-}
-
-/// The latest observations of a match.
-enum NewestObservations {
-    Floats(Stack<f32>),
-    Map(Stack<u8>),
-}
-
-/// The row that a match writes into in a step.
-struct BatchRow<'a> {
-    observation: Rows<'a>,
-    rewards: &'a mut [f64],
-    terms: &'a mut [f64],
-    mask: &'a mut [i8],
-    score: &'a mut [i64],
-    terminated: &'a mut bool,
-    truncated: &'a mut bool,
-    /// Whether the row shows the first moment of an episode that this step has begun.
-    begun: &'a mut bool,
-}
-
-/// The options of writing a row.
-#[derive(Clone, Copy)]
-struct RowView {
-    kind: ObservationKind,
-    action_set: ActionSet,
-}
-
-enum Rows<'a> {
-    Floats(&'a mut [f32]),
-    Map(&'a mut [u8]),
-}
 
 /// Several matches of one scenario that are stepped together.
 #[pyclass(module = "setpiece._native")]
@@ -76,6 +34,7 @@ pub(crate) struct Batch {
     /// Whether a step begins the next episode after one has ended.
     next_step: bool,
     acts: Vec<GivenAction>,
+    frames: Frames,
     /// The process that owns the threads.
     process: u32,
 }
@@ -115,27 +74,30 @@ impl Batch {
         next_step: bool,
     ) -> PyResult<Batch> {
         let Prepared { engine, kind, action_set } = prepare(py, scenario, &options)?;
-        let ObservationForm { stack, .. } = options.shown();
-        if kind == ObservationKind::Raw {
-            let message = "raw observations are dicts, which a vector environment doesn't stack";
-            return Err(errors::parameter(py, "observation", message));
-        }
-        let (planes, one) = (kind.planes(&engine), kind.shape(&engine, 1).iter().product());
-        let film = || match kind {
-            ObservationKind::Smm { .. } => NewestObservations::Map(Stack::new(stack, planes, one)),
-            _ => NewestObservations::Floats(Stack::new(stack, planes, one)),
-        };
+        let shown = options.shown();
         let acts = vec![GivenAction::IDLE; n * engine.n_agents()];
-        let lane = || BatchLane {
-            engine: engine.clone(),
-            film: film(),
-            over: true,
-            fault: None,
-            broken: None,
+        let lane = || {
+            let film = NewestObservations::new(py, kind, &engine, shown)?.ok_or_else(|| {
+                let message =
+                    "raw observations are dicts, which a vector environment doesn't stack";
+                errors::parameter(py, "observation", message)
+            })?;
+            let engine = engine.clone();
+            Ok(BatchLane { engine, film, over: true, fault: None, broken: None })
         };
-        let lanes = Lanes::new((0..n).map(|_| lane()).collect(), threads)
+        let all: PyResult<Vec<BatchLane>> = (0..n).map(|_| lane()).collect();
+        let lanes = Lanes::new(all?, threads)
             .map_err(|why| errors::raise_plain(py, "SetpieceError", &why.to_string()))?;
-        Ok(Batch { lanes, kind, stack, action_set, next_step, acts, process: std::process::id() })
+        Ok(Batch {
+            lanes,
+            kind,
+            stack: shown.stack,
+            action_set,
+            next_step,
+            acts,
+            frames: Frames::default(),
+            process: std::process::id(),
+        })
     }
 
     /// The agents of each environment, left before right.
@@ -202,8 +164,8 @@ impl Batch {
         let shape: Vec<usize> =
             [n, agents].into_iter().chain(self.kind.shape(&lane.engine, self.stack)).collect();
         let observations = match self.kind {
-            ObservationKind::Smm { .. } => PyArrayDyn::<u8>::zeros(py, shape, false).into_any(),
-            _ => PyArrayDyn::<f32>::zeros(py, shape, false).into_any(),
+            ObservationKind::Floats(_) => PyArrayDyn::<f32>::zeros(py, shape, false).into_any(),
+            _ => PyArrayDyn::<u8>::zeros(py, shape, false).into_any(),
         };
         let terms = lane.engine.term_names().len();
         Ok(Arrays {
@@ -255,11 +217,11 @@ impl Batch {
                 &format!("expected {} entries", self.lanes.lanes().len()),
             ));
         }
-        let view = RowView { kind: self.kind, action_set: self.action_set };
+        let action_set = self.action_set;
         self.each(py, arrays, |at, lane, row, _| {
             let (which, seed, index) = order[at];
             if which {
-                lane.begin(seed, index, view, keep, row);
+                lane.begin(seed, index, action_set, keep, row);
             }
         })?;
         self.raise_failure(py)
@@ -270,8 +232,7 @@ impl Batch {
     fn step(&mut self, py: Python<'_>, arrays: &Arrays, action: &Bound<'_, PyAny>) -> PyResult<()> {
         self.read(action)?;
         let agents = self.acts.len() / self.lanes.lanes().len().max(1);
-        let (view, next_step) =
-            (RowView { kind: self.kind, action_set: self.action_set }, self.next_step);
+        let (action_set, next_step) = (self.action_set, self.next_step);
         if !next_step && let Some(at) = self.lanes.lanes().iter().position(|lane| lane.over) {
             let message = format!(
                 "the episode of environment {at} has ended: call `reset` with a `reset_mask` that names it"
@@ -280,7 +241,7 @@ impl Batch {
         }
         let acts = std::mem::take(&mut self.acts);
         let played = self.each(py, arrays, |at, lane, row, scratch| {
-            lane.step(&acts[at * agents..(at + 1) * agents], next_step, view, row, scratch);
+            lane.step(&acts[at * agents..(at + 1) * agents], next_step, action_set, row, scratch);
         });
         self.acts = acts;
         played?;
@@ -321,13 +282,27 @@ impl Batch {
         let held = self.action_set.held();
         let look = |lane: &mut BatchLane| {
             let kind = wanted.of(py, &lane.engine)?;
-            Observer::new(py, kind, &lane.engine, ObservationForm::FRESH, held).observe(
+            Observer::new(py, kind, &lane.engine, ObservationForm::FRESH, held)?.observe(
                 py,
                 &mut lane.engine,
                 true,
             )
         };
         self.lanes.lanes_mut().iter_mut().map(look).collect()
+    }
+
+    /// The current frame of an environment for people: uint8 `(height, width, 3)`.
+    fn frame<'py>(
+        &mut self,
+        py: Python<'py>,
+        at: usize,
+        size: (usize, usize),
+        camera: &str,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let Some(lane) = self.lanes.lanes().get(at) else {
+            return Err(errors::parameter(py, "at", &format!("no environment {at}")));
+        };
+        self.frames.frame(py, &lane.engine, size, camera)
     }
 
     /// A drawing of an environment's pitch in text.
@@ -416,7 +391,7 @@ impl Batch {
             bytes = array.try_readwrite().map_err(|_| lost())?;
             chunks(bytes.as_slice_mut().map_err(|_| lost())?, n)
                 .into_iter()
-                .map(Rows::Map)
+                .map(Rows::Bytes)
                 .collect()
         };
         let mut rows = Vec::with_capacity(n);
@@ -479,120 +454,4 @@ fn chunks<T>(values: &mut [T], n: usize) -> Vec<&mut [T]> {
         rest = more;
     }
     parts
-}
-
-impl BatchLane {
-    /// Begins an episode and shows its first moment.
-    fn begin(
-        &mut self,
-        seed: Option<u64>,
-        index: Option<u64>,
-        view: RowView,
-        keep: bool,
-        mut row: BatchRow<'_>,
-    ) {
-        if let Err(why) = self.engine.reset(seed, index) {
-            self.fault = Some(why.into());
-            self.over = true;
-            return;
-        }
-        self.over = false;
-        *row.begun = true;
-        if !keep {
-            row.rewards.fill(0.0);
-            row.terms.fill(0.0);
-            (*row.terminated, *row.truncated) = (false, false);
-        }
-        self.show(view, &mut row, true);
-    }
-
-    /// Plays a step, or begins the next episode.
-    fn step(
-        &mut self,
-        acts: &[GivenAction],
-        next_step: bool,
-        view: RowView,
-        mut row: BatchRow<'_>,
-        scratch: &mut Scratch,
-    ) {
-        if self.over && next_step {
-            return self.begin(None, None, view, false, row);
-        }
-        let mut pressed = [Action::Idle; setpiece::scenario::pitch::PLAYERS_MAX];
-        for (agent, (act, action)) in acts.iter().zip(&mut pressed).enumerate() {
-            *action = act.action;
-            if act.steer.is_some() {
-                self.engine.steer(agent, act.steer);
-            }
-        }
-        let result = match self.engine.step(&pressed[..acts.len()], scratch) {
-            Ok(result) => result,
-            Err(why) => {
-                (self.broken, self.over) = (Some(why), true);
-                return;
-            }
-        };
-        (*row.terminated, *row.truncated, *row.begun) =
-            (result.terminated, result.truncated, false);
-        for (out, paid) in row.rewards.iter_mut().zip(self.engine.rewards()) {
-            *out = f64::from(*paid);
-        }
-        let n_terms = self.engine.term_names().len();
-        for (agent, out) in row.terms.chunks_exact_mut(n_terms.max(1)).enumerate() {
-            out.copy_from_slice(self.engine.terms(agent));
-        }
-        self.over = result.terminated || result.truncated;
-        self.show(view, &mut row, false);
-    }
-
-    /// Writes the observations of the current match.
-    fn show(&mut self, view: RowView, row: &mut BatchRow<'_>, first: bool) {
-        let n_agents = self.engine.n_agents();
-        // The buffers have the sizes that the engine requires, so this can't fail.
-        let _ = observe(
-            &mut self.engine,
-            &mut self.film,
-            view.kind,
-            &mut row.observation,
-            n_agents,
-            first,
-        );
-        let size = view.action_set.masked().len();
-        for (agent, mask) in row.mask.chunks_exact_mut(size).enumerate() {
-            write_mask(view.action_set, &self.engine, agent, mask);
-        }
-        for (out, goals) in row.score.iter_mut().zip(self.engine.score()) {
-            *out = goals.into();
-        }
-    }
-}
-
-fn observe(
-    engine: &mut Engine,
-    film: &mut NewestObservations,
-    kind: ObservationKind,
-    rows: &mut Rows<'_>,
-    n_agents: usize,
-    first: bool,
-) -> Result<(), ObserveError> {
-    match (kind, film, rows) {
-        (ObservationKind::Floats(floats), NewestObservations::Floats(stack), Rows::Floats(out)) => {
-            let one = (out.len() / n_agents.max(1)).max(1);
-            for (agent, out) in out.chunks_exact_mut(one).enumerate() {
-                stack.push(out, first, |out| write_floats(floats, engine, agent, out))?;
-            }
-        }
-        (
-            ObservationKind::Smm { width, height },
-            NewestObservations::Map(stack),
-            Rows::Map(out),
-        ) => {
-            let one = (out.len() / n_agents.max(1)).max(1);
-            for (agent, out) in out.chunks_exact_mut(one).enumerate() {
-                stack.push(out, first, |out| write_map((width, height), engine, agent, out))?;
-            }
-        }
-        _ => {}
-    }
-    Ok(())
 }

@@ -6,11 +6,12 @@ use crate::info::{InfoOptions, InfoWriter};
 use crate::observation::{self, BlockInfo, ObservationForm, ObservationKind, Observer, Wanted};
 use crate::options::EnvOptions;
 use crate::params::{bind, to_python};
+use crate::picture::Frames;
 use crate::replay::Replay;
 use crate::scenario::Scenario;
 use crate::seats::read as read_seats;
 
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArray3};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 use setpiece::Error;
@@ -65,6 +66,7 @@ pub(crate) struct Environment {
     acts: Vec<GivenAction>,
     actions: Vec<Action>,
     recorder: Recorder,
+    frames: Frames,
 }
 
 #[pymethods]
@@ -77,7 +79,7 @@ impl Environment {
             events: options.events,
             bot_action: options.bot_action,
         };
-        Ok(Environment::around(py, engine, kind, options.shown(), info))
+        Environment::around(py, engine, kind, options.shown(), info)
     }
 
     /// The agents, left before right.
@@ -126,8 +128,8 @@ impl Environment {
         scale: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let kind = Wanted { name: observation, size: SMM_SIZE, scale }.of(py, &self.engine)?;
-        let mut observer =
-            Observer::new(py, kind, &self.engine, ObservationForm::FRESH, self.action_set.held());
+        let held = self.action_set.held();
+        let mut observer = Observer::new(py, kind, &self.engine, ObservationForm::FRESH, held)?;
         observer.observe(py, &mut self.engine, true)
     }
 
@@ -183,6 +185,7 @@ impl Environment {
             ResetError::Draw(why) => from_episode(py, why.into()),
         })?;
         self.recorder.begin(snapshot);
+        self.frames.begin();
         self.seen(py)
     }
 
@@ -201,6 +204,7 @@ impl Environment {
         let engine = &mut self.engine;
         py.detach(|| engine.restore(snapshot)).map_err(|why| from_snapshot(py, why))?;
         self.recorder.invalidate();
+        self.frames.begin();
         self.seen(py)
     }
 
@@ -299,6 +303,16 @@ impl Environment {
         self.info.action_mask(py, &self.engine)
     }
 
+    /// The current frame for people: uint8 `(height, width, 3)`.
+    fn frame<'py>(
+        &mut self,
+        py: Python<'py>,
+        size: (usize, usize),
+        camera: &str,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        self.frames.frame(py, &self.engine, size, camera)
+    }
+
     /// A drawing of the pitch in text.
     fn drawing(&self) -> String {
         setpiece::drawing::draw(self.engine.state())
@@ -313,20 +327,21 @@ impl Environment {
         kind: ObservationKind,
         shown: ObservationForm,
         info: InfoOptions,
-    ) -> Environment {
+    ) -> PyResult<Environment> {
         let action_set = info.actions;
-        Environment {
+        Ok(Environment {
             kind,
             stack: shown.stack,
             action_set,
-            observer: Observer::new(py, kind, &engine, shown, action_set.held()),
+            observer: Observer::new(py, kind, &engine, shown, action_set.held())?,
             info: InfoWriter::new(py, &engine, info),
             acts: vec![GivenAction::IDLE; engine.n_agents()],
             actions: vec![Action::Idle; engine.n_agents()],
             scratch: Scratch::default(),
             recorder: Recorder::default(),
+            frames: Frames::default(),
             engine,
-        }
+        })
     }
 
     /// Sets an agent's action of the next step.
@@ -353,6 +368,7 @@ impl Environment {
         if let Some(recorded) = recorded {
             recorded.end(&mut self.engine);
         }
+        self.frames.note(&self.engine);
         let observation = self.observer.observe(py, &mut self.engine, false)?;
         let reward = match self.engine.rewards() {
             [one] => f64::from(*one).into_pyobject(py)?.into_any(),

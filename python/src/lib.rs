@@ -11,6 +11,7 @@ mod live;
 mod observation;
 mod options;
 mod params;
+mod picture;
 mod replay;
 mod scenario;
 mod seats;

@@ -1,6 +1,7 @@
 //! Observations: the engine's writers on `NumPy` arrays.
 
 use crate::errors;
+use crate::picture::PixelEye;
 use numpy::ndarray::arr0;
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods, ToPyArray};
 use pyo3::intern;
@@ -8,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use setpiece::engine::environment::Environment as Engine;
 use setpiece::engine::observe::{Floats, ObserveError, Raw, RawTeam, raw, smm};
+use setpiece::render::Pixels;
 
 /// Planes of a super mini map.
 const PLANES: usize = 4;
@@ -24,12 +26,14 @@ pub(crate) enum ObservationKind {
         /// Pixels down.
         height: usize,
     },
+    /// uint8 `(height, width, 3)`, or `(height, width, 1)` in gray.
+    Pixels(Pixels),
     /// A dict.
     Raw,
 }
 
 impl ObservationKind {
-    /// The kind of a name in `setpiece.make`; `size` is a map's width and height.
+    /// The kind of a name in `setpiece.make`; `size` is the width and height of a map or a picture.
     fn from_name(name: &str, (width, height): (usize, usize)) -> Option<ObservationKind> {
         Some(match name {
             "simple115" => ObservationKind::Floats(Floats::Simple115),
@@ -38,6 +42,8 @@ impl ObservationKind {
             "egocentric" => ObservationKind::Floats(Floats::Egocentric),
             "vector" => ObservationKind::Floats(Floats::Vector),
             "smm" => ObservationKind::Smm { width, height },
+            "pixels" => ObservationKind::Pixels(Pixels { height, width, gray: false }),
+            "pixels_gray" => ObservationKind::Pixels(Pixels { height, width, gray: true }),
             "raw" => ObservationKind::Raw,
             _ => return None,
         })
@@ -54,6 +60,9 @@ impl ObservationKind {
         match self {
             ObservationKind::Floats(floats) => vec![engine.layout(floats).len() * stack],
             ObservationKind::Smm { width, height } => vec![height, width, PLANES * stack],
+            ObservationKind::Pixels(pixels) => {
+                vec![pixels.height, pixels.width, pixels.channels() * stack]
+            }
             ObservationKind::Raw => Vec::new(),
         }
     }
@@ -133,14 +142,40 @@ pub(crate) fn write_floats(
     engine.observe(floats, agent, out)
 }
 
-/// Writes the map of one agent.
-pub(crate) fn write_map(
-    (width, height): (usize, usize),
-    engine: &mut Engine,
-    agent: usize,
-    out: &mut [u8],
-) -> Result<(), ObserveError> {
-    smm(engine.state(), agent, width, height, out)
+/// Writes observations of bytes.
+pub(crate) enum ByteWriter {
+    /// A super mini map, with its width and height.
+    Map(usize, usize),
+    /// A picture.
+    Picture(Box<PixelEye>),
+}
+
+impl ByteWriter {
+    /// The writer of a kind of observation; none for those that aren't bytes.
+    pub(crate) fn of(py: Python<'_>, kind: ObservationKind) -> PyResult<Option<ByteWriter>> {
+        Ok(match kind {
+            ObservationKind::Smm { width, height } => Some(ByteWriter::Map(width, height)),
+            ObservationKind::Pixels(pixels) => {
+                let eye = PixelEye::new(pixels)
+                    .map_err(|why| errors::parameter(py, "size", &why.to_string()))?;
+                Some(ByteWriter::Picture(Box::new(eye)))
+            }
+            ObservationKind::Floats(_) | ObservationKind::Raw => None,
+        })
+    }
+
+    /// Writes what one agent sees.
+    pub(crate) fn write(
+        &mut self,
+        engine: &Engine,
+        agent: usize,
+        out: &mut [u8],
+    ) -> Result<(), ObserveError> {
+        match self {
+            ByteWriter::Map(width, height) => smm(engine.state(), agent, *width, *height, out),
+            ByteWriter::Picture(eye) => eye.write(engine, agent, out),
+        }
+    }
 }
 
 /// The latest observations of several agents, stacked on the last axis, the oldest first.
@@ -190,7 +225,7 @@ pub(crate) enum Observer {
     /// Arrays of float32.
     Floats(Floats, ObservationArrays<f32>),
     /// Arrays of uint8.
-    Map((usize, usize), ObservationArrays<u8>),
+    Bytes(ByteWriter, ObservationArrays<u8>),
     /// Dicts, with this number of held actions.
     Raw(usize),
 }
@@ -212,19 +247,20 @@ impl Observer {
         engine: &Engine,
         ObservationForm { stack, copy }: ObservationForm,
         held_actions: usize,
-    ) -> Observer {
+    ) -> PyResult<Observer> {
         let (shape, planes) = (kind.shape(engine, stack), kind.planes(engine));
-        match kind {
+        let n_agents = engine.n_agents();
+        if let Some(writer) = ByteWriter::of(py, kind)? {
+            let arrays = ObservationArrays::new(py, n_agents, shape, (stack, planes), copy);
+            return Ok(Observer::Bytes(writer, arrays));
+        }
+        Ok(match kind {
             ObservationKind::Floats(floats) => Observer::Floats(
                 floats,
-                ObservationArrays::new(py, engine.n_agents(), shape, (stack, planes), copy),
+                ObservationArrays::new(py, n_agents, shape, (stack, planes), copy),
             ),
-            ObservationKind::Smm { width, height } => Observer::Map(
-                (width, height),
-                ObservationArrays::new(py, engine.n_agents(), shape, (stack, planes), copy),
-            ),
-            ObservationKind::Raw => Observer::Raw(held_actions),
-        }
+            _ => Observer::Raw(held_actions),
+        })
     }
 
     /// The agents' observations of the current match; `first` in an episode.
@@ -238,8 +274,8 @@ impl Observer {
         match self {
             Observer::Floats(floats, film) => film
                 .fill(py, n_agents, first, |agent, out| write_floats(*floats, engine, agent, out)),
-            Observer::Map(size, film) => {
-                film.fill(py, n_agents, first, |agent, out| write_map(*size, engine, agent, out))
+            Observer::Bytes(writer, film) => {
+                film.fill(py, n_agents, first, |agent, out| writer.write(engine, agent, out))
             }
             Observer::Raw(held) => {
                 let game = engine.state();
@@ -262,7 +298,7 @@ impl Observer {
             Observer::Floats(_, film) => {
                 film.held.iter().flat_map(|value| value.to_le_bytes()).collect()
             }
-            Observer::Map(_, film) => film.held.clone(),
+            Observer::Bytes(_, film) => film.held.clone(),
             Observer::Raw(_) => Vec::new(),
         }
     }
@@ -275,7 +311,7 @@ impl Observer {
                     *held = f32::from_le_bytes([value[0], value[1], value[2], value[3]]);
                 }
             }
-            Observer::Map(_, film) if bytes.len() == film.held.len() => {
+            Observer::Bytes(_, film) if bytes.len() == film.held.len() => {
                 film.held.copy_from_slice(bytes);
             }
             _ => {}
@@ -311,7 +347,7 @@ impl<T: Element + Copy + Default> ObservationArrays<T> {
         py: Python<'py>,
         n_agents: usize,
         first: bool,
-        mut write: impl FnMut(usize, &mut [T]) -> Result<(), ObserveError>,
+        mut write: impl FnMut(usize, &mut [T]) -> Result<(), ObserveError> + Send,
     ) -> PyResult<Bound<'py, PyAny>> {
         let array = match &self.shared {
             Some(array) => array.bind(py).clone(),
@@ -324,11 +360,12 @@ impl<T: Element + Copy + Default> ObservationArrays<T> {
         let values = guard.as_slice_mut().map_err(|_| locked())?;
         let one = (array.len() / n_agents.max(1)).max(1);
         let target = if self.held.is_empty() { &mut *values } else { &mut self.held };
-        for (agent, out) in target.chunks_exact_mut(one).enumerate() {
-            self.stack
-                .push(out, first, |out| write(agent, out))
-                .map_err(|why| from_observe(py, why))?;
-        }
+        let stack = &mut self.stack;
+        let written = py.detach(|| {
+            let mut agents = target.chunks_exact_mut(one).enumerate();
+            agents.try_for_each(|(agent, out)| stack.push(out, first, |out| write(agent, out)))
+        });
+        written.map_err(|why| from_observe(py, why))?;
         if !self.held.is_empty() {
             values.copy_from_slice(&self.held);
         }

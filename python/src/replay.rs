@@ -122,6 +122,6 @@ impl Replay {
         let engine = self.inner.environment().map_err(|error| errors::from_facade(py, &error))?;
         let kind = Wanted { name: observation, size: SMM_SIZE, scale: false }.of(py, &engine)?;
         let info = InfoOptions { actions: self.set(), events: true, bot_action: false };
-        Ok(Environment::around(py, engine, kind, ObservationForm::FRESH, info))
+        Environment::around(py, engine, kind, ObservationForm::FRESH, info)
     }
 }

@@ -135,7 +135,7 @@ def test_the_tables_are_the_layouts() -> None:
         "numbers": numbers(),
         "raw": keys(setpiece.make(NAME, observation="raw")),
     }
-    for kind in ("simple115v2", "simple115v2+sticky", "simple115", "smm", "egocentric"):
+    for kind in ("simple115v2", "simple115v2+sticky", "simple115", "smm", "pixels", "egocentric"):
         tables[kind.removeprefix("simple115v2+")] = blocks(setpiece.make(NAME, observation=kind))
     tables["vector"] = blocks(vector)
     for kind in ("simple115v2", "egocentric"):

@@ -301,7 +301,7 @@ def test_unknown_options_are_named() -> None:
     with pytest.raises(setpiece.ParameterError, match="did you mean `simple115v2`"):
         setpiece.make(CLOSE, observation="simple15v2")
     with pytest.raises(setpiece.ParameterError, match="ansi"):
-        setpiece.make(CLOSE, render_mode="human")
+        setpiece.make(CLOSE, render_mode="humane")
 
 
 def test_observations_are_copies_unless_disabled() -> None:
@@ -713,11 +713,6 @@ def test_what_is_closed_says_so(kind: str) -> None:
 def test_parameters_are_a_mapping(maker: Callable[..., Any]) -> None:
     with pytest.raises(setpiece.ParameterError, match="expected `params` as a mapping"):
         maker("academy_corner", params=[1])
-
-
-def test_pixels_are_not_there_yet() -> None:
-    with pytest.raises(setpiece.UnavailableError, match="pixels are not in this version"):
-        setpiece.make(THREE, observation="pixels")
 
 
 def test_a_copy_goes_over_to_scenarios_that_lack_the_first_ones_parameters() -> None:

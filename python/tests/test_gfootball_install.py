@@ -9,7 +9,7 @@ import gymnasium
 import pytest
 
 import setpiece
-from setpiece import InUseError, UnavailableError, gfootball
+from setpiece import InUseError, gfootball
 
 pytestmark = pytest.mark.usefixtures("nothing_installed")
 
@@ -59,7 +59,13 @@ def test_another_gfootball_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 @pytest.mark.parametrize(
-    ("suffix", "shape"), [("SMM", (72, 96, 4)), ("simple115", (115,)), ("simple115v2", (115,))]
+    ("suffix", "shape"),
+    [
+        ("SMM", (72, 96, 4)),
+        ("Pixels", (72, 96, 3)),
+        ("simple115", (115,)),
+        ("simple115v2", (115,)),
+    ],
 )
 def test_ids(suffix: str, shape: tuple[int, ...]) -> None:
     gfootball.install()
@@ -70,14 +76,6 @@ def test_ids(suffix: str, shape: tuple[int, ...]) -> None:
     )
     assert env.reset().shape == shape  # type: ignore[attr-defined]
     assert len(env.step(0)) == 4
-
-
-def test_ids_of_pixels_say_that_there_are_none() -> None:
-    gfootball.install()
-    for name in setpiece.list():
-        assert f"GFootball-{name}-Pixels-v0" in gymnasium.registry
-    with pytest.raises(UnavailableError, match="a picture of the pitch"):
-        gymnasium.make("GFootball-academy_corner-Pixels-v0")
 
 
 def test_wrappers_of_gymnasium_go_around_it() -> None:

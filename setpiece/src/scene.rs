@@ -87,7 +87,7 @@ pub fn of_match(game: &Match, scene: &mut Scene) {
     scene.rewards.clear();
 }
 
-/// The same, but leaves the memory of the rewards as it is.
+/// Writes a state, and leaves the memory of the rewards as it is.
 fn fill(game: &Match, scene: &mut Scene) {
     scene.step = game.step;
     scene.between = 0.0;
@@ -110,6 +110,40 @@ fn fill(game: &Match, scene: &mut Scene) {
     scene.possession = game.possession.map(side);
     scene.news.clear();
     scene.placed = false;
+}
+
+/// Writes what an agent sees: its own team plays in the left team's kit and attacks towards +x, and
+/// only its own player is ringed.
+pub fn seen_by(game: &Match, agent: usize, scene: &mut Scene) {
+    of_match(game, scene);
+    let Some(slot) = game.agents.get(agent) else { return };
+    for player in &mut scene.players {
+        player.agent = slot.player.map(id) == Some(player.id);
+    }
+    if slot.team == Team::Right {
+        turn(scene);
+    }
+}
+
+/// Turns a scene by half a circle and swaps the teams.
+fn turn(scene: &mut Scene) {
+    let other = |side: Side| if side == Side::Left { Side::Right } else { Side::Left };
+    let turned = |[x, y]: [f32; 2]| [-x, -y];
+    let raised = |[x, y, z]: [f32; 3]| [-x, -y, z];
+    let ball = &mut scene.ball;
+    (ball.pos, ball.vel, ball.spin) = (raised(ball.pos), raised(ball.vel), raised(ball.spin));
+    if let Some(owner) = &mut ball.owner {
+        owner.team = other(owner.team);
+    }
+    for player in &mut scene.players {
+        player.id.team = other(player.id.team);
+        player.pos = turned(player.pos);
+        player.vel = turned(player.vel);
+        player.facing = turned(player.facing);
+    }
+    scene.score.swap(0, 1);
+    scene.mode_team = scene.mode_team.map(other);
+    scene.possession = scene.possession.map(other);
 }
 
 /// The measures of the game's pitch.

@@ -190,7 +190,9 @@ pub(crate) fn tidy() -> Result<(), String> {
     names::check(&mut breaches)?;
     let tracked = tracked()?;
     words::check(&tracked, &mut breaches)?;
-    for path in tracked.iter().filter(|path| path.ends_with(".rs")) {
+    for path in
+        tracked.iter().filter(|path| Path::new(path).extension().is_some_and(|it| it == "rs"))
+    {
         width::check(path, &mut breaches)?;
     }
     if breaches.is_empty() {

@@ -36,8 +36,8 @@ def install() -> None:
     """Lets `import gfootball` find this package, and registers GRF's ids with Gymnasium.
 
     `gymnasium.make("GFootball-NAME-simple115v2-v0")` makes an environment with
-    `create_environment`, with the interface of old Gym; `-Pixels-v0` raises `UnavailableError`.
-    Calling it again is a no-op. Raises `InUseError` if the real `gfootball` is already imported.
+    `create_environment`, with the interface of old Gym. Calling it again is a no-op. Raises
+    `InUseError` if the real `gfootball` is already imported.
     """
     there = sys.modules.get(ALIAS)
     if there is not None and there is not sys.modules[__name__]:

@@ -49,7 +49,6 @@ impl Inside {
                     Some((inside, length)) => {
                         (*self, holds) = (inside, true);
                         rest = &rest[length..];
-                        continue;
                     }
                     None => rest = &rest[character(rest).unwrap_or(first.len_utf8())..],
                 },

@@ -96,10 +96,6 @@ def create_environment(
             f"expected `other_config_options` as a mapping, found `{other_config_options!r}`",
             name="other_config_options",
         )
-    if render:
-        raise _config.no_pictures("render")
-    if str(representation).startswith("pixels"):
-        raise _config.no_pictures("representation")
     check_word("representation", representation, REPRESENTATIONS)
     checkpoints = "checkpoints" in _check_rewards(rewards)
     if stacked and representation == "raw":
@@ -129,7 +125,9 @@ def create_environment(
     if slots != (left, right) and "players" not in options:
         env = wrappers.MultiAgentToSingleAgent(env, *slots)
     if frequency > 1:
-        env = wrappers.PeriodicDumpWriter(env, frequency)
+        env = wrappers.PeriodicDumpWriter(env, frequency, render=bool(render))
+    elif render:
+        env.render()
     if checkpoints:
         env = wrappers.CheckpointRewardWrapper(env)
     return wrappers.GetStateWrapper(
@@ -149,6 +147,8 @@ def _shown(
         return env
     if representation.startswith("simple115"):
         env = wrappers.Simple115StateWrapper(env, fixed_positions=representation == "simple115v2")
+    elif representation.startswith("pixels"):
+        env = wrappers.PixelsStateWrapper(env, "gray" in representation, channel_dimensions)
     elif representation == "extracted":
         env = wrappers.SMMWrapper(env, channel_dimensions)
     if agents == 1:

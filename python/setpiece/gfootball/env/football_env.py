@@ -13,11 +13,13 @@ from typing import Any
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from numpy.typing import NDArray
 
 from setpiece._errors import ParameterError, SetpieceError, SnapshotError
-from setpiece._words import similar
+from setpiece._window import Window
+from setpiece._words import check_word, similar
 from setpiece.gfootball.env._old_gym import Stepped, refuse_seed
-from setpiece.gfootball.env.config import Config, no_pictures, parse_player_definition
+from setpiece.gfootball.env.config import Config, parse_player_definition
 from setpiece.gfootball.env.football_action_set import (
     CoreAction,
     get_action_set,
@@ -51,13 +53,15 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     and after `close`.
     """
 
-    metadata = {"render_modes": []}
+    metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 10}
 
     def __init__(self, config: Config) -> None:
         self._config = config
         self._core = FootballEnvCore(config)
         self._agent: Agent | None = None
         self._agent_slots: list[int] = []
+        self._rendering = False
+        self._window: Window | None = None
         self._players = self._make_players()
         count = len(self._agent_slots)
         actions = len(get_action_set(config))
@@ -77,6 +81,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         self._processor = ObservationProcessor(self._config)
         for player, _, _ in self._players:
             player.reset()
+        self._show()
         return self.observation()
 
     def step(self, action: Any) -> Stepped:  # type: ignore[override]
@@ -95,6 +100,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         dumps = self._processor.add(trace, reward, self._core.done)
         if dumps:
             info["dumps"] = dumps
+        self._show()
         if self._agent is None:
             return self.observation(), reward, self._core.done, info
         left = self._agent.num_controlled_left_players()
@@ -108,7 +114,21 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def observation(self) -> Any:
         """Returns the current observation, without playing."""
-        return self._core.whole if self._agent is None else self._agent_observations()
+        seen = self._core.whole if self._agent is None else self._agent_observations()
+        if self._rendering:
+            frame = self.picture()
+            for each in [seen] if isinstance(seen, dict) else seen:
+                each["frame"] = frame
+        return seen
+
+    def picture(self, size: tuple[int, int] | None = None) -> NDArray[np.uint8]:
+        """Returns a picture of the match, uint8 `(height, width, 3)`, red, green, blue.
+
+        `size`: width and height; None: `render_resolution_x` and `render_resolution_y`.
+        """
+        config = self._config
+        own = config["render_resolution_x"], config["render_resolution_y"]
+        return self._core.picture(own if size is None else size)
 
     def seed(self, seed: int | None = None) -> list[int]:
         """Draws the seeds of future episodes from a separate stream; returns the stream's seed."""
@@ -154,13 +174,33 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return kept
 
     def render(self, mode: str = "human") -> Any:
-        """Raises `UnavailableError`: pictures aren't supported in this version."""
-        del mode
-        raise no_pictures("render")
+        """Begins to draw: from now on raw observations have `frame`, uint8 `(height, width, 3)`.
+
+        - `"human"`: every step is also shown in a window (needs `setpiece[human]`); returns True.
+        - `"rgb_array"`: returns the current picture. (GRF returns it with red and blue swapped.)
+
+        `disable_render` ends it.
+        """
+        mode = check_word("mode", mode, ("human", "rgb_array"))
+        if mode == "human" and self._window is None:
+            self._window = Window(str(self._config["level"]), self.metadata["render_fps"])
+        self._rendering = True
+        if mode == "rgb_array":
+            return self.picture()
+        self._show()
+        return True
 
     def disable_render(self) -> bool:
-        """Returns True: nothing is drawn."""
+        """Ends drawing, closes the window and returns True."""
+        self._rendering = False
+        if self._window is not None:
+            self._window.close()
+            self._window = None
         return True
+
+    def _show(self) -> None:
+        if self._window is not None and self._rendering:
+            self._window.show(self.picture())
 
     def tracker_setup(self, start: int, end: int) -> None:
         """No-op.
@@ -170,8 +210,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         del start, end
 
     def close(self) -> None:
-        """Releases the match; `reset` begins another."""
+        """Releases the match and closes the window; `reset` begins another."""
         self._core.done = True
+        if self._window is not None:
+            self._window.close()
 
     def _make_players(self) -> list[tuple[PlayerBase, list[int], int]]:
         """Returns each player with their slots, and how many of those are on the left.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import gymnasium
 import numpy as np
+from numpy.typing import NDArray
 
 import setpiece
 from setpiece._errors import ParameterError, SnapshotError
@@ -265,6 +266,12 @@ class FootballEnvCore:
             ]
             self.whole[f"{('left', 'right')[side]}_agent_controlled_player"] = dealt
         self.slots = slots[0] + slots[1]
+
+    def picture(self, size: tuple[int, int]) -> NDArray[np.uint8]:
+        """Returns a picture of the match, uint8 `(height, width, 3)`."""
+        if self._env is None:
+            raise gymnasium.error.ResetNeeded("call `reset`: there is nothing to be seen yet")
+        return self._env.picture(size)
 
     def _pace(self) -> None:
         """Waits until the step's time has passed."""

@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 from setpiece._errors import ActionError, ParameterError
 from setpiece.gfootball.env import football_action_set, observation_preprocessing
 from setpiece.gfootball.env._old_gym import ObservationWrapper, RewardWrapper, Wrapper
-from setpiece.gfootball.env.config import no_pictures
 
 Env = gymnasium.Env[Any, Any]
 BLOCK = 22
 """Values in a block of simple115: x and y of eleven players."""
 BLOCKS = ("left_team", "left_team_direction", "right_team", "right_team_direction")
 SIMPLE = 115
+LUMA = np.array([0.299, 0.587, 0.114])
+"""The shares of red, green and blue in gray: ITU-R BT.601, as OpenCV has them."""
 
 
 def agents_of(env: Env) -> int:
@@ -35,7 +36,10 @@ class GetStateWrapper(Wrapper):
 
 
 class PeriodicDumpWriter(Wrapper):
-    """Lets only every k-th episode be dumped, starting with the first."""
+    """Lets only every k-th episode be dumped, starting with the first.
+
+    - `render`: whether these episodes, and no others, are drawn.
+    """
 
     def __init__(self, env: Env, dump_frequency: int, render: bool = False) -> None:
         super().__init__(env)
@@ -43,9 +47,7 @@ class PeriodicDumpWriter(Wrapper):
             raise ParameterError(
                 f"`dump_frequency` is {dump_frequency}; it is 1 or more", name="dump_frequency"
             )
-        if render:
-            raise no_pictures("render")
-        self._dump_frequency = dump_frequency
+        self._dump_frequency, self._render = dump_frequency, render
         config = env.unwrapped._config  # type: ignore[attr-defined]
         self._asked = {key: config[key] for key in ("dump_full_episodes", "dump_scores")}
         self._episode = 0
@@ -56,6 +58,10 @@ class PeriodicDumpWriter(Wrapper):
         config = self.env.unwrapped._config  # type: ignore[attr-defined]
         config.update(self._asked if dumped else dict.fromkeys(self._asked, False))
         self._episode += 1
+        if self._render and dumped:
+            self.env.render()
+        elif self._render:
+            self.env.unwrapped.disable_render()  # type: ignore[attr-defined]
         return super().reset(seed=seed, options=options)
 
 
@@ -201,13 +207,30 @@ class SMMWrapper(ObservationWrapper):
 
 
 class PixelsStateWrapper(ObservationWrapper):
-    """Raises `UnavailableError`: pictures aren't supported in this version."""
+    """Shows the match as a picture: uint8 `(n, height, width, 3)`, or `(n, height, width, 1)`.
+
+    All of the agent's players see the same picture. It is drawn at its size, which needs no display
+    and no `render`.
+
+    - `grayscale`: whether it is gray.
+    - `channel_dimensions`: width and height.
+    """
 
     def __init__(
         self, env: Env, grayscale: bool = True, channel_dimensions: tuple[int, int] = (96, 72)
     ) -> None:
-        del env, grayscale, channel_dimensions
-        raise no_pictures("representation")
+        super().__init__(env)
+        self._grayscale, self._size = bool(grayscale), check_dimensions(channel_dimensions)
+        width, height = self._size
+        shape = (agents_of(env), height, width, 1 if grayscale else 3)
+        self.observation_space = spaces.Box(0, 255, shape, np.uint8)
+
+    def observation(self, observation: Any) -> NDArray[np.uint8]:
+        """Returns the picture, once for each raw observation."""
+        picture: NDArray[np.uint8] = self.env.unwrapped.picture(self._size)  # type: ignore[attr-defined]
+        if self._grayscale:
+            picture = (picture @ LUMA).round().astype(np.uint8)[..., None]
+        return np.repeat(picture[None], len(observation), axis=0)
 
 
 class SingleAgentObservationWrapper(ObservationWrapper):

@@ -1,0 +1,167 @@
+//! One match of a batch, and the row that it writes into.
+
+use crate::actions::{ActionSet, GivenAction};
+use crate::info::write_mask;
+use crate::observation::{ByteWriter, ObservationForm, ObservationKind, Stack, write_floats};
+use pyo3::prelude::*;
+use setpiece::engine::environment::{Environment as Engine, ResetError, Scratch, StepError};
+use setpiece::engine::observe::{Floats, ObserveError};
+use setpiece::scenario::Action;
+
+/// One of the matches.
+pub(super) struct BatchLane {
+    pub(super) engine: Engine,
+    pub(super) film: NewestObservations,
+    /// Whether the episode has ended and no other has begun.
+    pub(super) over: bool,
+    /// The failure of the last step.
+    pub(super) fault: Option<ResetError>,
+    pub(super) broken: Option<StepError>,
+}
+
+/// The latest observations of a match.
+pub(super) enum NewestObservations {
+    Floats(Floats, Stack<f32>),
+    Bytes(ByteWriter, Stack<u8>),
+}
+
+/// The row that a match writes into in a step.
+pub(super) struct BatchRow<'a> {
+    pub(super) observation: Rows<'a>,
+    pub(super) rewards: &'a mut [f64],
+    pub(super) terms: &'a mut [f64],
+    pub(super) mask: &'a mut [i8],
+    pub(super) score: &'a mut [i64],
+    pub(super) terminated: &'a mut bool,
+    pub(super) truncated: &'a mut bool,
+    /// Whether the row shows the first moment of an episode that this step has begun.
+    pub(super) begun: &'a mut bool,
+}
+
+/// An observation's place in the caller's array.
+pub(super) enum Rows<'a> {
+    Floats(&'a mut [f32]),
+    Bytes(&'a mut [u8]),
+}
+
+impl NewestObservations {
+    /// Prepares observations of a kind; none for dicts.
+    pub(super) fn new(
+        py: Python<'_>,
+        kind: ObservationKind,
+        engine: &Engine,
+        shown: ObservationForm,
+    ) -> PyResult<Option<NewestObservations>> {
+        let (planes, one) = (kind.planes(engine), kind.shape(engine, 1).iter().product());
+        if let Some(writer) = ByteWriter::of(py, kind)? {
+            let stack = Stack::new(shown.stack, planes, one);
+            return Ok(Some(NewestObservations::Bytes(writer, stack)));
+        }
+        let ObservationKind::Floats(floats) = kind else { return Ok(None) };
+        Ok(Some(NewestObservations::Floats(floats, Stack::new(shown.stack, planes, one))))
+    }
+
+    /// Writes what every agent of a match sees.
+    fn write(
+        &mut self,
+        engine: &mut Engine,
+        rows: &mut Rows<'_>,
+        first: bool,
+    ) -> Result<(), ObserveError> {
+        let n_agents = engine.n_agents().max(1);
+        match (self, rows) {
+            (NewestObservations::Floats(floats, stack), Rows::Floats(out)) => {
+                let one = (out.len() / n_agents).max(1);
+                for (agent, out) in out.chunks_exact_mut(one).enumerate() {
+                    stack.push(out, first, |out| write_floats(*floats, engine, agent, out))?;
+                }
+            }
+            (NewestObservations::Bytes(writer, stack), Rows::Bytes(out)) => {
+                let one = (out.len() / n_agents).max(1);
+                for (agent, out) in out.chunks_exact_mut(one).enumerate() {
+                    stack.push(out, first, |out| writer.write(engine, agent, out))?;
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+impl BatchLane {
+    /// Begins an episode and shows its first moment.
+    pub(super) fn begin(
+        &mut self,
+        seed: Option<u64>,
+        index: Option<u64>,
+        action_set: ActionSet,
+        keep: bool,
+        mut row: BatchRow<'_>,
+    ) {
+        if let Err(why) = self.engine.reset(seed, index) {
+            self.fault = Some(why.into());
+            self.over = true;
+            return;
+        }
+        self.over = false;
+        *row.begun = true;
+        if !keep {
+            row.rewards.fill(0.0);
+            row.terms.fill(0.0);
+            (*row.terminated, *row.truncated) = (false, false);
+        }
+        self.show(action_set, &mut row, true);
+    }
+
+    /// Plays a step, or begins the next episode.
+    pub(super) fn step(
+        &mut self,
+        acts: &[GivenAction],
+        next_step: bool,
+        action_set: ActionSet,
+        mut row: BatchRow<'_>,
+        scratch: &mut Scratch,
+    ) {
+        if self.over && next_step {
+            return self.begin(None, None, action_set, false, row);
+        }
+        let mut pressed = [Action::Idle; setpiece::scenario::pitch::PLAYERS_MAX];
+        for (agent, (act, action)) in acts.iter().zip(&mut pressed).enumerate() {
+            *action = act.action;
+            if act.steer.is_some() {
+                self.engine.steer(agent, act.steer);
+            }
+        }
+        let result = match self.engine.step(&pressed[..acts.len()], scratch) {
+            Ok(result) => result,
+            Err(why) => {
+                (self.broken, self.over) = (Some(why), true);
+                return;
+            }
+        };
+        (*row.terminated, *row.truncated, *row.begun) =
+            (result.terminated, result.truncated, false);
+        for (out, paid) in row.rewards.iter_mut().zip(self.engine.rewards()) {
+            *out = f64::from(*paid);
+        }
+        let n_terms = self.engine.term_names().len();
+        for (agent, out) in row.terms.chunks_exact_mut(n_terms.max(1)).enumerate() {
+            out.copy_from_slice(self.engine.terms(agent));
+        }
+        self.over = result.terminated || result.truncated;
+        self.show(action_set, &mut row, false);
+    }
+
+    /// Writes the observations of the current match.
+    fn show(&mut self, action_set: ActionSet, row: &mut BatchRow<'_>, first: bool) {
+        // The buffers have the sizes that the engine requires, so this can't fail.
+        let _ = self.film.write(&mut self.engine, &mut row.observation, first);
+        let size = action_set.masked().len();
+        for (agent, mask) in row.mask.chunks_exact_mut(size).enumerate() {
+            write_mask(action_set, &self.engine, agent, mask);
+        }
+        for (out, goals) in row.score.iter_mut().zip(self.engine.score()) {
+            *out = goals.into();
+        }
+    }
+}

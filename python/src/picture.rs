@@ -1,0 +1,93 @@
+//! Pictures: observations in pixels, and frames for people.
+
+use crate::errors;
+use numpy::{PyArray3, PyArrayMethods};
+use pyo3::prelude::*;
+use setpiece::engine::environment::Environment as Engine;
+use setpiece::engine::observe::ObserveError;
+use setpiece::render::{
+    Camera, Options, PitchRegion, PixelObserver, Pixels, RenderError, Renderer, Scene,
+};
+use setpiece::scene::{SceneWriter, seen_by};
+
+/// Writes observations in pixels.
+pub(crate) struct PixelEye {
+    observer: PixelObserver,
+    scene: Scene,
+}
+
+impl PixelEye {
+    /// Prepares observations of a shape.
+    pub(crate) fn new(pixels: Pixels) -> Result<PixelEye, RenderError> {
+        let observer = PixelObserver::new(pixels, Options::default())?;
+        Ok(PixelEye { observer, scene: Scene::default() })
+    }
+
+    /// Writes what an agent sees.
+    pub(crate) fn write(
+        &mut self,
+        engine: &Engine,
+        agent: usize,
+        out: &mut [u8],
+    ) -> Result<(), ObserveError> {
+        seen_by(engine.state(), agent, &mut self.scene);
+        let (found, expected) = (out.len(), self.observer.pixels().len());
+        self.observer.observe(&self.scene, out).map_err(|_| ObserveError::Size { expected, found })
+    }
+}
+
+/// Draws a match for people.
+#[derive(Default)]
+pub(crate) struct Frames {
+    writer: SceneWriter,
+    scene: Scene,
+    renderer: Option<(Camera, Renderer)>,
+}
+
+impl Frames {
+    /// Follows an episode: call it after each reset.
+    pub(crate) fn begin(&mut self) {
+        self.writer.begin();
+    }
+
+    /// Follows an episode: call it after each step.
+    pub(crate) fn note(&mut self, engine: &Engine) {
+        self.writer.note(engine);
+    }
+
+    /// The current frame: uint8 `(height, width, 3)`.
+    pub(crate) fn frame<'py>(
+        &mut self,
+        py: Python<'py>,
+        engine: &Engine,
+        (width, height): (usize, usize),
+        camera: &str,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let camera = match camera {
+            "broadcast" => Camera::Broadcast,
+            "above" => Camera::Above(PitchRegion::Whole),
+            other => return Err(errors::parameter(py, "camera", &format!("no camera `{other}`"))),
+        };
+        let fits = |(held, renderer): &(Camera, Renderer)| {
+            *held == camera && (renderer.width(), renderer.height()) == (width, height)
+        };
+        if !self.renderer.as_ref().is_some_and(fits) {
+            let options = Options { camera, ..Options::default() };
+            let renderer = Renderer::new(width, height, options)
+                .map_err(|why| errors::parameter(py, "render_size", &why.to_string()))?;
+            self.renderer = Some((camera, renderer));
+        }
+        let array = PyArray3::zeros(py, [height, width, 3], false);
+        let mut guard = array.readwrite();
+        if let (Some((_, renderer)), Ok(pixels)) = (&mut self.renderer, guard.as_slice_mut()) {
+            let (writer, scene) = (&self.writer, &mut self.scene);
+            let drawn = py.detach(|| {
+                writer.write(engine, scene);
+                renderer.render_rgb(scene, pixels)
+            });
+            drawn.map_err(|why| errors::parameter(py, "render_size", &why.to_string()))?;
+        }
+        drop(guard);
+        Ok(array)
+    }
+}

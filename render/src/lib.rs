@@ -34,6 +34,7 @@
 
 mod above;
 mod ball;
+mod between;
 mod broadcast;
 mod canvas;
 mod color;
@@ -56,6 +57,7 @@ mod view;
 /// What is drawn.
 pub mod scene;
 
+pub use between::between;
 pub use color::shirt;
 pub use overlay::Overlays;
 pub use pixels::{PixelObserver, Pixels};

@@ -114,13 +114,16 @@ enum Command {
   setpiece run corner.pitch --watch
   setpiece run 11_vs_11_stochastic --from half_time.pitchs")]
     Run(play::RunArgs),
-    /// Draw an episode as a sheet of frames, seen from above, or one moment of it large
+    /// Draw an episode: a video, a sheet of frames seen from above, or one moment
     #[cfg(feature = "render")]
     #[command(after_help = "Examples:
+  setpiece render academy_corner -o corner.mp4
+  setpiece render academy_corner -o corner.gif --steps 0..60 --speed 0.5
   setpiece render academy_corner -o corner.png
   setpiece render corner.pitch --agent random --seed 7 -o sheet.png
   setpiece render 11_vs_11_stochastic --step 120 -o frame.png
-  setpiece render runs/academy_corner_7_0.pitchr -o sheet.png
+  setpiece render 11_vs_11_stochastic --step 120 --camera broadcast -o frame.png
+  setpiece render runs/academy_corner_7_0.pitchr -o episode.mp4
 
 A recorded episode (.pitchr) is drawn as it was played: who played, seed and parameters are its own.")]
     Render(render::RenderArgs),

@@ -194,7 +194,8 @@ fn origin(environment: &Environment, agent: Option<Agent>) -> String {
     origin
 }
 
-fn names(scenario: &Scenario) -> [String; PLAYERS_MAX] {
+/// Everybody's label, by [`PlayerId::index`]: their name, else their role.
+pub fn names(scenario: &Scenario) -> [String; PLAYERS_MAX] {
     let mut names: [String; PLAYERS_MAX] =
         std::array::from_fn(|index| PlayerId(index as u8).in_team().to_string());
     for team in Team::ALL {

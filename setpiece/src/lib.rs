@@ -25,6 +25,8 @@ pub mod script_api;
 #[cfg(feature = "render")]
 pub mod sheet;
 mod stdlib;
+#[cfg(feature = "video")]
+pub mod video;
 pub mod watch;
 
 pub use error::Error;

@@ -1,11 +1,12 @@
-//! A picture of a start, as SVG.
+//! A picture of a moment, as SVG.
 
-use setpiece_engine::start::Drawn;
+use crate::scene::player_id;
+use setpiece_render::Scene;
+use setpiece_render::scene::ScenePlayer;
 use setpiece_scenario::pitch::{
     BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M,
-    HALF_WIDTH_M, PENALTY_SPOT_M, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
+    HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
 };
-use setpiece_scenario::{Scenario, Team};
 use std::fmt::Write as _;
 
 /// Grass around the lines, metres.
@@ -19,9 +20,11 @@ const PLAYER_M: f64 = 1.5;
 const COLOURS: [[&str; 3]; 2] =
     [["#ffb000", "#7a4f00", "#2b1b00"], ["#2f6df6", "#0b2a77", "#ffffff"]];
 
-/// Draws a start from above in metres, with the left team attacking to the right. Players are discs
-/// in their team's colour with role, heading and name.
-pub fn svg(scenario: &Scenario, start: &Drawn) -> String {
+/// Draws a moment from above in metres, with the left team attacking to the right. Players are
+/// discs in their team's colour with role, heading and name.
+///
+/// `names`: everybody's label, by [`PlayerId::index`]; a role as a name is left out.
+pub fn svg(title: &str, names: &[String; PLAYERS_MAX], scene: &Scene) -> String {
     let (x, y) = (HALF_LENGTH_M + MARGIN_M, HALF_WIDTH_M + MARGIN_M);
     let (width, height) = (2.0 * x, 2.0 * y);
     let mut text = format!(
@@ -31,25 +34,18 @@ pub fn svg(scenario: &Scenario, start: &Drawn) -> String {
         -y,
         width * 8.0,
         height * 8.0,
-        escaped(&scenario.name)
+        escaped(title)
     );
     lawn(&mut text);
     lines(&mut text);
-    for team in Team::ALL {
-        for (id, slot) in scenario.team(*team) {
-            player(
-                &mut text,
-                start,
-                id,
-                slot.role.name(),
-                slot.name.as_deref().unwrap_or_default(),
-            );
-        }
+    for one in scene.players.iter().filter(|player| player.present) {
+        let name = names.get(player_id(one.id).index()).map_or("", String::as_str);
+        player(&mut text, one, name);
     }
+    let [ball_x, ball_y, _] = scene.ball.pos;
     let _ = write!(
         text,
-        "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"0.7\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"0.3\"/>\n</svg>\n",
-        start.ball_pos.x, start.ball_pos.y
+        "<circle cx=\"{ball_x:.2}\" cy=\"{ball_y:.2}\" r=\"0.7\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"0.3\"/>\n</svg>\n",
     );
     text
 }
@@ -106,13 +102,12 @@ fn lines(text: &mut String) {
     text.push_str("<circle r=\"0.15\" fill=\"#f4f7f2\"/>\n</g>\n");
 }
 
-fn player(text: &mut String, start: &Drawn, id: usize, role: &str, name: &str) {
-    let Some(Some(player)) = start.players.get(id) else { return };
-    let team = id / setpiece_scenario::pitch::TEAM_MAX;
-    let [fill, ring, ink] = COLOURS.get(team).copied().unwrap_or(COLOURS[0]);
-    let (x, y) = (f64::from(player.pos.x), f64::from(player.pos.y));
-    let to_ball = (f64::from(start.ball_pos.y) - y).atan2(f64::from(start.ball_pos.x) - x);
-    let heading = player.heading_rad.map_or(to_ball, f64::from).to_degrees();
+fn player(text: &mut String, player: &ScenePlayer, name: &str) {
+    let role = format!("{:?}", player.role);
+    let [fill, ring, ink] = COLOURS[player.id.team.index()];
+    let [x, y] = player.pos;
+    let [ahead, across] = player.facing;
+    let heading = across.atan2(ahead).to_degrees();
     let _ = writeln!(
         text,
         "<g transform=\"translate({x:.2} {y:.2})\"><path d=\"M{0} -0.7L{1} 0L{0} 0.7Z\" \
@@ -121,7 +116,7 @@ fn player(text: &mut String, start: &Drawn, id: usize, role: &str, name: &str) {
         PLAYER_M,
         PLAYER_M + 0.9
     );
-    if !name.is_empty() {
+    if !name.is_empty() && name != role {
         let _ = writeln!(
             text,
             "<text y=\"{}\" font-size=\"1.5\" fill=\"#fff\">{}</text>",

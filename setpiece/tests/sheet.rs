@@ -243,9 +243,24 @@ fn every_example_and_every_kind_of_agents_can_be_drawn() {
 #[test]
 fn a_picture_that_cannot_be_made_is_one_clear_error() {
     fails(&["academy_corner"], 2, &["--output"]);
-    for name in ["corner.jpg", "corner", "corner.svg"] {
-        fails(&["academy_corner", "-o", name], 1, &["SP0011", "name it `corner.png`"]);
+    for name in ["corner.jpg", "corner"] {
+        fails(&["academy_corner", "-o", name], 1, &["SP0011", "`corner.mp4` or `corner.png`"]);
     }
+    let video = ["academy_empty_goal", "-o", "a.mp4"];
+    for (args, words) in [
+        (["--size", "641x360"], ["SP0011", "write `--size 640x360`"]),
+        (["--speed", "0"], ["SP0011", "a speed is a number in 0.05..20"]),
+        (["--speed", "NaN"], ["SP0011", "a speed is a number in 0.05..20"]),
+        (["--steps", "900..901"], ["SP0011", "none of 900..901"]),
+        (["--step", "3"], ["SP0011", "`--steps 20..80`"]),
+        (["--size", "9000x90"], ["SP0011", "1 to 8192 pixels"]),
+    ] {
+        fails(&[&video[..], &args].concat(), 1, &words);
+    }
+    for args in [["--steps", "5"], ["--steps", "9..5"], ["--size", "40"], ["--camera", "side"]] {
+        fails(&[&video[..], &args].concat(), 2, &[args[0]]);
+    }
+    fails(&["academy_corner", "-o", "a.png", "--size", "40x40"], 1, &["SP0011", "a sheet has"]);
     fails(&["academy_corner", "-o", "no/such/folder/a.png"], 1, &["SP0001", "can't be written"]);
     fails(&["academy_cornr", "-o", "a.png"], 1, &["SP0005", "did you mean `academy_corner`?"]);
     fails(
@@ -277,4 +292,64 @@ fn an_episode_without_an_end_is_drawn_up_to_a_step() {
     let output = setpiece(folder.path(), &["render", "endless.pitch", "-o", "endless.pitch"]);
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(std::fs::read_to_string(folder.path().join("endless.pitch")).unwrap(), endless);
+}
+
+/// Runs `render` into a file and returns its bytes.
+#[cfg(feature = "video")]
+fn written(name: &str, args: &[&str]) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let output = setpiece(folder.path(), &[&["render", "-o", name], args].concat());
+    assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
+    assert_eq!(text(&output.stderr), "", "{args:?}");
+    std::fs::read(folder.path().join(name)).unwrap()
+}
+
+#[cfg(feature = "video")]
+#[test]
+fn an_episode_is_a_video() {
+    let short = ["academy_empty_goal_close", "--steps", "0..8", "--size", "160x90"];
+    let whole = written("a.mp4", &short);
+    assert_eq!(&whole[4..8], b"ftyp");
+    // 3 frames for each of 8 steps, and the last scene for a second.
+    let folder = tempfile::tempdir().unwrap();
+    let output = setpiece(folder.path(), &[&["render", "-o", "a.mp4"], &short[..]].concat());
+    assert!(text(&output.stdout).contains("54 frames → a.mp4"), "{}", text(&output.stdout));
+    assert_eq!(whole, written("b.mp4", &short), "the same command writes the same bytes");
+    for other in [["--speed", "0.5"], ["--camera", "above"], ["--quality", "low"]] {
+        assert_ne!(whole, written("c.mp4", &[&short[..], &other].concat()), "{other:?}");
+    }
+}
+
+#[cfg(feature = "video")]
+#[test]
+fn a_gif_shows_every_frame_for_its_time() {
+    let args = ["academy_empty_goal_close", "--steps", "0..8", "--size", "96x54"];
+    let bytes = written("a.gif", &args);
+    let mut decoder = gif::DecodeOptions::new();
+    decoder.set_color_output(gif::ColorOutput::RGBA);
+    let mut reader = decoder.read_info(bytes.as_slice()).unwrap();
+    assert_eq!((reader.width(), reader.height()), (96, 54));
+    let mut frames = 0;
+    while let Some(frame) = reader.read_next_frame().unwrap() {
+        assert_eq!(frame.delay, 5);
+        frames += 1;
+    }
+    assert_eq!(frames, 2 * 8 + 20);
+}
+
+#[test]
+fn a_moment_is_drawn_for_print_and_from_the_stand() {
+    let folder = tempfile::tempdir().unwrap();
+    let draw = |args: &[&str]| {
+        let output = setpiece(folder.path(), &[&["render", "academy_corner"], args].concat());
+        assert!(output.status.success(), "{}", text(&output.stderr));
+    };
+    draw(&["-o", "start.svg"]);
+    let svg = std::fs::read_to_string(folder.path().join("start.svg")).unwrap();
+    assert!(svg.starts_with("<svg") && svg.matches(">GK<").count() == 2, "{svg}");
+    draw(&["-o", "later.svg", "--step", "9"]);
+    assert_ne!(svg, std::fs::read_to_string(folder.path().join("later.svg")).unwrap());
+    draw(&["-o", "stand.png", "--step", "9", "--camera", "broadcast", "--size", "320x180"]);
+    let picture = Pixmap::load_png(folder.path().join("stand.png")).unwrap();
+    assert_eq!((picture.width(), picture.height()), (320, 180));
 }

@@ -5,7 +5,9 @@ use crate::dsl::problem::Code;
 use crate::engine::batch::EpisodeError;
 use crate::engine::environment::{Environment, EnvironmentOptions};
 use crate::files::{refuse_overwriting, write};
-use crate::{Error, doc, picture};
+use crate::render::Scene;
+use crate::scene::of_match;
+use crate::{Error, doc, film, picture};
 use clap::Args;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -47,7 +49,10 @@ pub(crate) fn doc(args: &DocArgs, out: &Out) -> Result<u8, Error> {
     let drawn = environment.reset(Some(args.seed), Some(0)).and_then(|()| environment.start());
     let start = &drawn.map_err(|why| Error::Episode(Box::new(EpisodeError::Draw(why))))?;
     if let Some(path) = &args.picture {
-        write(path, picture::svg(&loaded.scenario, start))?;
+        let mut scene = Scene::default();
+        of_match(environment.state(), &mut scene);
+        let names = film::names(&loaded.scenario);
+        write(path, picture::svg(&loaded.scenario.name, &names, &scene))?;
     }
     let link = args.picture.as_deref().map(|path| linked(path, args.output.as_deref()));
     let page = doc::markdown(&loaded, start, link.as_deref());

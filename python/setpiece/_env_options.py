@@ -61,7 +61,7 @@ class VectorArguments(TypedDict, total=False):
 
 
 class EnvArguments(VectorArguments, total=False):
-    """A single environment's arguments, except `watch`, `on_reload`, `record`, `record_when`."""
+    """A single environment's arguments, except those for files."""
 
     ends: Ends
     events: bool

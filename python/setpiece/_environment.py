@@ -19,7 +19,7 @@ from setpiece._casting import scripted_scenario
 from setpiece._env_options import CAMERAS, RENDER_MODES, EnvArguments, EnvOptions
 from setpiece._errors import CallbackError, DrawError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
-from setpiece._native import Scenario
+from setpiece._native import Moment, Scenario
 from setpiece._opponents import Table
 from setpiece._options import (
     NUMBER_MAX,
@@ -109,6 +109,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         on_reload: Callable[[Reload], object] | None = None,
         record: str | PathLike[str] | None = None,
         record_when: When = "always",
+        record_quality: str | None = None,
         **arguments: Unpack[EnvArguments],
     ) -> None:
         """Makes an environment; the arguments are those of `setpiece.make`."""
@@ -118,7 +119,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             raise ParameterError(
                 "a watched file says itself who plays: write it there", name="watch"
             )
-        self._record = read_record(record, record_when)
+        self._record = read_record(record, record_when, record_quality)
         self._watcher = (
             Watcher(scenario, watch, on_reload, allow_outside=options.allow_outside)
             if watch
@@ -517,6 +518,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         summary["scenario"] = self._match.digest
         if self._record is not None:
             summary["replay"] = self._record.end(self._native, self.scenario.name, info["score"])
+            if self._record.quality is not None:
+                summary["video"] = self._record.video
 
     def action_masks(self) -> NDArray[np.int8]:
         """Returns the current `info["action_mask"]`: 1 for actions with an effect, else 0."""
@@ -561,6 +564,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             self._window = Window(self.scenario.name, self.metadata["render_fps"])
         self._window.show(frame)
         return None
+
+    def moments(self) -> list[Moment]:
+        """Returns what the last step led to, for the drop-in's videos; for this package alone."""
+        with one_thread:
+            return self._native.moments()
 
     def picture(
         self, size: tuple[int, int] | None = None, camera: str | None = None

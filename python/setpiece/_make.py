@@ -44,6 +44,7 @@ def make(
     switching: Literal["auto", "fixed"] | None = None,
     record: str | PathLike[str] | None = None,
     record_when: When = "always",
+    record_quality: str | None = None,
     allow_outside: bool = False,
 ) -> FootballEnv:
     """Makes an environment of a scenario.
@@ -121,6 +122,9 @@ def make(
       be written, for example because the disk is full, its last `step` raises `FileError`, and no
       more are recorded; no partial file is ever left. The last `info["setpiece"]` has `replay`, the
       path or None. `setpiece replay FILE` plays one again, and so does `setpiece.Replay`.
+    - `record_quality`: `"low"`, `"medium"` or `"high"`: a video of each recorded episode is written
+      beside its replay, which takes about a second for three of the match at 640 x 360 (`"low"`)
+      and as long as the match at 1280 x 720. The last `info["setpiece"]` then has `video`.
     - `allow_outside`: whether imports and scripts of a scenario that is given as a path, a text or
       a dict may lie outside its folder, as in `setpiece.load`.
     - `bot_action`: whether `info["bot_action"]` shows, after `reset` and each `step`, what the bot

@@ -44,6 +44,7 @@ def parallel_env(
     max_cycles: int | None = None,
     record: str | PathLike[str] | None = None,
     record_when: When = "always",
+    record_quality: str | None = None,
     allow_outside: bool = False,
 ) -> ParallelFootballEnv:
     """Makes a PettingZoo `ParallelEnv` of a scenario, in which every agent keeps its player.
@@ -84,13 +85,13 @@ def parallel_env(
     # Before any other name is bound, so that these are the caller's arguments, except those that
     # aren't the environment's.
     arguments: dict[str, Any] = {**locals()}
-    for name in ("max_cycles", "record", "record_when"):
+    for name in ("max_cycles", "record", "record_when", "record_quality"):
         del arguments[name]
     need("pettingzoo", "pettingzoo", "`parallel_env`")
     from setpiece._parallel import ParallelFootballEnv
 
     env = FootballEnv(switching="fixed", **arguments)
-    return ParallelFootballEnv(env, max_cycles, read_record(record, record_when))
+    return ParallelFootballEnv(env, max_cycles, read_record(record, record_when, record_quality))
 
 
 def register_pettingzoo() -> None:

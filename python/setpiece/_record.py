@@ -14,15 +14,23 @@ import numpy as np
 from setpiece import _native
 from setpiece._errors import FileError, ParameterError, ReplayError
 from setpiece._options import check_path
+from setpiece._video import QUALITIES, read_form
+from setpiece._words import check_word
 
 When = Literal["always", "goal"] | int
 """Which episodes are recorded: all, those with a goal, or each n-th."""
 
 
-def read_record(folder: str | PathLike[str] | None, when: When) -> Record | None:
+def read_record(
+    folder: str | PathLike[str] | None, when: When, quality: str | None = None
+) -> Record | None:
     """Returns where episodes are recorded, if they are."""
     if folder is not None:
-        return Record(folder, when)
+        return Record(folder, when, quality)
+    if quality is not None:
+        raise ParameterError(
+            f"`record_quality={quality!r}` needs a folder: `record=…`", name="record_quality"
+        )
     if when != "always":
         raise ParameterError(
             f"`record_when={when!r}` needs a folder: `record=…`", name="record_when"
@@ -33,7 +41,11 @@ def read_record(folder: str | PathLike[str] | None, when: When) -> Record | None
 class Record:
     """A folder, and which episodes are written to it."""
 
-    def __init__(self, folder: str | PathLike[str], when: When) -> None:
+    video: str | None = None
+    """The last episode's video, if one was written."""
+
+    def __init__(self, folder: str | PathLike[str], when: When, quality: str | None = None) -> None:
+        self.quality = None if quality is None else check_word("quality", quality, QUALITIES)
         every = isinstance(when, int | np.integer) and not isinstance(when, bool) and when >= 1
         if not every and when not in ("always", "goal"):
             raise ParameterError(
@@ -53,7 +65,7 @@ class Record:
         `FileError` for the first one that can't be written (a full disk), and records no more; play
         continues.
         """
-        wanted = self._wants(score)
+        wanted, self.video = self._wants(score), None
         self._ended += 1
         episode = native.episode
         if not wanted or self._failed or episode is None:
@@ -64,7 +76,14 @@ class Record:
         except ReplayError:
             return None
         try:
-            return str(_write_beside(self._folder, f"{name}_{seed}_{index}", replay))
+            path = _write_beside(self._folder, f"{name}_{seed}_{index}", replay)
+            if self.quality is not None:
+                target, form = read_form(
+                    path.with_suffix(".mp4"), None, "broadcast", 1.0, self.quality
+                )
+                _native.write(target, _native.replay_video(_native.Replay(path), form))
+                self.video = str(target)
+            return str(path)
         except FileError as error:
             self._failed = True
             raise FileError(

@@ -17,8 +17,10 @@ from setpiece import _native
 from setpiece._errors import ParameterError, ReplayError, SnapshotError
 from setpiece._native import Scenario
 from setpiece._options import check_path
+from setpiece._record import write
 from setpiece._rows import Picker
 from setpiece._spaces import check_observation
+from setpiece._video import read_form
 from setpiece._vocabulary import Action
 
 BAD_REPLAY = "SP0014"
@@ -139,6 +141,31 @@ class Replay:
             observed, reward, _, _, info = native.replayed(self._recorded)
             self._compare(native, step + 1)
             yield self._moment(step + 1, observed, now, np.atleast_1d(reward).tolist(), info)
+
+    def video(
+        self,
+        path: str | PathLike[str],
+        *,
+        size: tuple[int, int] | None = None,
+        camera: str = "broadcast",
+        speed: float = 1.0,
+        quality: str = "medium",
+    ) -> None:
+        """Writes the episode as a video: an `.mp4` or a `.gif`.
+
+        - `size`: width and height, even ones for an `.mp4`; None: 1280 x 720, or 640 x 360 at low
+          quality.
+        - `camera`: `"broadcast"` or `"above"`.
+        - `speed`: how much faster than the match, 0.05..20.
+        - `quality`: how much room an `.mp4` takes: `"low"`, `"medium"` or `"high"`.
+
+        Raises `ParameterError` for something else, `FileError` if the file can't be written,
+        `ReplayError` if this build diverges from the recording.
+        """
+        target, form = read_form(path, size, camera, speed, quality)
+        with self._named():
+            video = _native.replay_video(self._recorded, form)
+        write(target, video)
 
     def _compare(self, native: _native.Environment, step: int) -> None:
         """Raises if the last state isn't the recorded one."""

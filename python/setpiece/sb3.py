@@ -37,7 +37,10 @@ __all__ = ["Sb3VecEnv", "make_vec"]
 
 FINAL = ("final_info", "final_obs")
 
-ALONE = ("ends", "events", "bot_action", "watch", "on_reload", "record", "record_when")
+ALONE = (
+    *("ends", "events", "bot_action", "watch", "on_reload"),
+    *("record", "record_when", "record_quality"),
+)
 """Arguments of `setpiece.make` that a batch doesn't have."""
 
 Indices = int | Iterable[int] | None

@@ -10,6 +10,7 @@ use crate::picture::Frames;
 use crate::replay::Replay;
 use crate::scenario::Scenario;
 use crate::seats::read as read_seats;
+use crate::video::Moment;
 
 use numpy::{PyArray1, PyArray3};
 use pyo3::prelude::*;
@@ -311,6 +312,15 @@ impl Environment {
         camera: &str,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         self.frames.frame(py, &self.engine, size, camera)
+    }
+
+    /// The moments that the last step led to: where play was stopped, if it was, and the present.
+    fn moments(&self) -> Vec<Moment> {
+        let stopped = !std::ptr::eq(self.engine.judged_state(), self.engine.state());
+        let mut now = self.frames.moment(&self.engine, false);
+        now.placed = stopped || self.engine.steps() == 0;
+        let before = stopped.then(|| self.frames.moment(&self.engine, true));
+        before.into_iter().chain([now]).map(Moment::of).collect()
     }
 
     /// A drawing of the pitch in text.

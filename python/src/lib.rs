@@ -15,6 +15,7 @@ mod picture;
 mod replay;
 mod scenario;
 mod seats;
+mod video;
 mod write;
 
 /// Football scenarios from text files, and the engine that runs them.
@@ -43,6 +44,8 @@ mod _native {
     use crate::scenario::{
         LibraryEntry, Scenario, compile, compile_cast, library, load, load_cast, restore,
     };
+    #[pymodule_export]
+    use crate::video::{Moment, moments_video, replay_video};
     #[pymodule_export]
     use crate::write::{write, write_new};
 

@@ -36,6 +36,15 @@ impl PixelEye {
     }
 }
 
+/// The camera of a name.
+pub(crate) fn camera_of(py: Python<'_>, name: &str) -> PyResult<Camera> {
+    match name {
+        "broadcast" => Ok(Camera::Broadcast),
+        "above" => Ok(Camera::Above(PitchRegion::Whole)),
+        other => Err(errors::parameter(py, "camera", &format!("no camera `{other}`"))),
+    }
+}
+
 /// Draws a match for people.
 #[derive(Default)]
 pub(crate) struct Frames {
@@ -55,6 +64,17 @@ impl Frames {
         self.writer.note(engine);
     }
 
+    /// The current moment; `judged`: where play was stopped, before the restart.
+    pub(crate) fn moment(&self, engine: &Engine, judged: bool) -> Scene {
+        let mut scene = Scene::default();
+        if judged {
+            self.writer.write_judged(engine, &mut scene);
+        } else {
+            self.writer.write(engine, &mut scene);
+        }
+        scene
+    }
+
     /// The current frame: uint8 `(height, width, 3)`.
     pub(crate) fn frame<'py>(
         &mut self,
@@ -63,11 +83,7 @@ impl Frames {
         (width, height): (usize, usize),
         camera: &str,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let camera = match camera {
-            "broadcast" => Camera::Broadcast,
-            "above" => Camera::Above(PitchRegion::Whole),
-            other => return Err(errors::parameter(py, "camera", &format!("no camera `{other}`"))),
-        };
+        let camera = camera_of(py, camera)?;
         let fits = |(held, renderer): &(Camera, Renderer)| {
             *held == camera && (renderer.width(), renderer.height()) == (width, height)
         };

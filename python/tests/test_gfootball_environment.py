@@ -644,9 +644,6 @@ def test_real_time_paces_the_steps() -> None:
 @pytest.mark.parametrize(
     "kwargs",
     [
-        {"write_video": True},
-        {"extra_players": ["keyboard:right_players=1"]},
-        {"extra_players": ["gamepad:right_players=1"]},
         {"extra_players": ["ppo2_cnn:right_players=1,checkpoint=x"]},
         {"other_config_options": {"physics_steps_per_frame": 5}},
     ],

@@ -1,10 +1,9 @@
 //! Videos of an episode: MP4 with H.264, or GIF.
 //!
-//! [`video`] draws a film's scenes, several per step, and [`Encoder`] encodes frames one by one.
-//! Frames depend on the film alone, so the same film gives the same pixels. OpenH264 runs on one
-//! thread, which makes its bytes the same too.
+//! [`video`] draws the scenes of an episode, several frames per step, and [`Encoder`] encodes
+//! frames one by one. Frames depend on the scenes alone, so the same ones give the same pixels.
+//! `OpenH264` runs on one thread, which makes its bytes the same too.
 
-use crate::film::Film;
 use muxide::api::{Muxer, MuxerBuilder, VideoCodec};
 use openh264::OpenH264API;
 use openh264::encoder::{
@@ -31,19 +30,31 @@ const GIF_SIDE_MAX: usize = 65_535;
 
 /// A format of videos.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum VideoFormat {
     /// MP4 with H.264.
     Mp4,
     /// An animated GIF.
     Gif,
 }
 
-impl Format {
+impl Quality {
+    /// The quality of a name.
+    pub fn from_name(name: &str) -> Option<Quality> {
+        match name {
+            "low" => Some(Quality::Low),
+            "medium" => Some(Quality::Medium),
+            "high" => Some(Quality::High),
+            _ => None,
+        }
+    }
+}
+
+impl VideoFormat {
     /// The format of a file name's ending, in lower case.
-    pub fn of_ending(ending: &str) -> Option<Format> {
+    pub fn of_ending(ending: &str) -> Option<VideoFormat> {
         match ending {
-            "mp4" => Some(Format::Mp4),
-            "gif" => Some(Format::Gif),
+            "mp4" => Some(VideoFormat::Mp4),
+            "gif" => Some(VideoFormat::Gif),
             _ => None,
         }
     }
@@ -51,8 +62,8 @@ impl Format {
     /// Frames per second.
     pub fn fps(self) -> u32 {
         match self {
-            Format::Mp4 => MP4_FPS,
-            Format::Gif => GIF_FPS,
+            VideoFormat::Mp4 => MP4_FPS,
+            VideoFormat::Gif => GIF_FPS,
         }
     }
 }
@@ -116,15 +127,15 @@ pub struct VideoOptions {
     pub quality: Quality,
 }
 
-/// Draws and encodes a film.
+/// Draws and encodes scenes that follow each other, such as a [film](crate::film::Film)'s.
 ///
 /// `progress` is called after each frame with the number of frames so far and in all.
 ///
 /// # Errors
 /// [`VideoError`] for sizes, speeds and steps that can't be shown.
 pub fn video(
-    film: &Film,
-    format: Format,
+    all: &[Scene],
+    format: VideoFormat,
     options: &VideoOptions,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Vec<u8>, VideoError> {
@@ -134,9 +145,10 @@ pub fn video(
     }
     let (from, to) = (*options.steps.start(), *options.steps.end());
     let scenes: Vec<&Scene> =
-        film.scenes.iter().filter(|scene| options.steps.contains(&scene.step)).collect();
+        all.iter().filter(|scene| options.steps.contains(&scene.step)).collect();
     if scenes.is_empty() {
-        return Err(VideoError::Empty { from, to, length: film.length() });
+        let length = all.last().map_or(0, |scene| scene.step);
+        return Err(VideoError::Empty { from, to, length });
     }
     let (width, height) = options.size;
     let look = Options { camera: options.camera, ..Options::default() };
@@ -175,10 +187,10 @@ fn timeline(scenes: &[&Scene], speed: f64, fps: f64) -> Vec<(usize, f32)> {
 /// Encodes frames of one size, one by one.
 pub struct Encoder {
     size: (usize, usize),
-    kind: Kind,
+    kind: EncoderKind,
 }
 
-enum Kind {
+enum EncoderKind {
     Mp4(Box<Mp4>),
     Gif(Box<Gif>),
 }
@@ -206,14 +218,14 @@ impl Encoder {
     /// # Errors
     /// [`VideoError`] for a size that the format doesn't have.
     pub fn new(
-        format: Format,
+        format: VideoFormat,
         size: (usize, usize),
         fps: u32,
         quality: Quality,
     ) -> Result<Encoder, VideoError> {
         let (width, height) = size;
         let kind = match format {
-            Format::Mp4 => {
+            VideoFormat::Mp4 => {
                 if width % 2 != 0 || height % 2 != 0 || width < 16 || height < 16 {
                     return Err(VideoError::Odd { width, height });
                 }
@@ -235,9 +247,16 @@ impl Encoder {
                     .build()
                     .map_err(encode)?;
                 let yuv = YUVBuffer::new(width, height);
-                Kind::Mp4(Box::new(Mp4 { encoder, muxer, yuv, fps, frames: 0, bytes: Vec::new() }))
+                EncoderKind::Mp4(Box::new(Mp4 {
+                    encoder,
+                    muxer,
+                    yuv,
+                    fps,
+                    frames: 0,
+                    bytes: Vec::new(),
+                }))
             }
-            Format::Gif => {
+            VideoFormat::Gif => {
                 let side = |side: usize| u16::try_from(side).map_err(encode);
                 if width.max(height) > GIF_SIDE_MAX {
                     return Err(RenderError::Size { width, height }.into());
@@ -246,7 +265,7 @@ impl Encoder {
                     .map_err(encode)?;
                 encoder.set_repeat(gif::Repeat::Infinite).map_err(encode)?;
                 let delay = (100 / fps.clamp(1, 100)) as u16;
-                Kind::Gif(Box::new(Gif { encoder, delay, shown: Vec::new() }))
+                EncoderKind::Gif(Box::new(Gif { encoder, delay, shown: Vec::new() }))
             }
         };
         Ok(Encoder { size, kind })
@@ -264,7 +283,7 @@ impl Encoder {
             return Err(RenderError::Buffer { expected, found }.into());
         }
         match &mut self.kind {
-            Kind::Mp4(mp4) => {
+            EncoderKind::Mp4(mp4) => {
                 mp4.yuv.read_rgba8(RgbaSliceU8::new(rgba, self.size));
                 let stream = mp4.encoder.encode(&mp4.yuv).map_err(encode)?;
                 let stands_alone = matches!(stream.frame_type(), FrameType::IDR | FrameType::I);
@@ -274,7 +293,7 @@ impl Encoder {
                 mp4.muxer.write_video(seconds, &mp4.bytes, stands_alone).map_err(encode)?;
                 mp4.frames += 1;
             }
-            Kind::Gif(gif) => {
+            EncoderKind::Gif(gif) => {
                 let whole = rgba.to_vec();
                 // What stays as it was is left out, which takes no room.
                 for (pixel, before) in rgba.chunks_exact_mut(4).zip(gif.shown.chunks_exact(4)) {
@@ -299,11 +318,11 @@ impl Encoder {
     /// [`VideoError::Encode`] if the encoder fails.
     pub fn finish(self) -> Result<Vec<u8>, VideoError> {
         match self.kind {
-            Kind::Mp4(mut mp4) => {
+            EncoderKind::Mp4(mut mp4) => {
                 mp4.muxer.finish_in_place().map_err(encode)?;
                 Ok(mp4.muxer.into_writer())
             }
-            Kind::Gif(gif) => gif.encoder.into_inner().map_err(encode),
+            EncoderKind::Gif(gif) => gif.encoder.into_inner().map_err(encode),
         }
     }
 }

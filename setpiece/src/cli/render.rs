@@ -89,23 +89,23 @@ fn steps(text: &str) -> Result<(u32, u32), String> {
 }
 
 /// What the name of the output asks for.
-enum Wanted {
+enum RenderTarget {
     Sheet,
     Plan,
     #[cfg(feature = "video")]
-    Video(crate::video::Format),
+    Video(crate::video::VideoFormat),
 }
 
-impl Wanted {
-    fn of(args: &RenderArgs) -> Option<Wanted> {
+impl RenderTarget {
+    fn of(args: &RenderArgs) -> Option<RenderTarget> {
         let ending = args.output.extension()?.to_str()?.to_ascii_lowercase();
         #[cfg(feature = "video")]
-        if let Some(format) = crate::video::Format::of_ending(&ending) {
-            return Some(Wanted::Video(format));
+        if let Some(format) = crate::video::VideoFormat::of_ending(&ending) {
+            return Some(RenderTarget::Video(format));
         }
         match ending.as_str() {
-            "png" => Some(Wanted::Sheet),
-            "svg" => Some(Wanted::Plan),
+            "png" => Some(RenderTarget::Sheet),
+            "svg" => Some(RenderTarget::Plan),
             _ => None,
         }
     }
@@ -114,7 +114,7 @@ impl Wanted {
 /// Plays the episode and writes the video or the picture.
 pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
     let path = &args.output;
-    let Some(wanted) = Wanted::of(args) else {
+    let Some(wanted) = RenderTarget::of(args) else {
         let message = format!("an episode can't be drawn as `{}`", path.display());
         let [video, sheet] = ["mp4", "png"].map(|ending| path.with_extension(ending));
         let help = format!("name it `{}` or `{}`", video.display(), sheet.display());
@@ -141,14 +141,14 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
         }
     };
     let drawn = match wanted {
-        Wanted::Sheet => picture_of(args, &film)?,
-        Wanted::Plan => {
+        RenderTarget::Sheet => picture_of(args, &film)?,
+        RenderTarget::Plan => {
             let step = args.step.unwrap_or(0);
             let scene = &film.scenes[moment(&film, step)?];
             Ok((picture::svg(&film.name, &film.names, scene).into_bytes(), format!("step {step}")))
         }
         #[cfg(feature = "video")]
-        Wanted::Video(format) => video_of(args, &film, format),
+        RenderTarget::Video(format) => video_of(args, &film, format),
     };
     let (bytes, shown) = match drawn {
         Ok(drawn) => drawn,
@@ -169,7 +169,7 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
 }
 
 /// The bytes of a file and what it shows, or what is wrong with the arguments and a help.
-type Drawn = Result<(Vec<u8>, String), (String, Option<String>)>;
+type DrawnFile = Result<(Vec<u8>, String), (String, Option<String>)>;
 
 /// The index of the scene after this many steps.
 fn moment(film: &Film, step: u32) -> Result<usize, Error> {
@@ -177,7 +177,7 @@ fn moment(film: &Film, step: u32) -> Result<usize, Error> {
 }
 
 /// A sheet, one large moment with its caption, or with a camera or a size the moment alone.
-fn picture_of(args: &RenderArgs, film: &Film) -> Result<Drawn, Error> {
+fn picture_of(args: &RenderArgs, film: &Film) -> Result<DrawnFile, Error> {
     let plain = args.camera.is_some() || args.size.is_some();
     let (picture, shown) = match args.step {
         None if plain => {
@@ -216,13 +216,13 @@ fn picture_of(args: &RenderArgs, film: &Film) -> Result<Drawn, Error> {
 
 /// A video, with a progress bar.
 #[cfg(feature = "video")]
-fn video_of(args: &RenderArgs, film: &Film, format: crate::video::Format) -> Drawn {
-    use crate::video::{Format, Quality, VideoError, VideoOptions, video};
+fn video_of(args: &RenderArgs, film: &Film, format: crate::video::VideoFormat) -> DrawnFile {
+    use crate::video::{Quality, VideoError, VideoFormat, VideoOptions, video};
     if args.step.is_some() {
         let help = "`--steps 20..80` chooses a part of the episode".to_owned();
         return Err(("a video shows more than one step".to_owned(), Some(help)));
     }
-    let usual = if format == Format::Gif { (480, 270) } else { (1280, 720) };
+    let usual = if format == VideoFormat::Gif { (480, 270) } else { (1280, 720) };
     let (from, to) = args.steps.unwrap_or((0, u32::MAX));
     let options = VideoOptions {
         size: args.size.unwrap_or(usual),
@@ -240,7 +240,7 @@ fn video_of(args: &RenderArgs, film: &Film, format: crate::video::Format) -> Dra
         bar.set_style(style);
     }
     let mut frames = 0;
-    let made = video(film, format, &options, &mut |done, all| {
+    let made = video(&film.scenes, format, &options, &mut |done, all| {
         frames = all;
         bar.set_length(all as u64);
         bar.set_position(done as u64);

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from setpiece._errors import ParameterError
+from setpiece._video import QUALITIES
 from setpiece._words import check_word, similar
 from setpiece.gfootball._unavailable import unavailable
 from setpiece.gfootball.env.football_action_set import action_set_dict
@@ -255,13 +256,13 @@ def _checked(key: str, value: Any) -> Any:
         return check_whole(key, value)
     elif key == "physics_steps_per_frame" and value != 10:
         raise unavailable(key, "another length of a step than 100 ms", "leave it at 10")
-    elif key == "write_video" and value:
-        raise no_pictures(key)
     elif key == "reverse_team_processing":
         # No effect on the match: the engine treats both teams alike, in either order.
         return ScenarioConfig(reverse_team_processing=value).reverse_team_processing
     elif key == "video_format":
         check_word(key, value, ("avi", "webm"))
+    elif key == "video_quality_level" and check_whole(key, value, 0) >= len(QUALITIES):
+        raise ParameterError(f"`{key}` is {value!r}; it is 0, 1 or 2", name=key)
     elif key == "game_engine_random_seed":
         return check_whole(key, value, 0)
     elif key == "grf_bugs" and not isinstance(value, bool):
@@ -305,12 +306,3 @@ def _check_players(definitions: Any) -> None:
         )
     if sum(parse_player_definition(each)[0] == "agent" for each in definitions) > 1:
         raise ParameterError("there is at most one `agent` among the players", name="players")
-
-
-def no_pictures(name: str) -> Exception:
-    """Returns the error for everything that needs a picture of the pitch."""
-    return unavailable(
-        name,
-        "a picture of the pitch",
-        "`setpiece render` draws an episode of a scenario from above",
-    )

@@ -97,7 +97,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             chosen, core.step_count, reward, core.cumulative_reward, time.time(), core.whole
         )
         info: dict[str, Any] = {"score_reward": reward}
-        dumps = self._processor.add(trace, reward, self._core.done)
+        moments = core.moments() if self._config["write_video"] else []
+        dumps = self._processor.add(trace, reward, core.done, moments)
         if dumps:
             info["dumps"] = dumps
         self._show()

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import setpiece
+from setpiece import _native
 from setpiece._errors import ParameterError, SnapshotError
 from setpiece.gfootball._translation import LIMIT_MAX
 from setpiece.gfootball.env import football_action_set as actions
@@ -266,6 +267,10 @@ class FootballEnvCore:
             ]
             self.whole[f"{('left', 'right')[side]}_agent_controlled_player"] = dealt
         self.slots = slots[0] + slots[1]
+
+    def moments(self) -> list[_native.Moment]:
+        """Returns what the last step led to, to be kept for a video."""
+        return [] if self._env is None else self._env.moments()
 
     def picture(self, size: tuple[int, int]) -> NDArray[np.uint8]:
         """Returns a picture of the match, uint8 `(height, width, 3)`."""

@@ -19,8 +19,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from setpiece import _native
 from setpiece._errors import FileError, FormatError
 from setpiece._record import write
+from setpiece._video import QUALITIES, write_moments
 from setpiece.gfootball.env.football_action_set import CoreAction
 
 if TYPE_CHECKING:
@@ -79,22 +81,31 @@ def _own(module: str) -> str:
     return f"setpiece.{module}" if module.split(".", 1)[0] == "gfootball" else module
 
 
+Step = tuple[Trace, list[_native.Moment]]
+"""A step's record, and what it led to if videos are written."""
+
+SMALL = (800, 450)
+"""The size of a video at the lowest quality."""
+
+
 class ObservationProcessor:
     """Keeps the last steps of an episode and writes the requested dumps."""
 
     def __init__(self, config: Config) -> None:
         self._config = config
-        self._last: deque[Trace] = deque(maxlen=LAST + 1)
-        self._episode: deque[Trace] = deque(maxlen=EPISODE_MAX)
+        self._last: deque[Step] = deque(maxlen=LAST + 1)
+        self._episode: deque[Step] = deque(maxlen=EPISODE_MAX)
         self._pending: str | None = None
         self._written: dict[str, float] = {}
 
-    def add(self, trace: Trace, reward: float, done: bool) -> list[dict[str, str]]:
-        """Records a step; returns the dumps that it completed."""
+    def add(
+        self, trace: Trace, reward: float, done: bool, moments: list[_native.Moment]
+    ) -> list[dict[str, str]]:
+        """Records a step, with its moments for videos; returns the dumps that it completed."""
         finished = []
-        self._last.append(trace)
+        self._last.append((trace, moments))
         if self._config["dump_full_episodes"]:
-            self._episode.append(trace)
+            self._episode.append((trace, moments))
         if self._pending is not None:
             finished += self._score_dump(self._pending)
             self._pending = None
@@ -125,11 +136,20 @@ class ObservationProcessor:
         self._written[name] = now
         return [self._write(name, list(self._last))]
 
-    def _write(self, name: str, traces: list[Trace]) -> dict[str, str]:
+    def _write(self, name: str, steps: list[Step]) -> dict[str, str]:
         folder = Path(self._config["tracesdir"])
         path = folder / f"{name}_{datetime.now():%Y%m%d-%H%M%S%f}.dump"
-        write_dump(path, self._config.get_dictionary(), traces)
-        return {"name": name, "dump": str(path)}
+        config = self._config
+        write_dump(path, config.get_dictionary(), [trace for trace, _ in steps])
+        moments = [moment for _, moments in steps for moment in moments]
+        if not moments:
+            return {"name": name, "dump": str(path)}
+        level = config["video_quality_level"]
+        size = config["render_resolution_x"], config["render_resolution_y"]
+        video = path.with_suffix(".mp4")
+        # GRF's smallest videos are smaller than its pictures.
+        write_moments(video, moments, SMALL if level == 0 else size, QUALITIES[level])
+        return {"name": name, "dump": str(path), "video": str(video)}
 
 
 def trace_of(

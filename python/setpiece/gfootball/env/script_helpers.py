@@ -9,7 +9,7 @@ from setpiece import _native
 from setpiece._errors import FormatError, ParameterError
 from setpiece._options import check_path
 from setpiece.gfootball._unavailable import unavailable
-from setpiece.gfootball.env.config import Config, no_pictures
+from setpiece.gfootball.env.config import Config
 from setpiece.gfootball.env.football_env import FootballEnv
 from setpiece.gfootball.env.observation_processor import read_dump
 
@@ -67,11 +67,10 @@ class ScriptHelpers:
 
         - `config_update`: settings that differ from the dump's.
         - `directory`: where dumps of the repetition go.
+        - `render`: whether the match is shown in a window (needs `setpiece[human]`).
 
-        Raises `UnavailableError` for `render=True` and for other `fps` than 10.
+        Raises `UnavailableError` for other `fps` than 10.
         """
-        if render:
-            raise no_pictures("render")
         if fps != FPS:
             raise unavailable(
                 "fps", "another length of a step than 100 ms", f"leave `fps` at {FPS}"
@@ -82,6 +81,8 @@ class ScriptHelpers:
         if directory is not None:
             config["tracesdir"] = directory
         env = FootballEnv(config)
+        if render:
+            env.render()
         env.reset()
         infos = []
         for _ in read_dump(dump):
@@ -89,12 +90,23 @@ class ScriptHelpers:
             infos.append(info)
             if done:
                 break
+        env.close()
         return infos
 
-    def dump_to_video(self, dump_file: str) -> None:
-        """Raises `UnavailableError`: pictures aren't supported in this version."""
-        del dump_file
-        raise no_pictures("dump_to_video")
+    def dump_to_video(self, dump_file: str, directory: str | None = None) -> str:
+        """Writes a video of a whole episode's dump; returns its path.
+
+        - `directory`: where it goes; None: the dump's `tracesdir`.
+
+        The match is played again, as `replay` does.
+        """
+        update = {"write_video": True, "dump_full_episodes": True, "dump_scores": False}
+        infos = self.replay(dump_file, config_update=update, directory=directory, render=False)
+        for info in infos:
+            for dump in info.get("dumps", []):
+                video: str = dump["video"]
+                return video
+        raise FormatError(f"`{dump_file}` ends before its episode does")
 
 
 def _config_of(dump_file: str) -> Config:

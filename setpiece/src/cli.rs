@@ -15,6 +15,8 @@ mod playing;
 mod render;
 mod replay;
 mod snapshot;
+#[cfg(feature = "studio")]
+mod studio;
 mod summary;
 
 use crate::Error;
@@ -138,6 +140,12 @@ A recorded episode (.pitchr) is drawn as it was played: who played, seed and par
         #[arg(value_name = "…", trailing_var_arg = true, allow_hyphen_values = true)]
         _arguments: Vec<OsString>,
     },
+    /// Open a scenario in the browser: its text and its football, side by side
+    #[cfg(feature = "studio")]
+    #[command(after_help = "Examples:
+  setpiece studio corner.pitch
+  setpiece studio academy_corner --port 8000")]
+    Studio(studio::StudioArgs),
     /// Play into an episode and save its state, for `run --from`
     #[command(after_help = "Examples:
   setpiece snapshot 11_vs_11_stochastic --step 1500 -o half_time.pitchs
@@ -220,6 +228,8 @@ fn run(args: Args) -> u8 {
             );
             Ok(FAULT)
         }
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio::studio(&args, &out),
         Command::Snapshot(args) => snapshot::snapshot(&args, &out),
         Command::Replay(args) => replay::replay(&args, &out),
         Command::Bench(args) => bench::bench(&args, &out),

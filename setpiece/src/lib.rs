@@ -29,6 +29,8 @@ pub mod script_api;
 #[cfg(feature = "render")]
 pub mod sheet;
 mod stdlib;
+#[cfg(feature = "studio")]
+pub mod studio;
 #[cfg(feature = "video")]
 pub mod video;
 pub mod watch;

@@ -15,6 +15,7 @@ pub(crate) fn ci() -> Result<(), String> {
             "deny: left out, cargo-deny is not installed: `cargo install cargo-deny --locked` brings it"
         );
     }
+    crate::studio::check()?;
     rust_tests()?;
     run(Command::new("cargo")
         .args(["doc", "--workspace", "--no-deps", "--quiet"])

@@ -4,6 +4,7 @@
 
 mod ci;
 mod fuzz;
+mod studio;
 mod tidy;
 mod transfer;
 
@@ -33,6 +34,8 @@ enum Command {
     },
     /// Check the house rules: which room may use which, file lengths, words, names
     Tidy,
+    /// Build the studio's page with npm
+    Studio,
     /// Check licences, sources and advisories of the dependencies with cargo-deny
     Deny,
     /// Write docs/pitchc.schema.json
@@ -75,6 +78,7 @@ fn main() -> ExitCode {
         Command::Python { full: false } => ("python", ci::python()),
         Command::Python { full: true } => ("python", ci::python_full()),
         Command::Tidy => ("tidy", tidy::tidy()),
+        Command::Studio => ("studio", studio::build()),
         Command::Deny => ("deny", ci::deny()),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),

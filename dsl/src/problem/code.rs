@@ -57,6 +57,7 @@ codes! {
     BadReplay = 14 Error "a replay can't be played";
     CompiledCast = 15 Error "a compiled scenario keeps who plays its players";
     FileNotRegular = 17 Error "a pipe or device stands for a file";
+    NoStudio = 18 Error "the studio can't be served";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

@@ -1,0 +1,41 @@
+//! `setpiece studio`: the text and the football on one page.
+
+use super::{FAULT, FINE, out::Out};
+use crate::Error;
+use crate::dsl::problem::Code;
+use crate::studio::{Session, serve};
+use clap::Args;
+use std::ffi::OsString;
+
+#[derive(Args, Debug)]
+pub(crate) struct StudioArgs {
+    /// A scenario of the library or a .pitch file
+    #[arg(value_name = "SCENARIO", default_value = "academy_3_vs_1_with_keeper")]
+    scenario: OsString,
+    /// The port, on this machine alone; 0 takes any that is free
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    port: u16,
+}
+
+/// Serves the page until Ctrl-C.
+pub(crate) fn studio(args: &StudioArgs, out: &Out) -> Result<u8, Error> {
+    let session = Session::open(&args.scenario, out.allow_outside)?;
+    let (_running, stop) = tokio::sync::oneshot::channel();
+    let served = serve(
+        session,
+        args.port,
+        |ready| {
+            out.line(format!("open {}", ready.address));
+            out.line("Ctrl-C ends it");
+        },
+        stop,
+    );
+    match served {
+        Ok(()) => Ok(FINE),
+        Err(why) => {
+            let message = format!("the studio can't be served: {why}");
+            out.fault(&Code::NoStudio.to_string(), &message, Some("try another `--port`"));
+            Ok(FAULT)
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! The studio: a page on this machine that shows a scenario's text and its football.
+//!
+//! A [`Session`] holds the scenario on a thread of its own: it compiles, plays and watches the file.
+//! The server ([`serve`]) passes messages between the session and any number of pages. A page that
+//! closes or stops reading stops nothing.
+//!
+//! Only this machine can connect, with the token of the printed address: [`guard`] checks each
+//! request.
+
+pub mod guard;
+pub mod message;
+mod page;
+mod server;
+mod session;
+
+pub use server::{Ready, serve};
+pub use session::Session;

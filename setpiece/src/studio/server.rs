@@ -1,0 +1,211 @@
+//! The server: one page, and a socket for each tab.
+
+use super::guard::{self, Refusal};
+use super::message::{REQUEST_MAX_BYTES, Request};
+use super::page::{ASSETS, Asset};
+use super::session::{Command, Session};
+use axum::Router;
+use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
+use axum::extract::{Query, State};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use serde::Deserialize;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::sync::Arc;
+use tokio::net::TcpListener;
+use tokio::sync::broadcast::Receiver;
+use tokio::sync::broadcast::error::RecvError;
+use tokio::sync::{broadcast, mpsc};
+
+/// Messages that a page may be behind before it starts over.
+const BEHIND_MAX: usize = 64;
+
+/// What every request needs.
+#[derive(Clone)]
+struct Shared {
+    port: u16,
+    token: Arc<str>,
+    commands: mpsc::UnboundedSender<Command>,
+    replies: broadcast::Sender<Arc<str>>,
+}
+
+/// A server that listens.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ready {
+    /// The address to open, with its token.
+    pub address: String,
+    /// The port.
+    pub port: u16,
+}
+
+#[derive(Deserialize)]
+struct Ticket {
+    token: Option<String>,
+}
+
+/// Serves a session until Ctrl-C, or until `stop` is dropped or sent to.
+///
+/// - `port`: 0 for any that is free.
+/// - `ready`: called once the server listens.
+///
+/// # Errors
+/// The system's message if the port is taken or there are no random numbers.
+pub fn serve(
+    session: Session,
+    port: u16,
+    ready: impl FnOnce(&Ready),
+    stop: tokio::sync::oneshot::Receiver<()>,
+) -> Result<(), String> {
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_all()
+        .build()
+        .map_err(|why| why.to_string())?;
+    let token: Arc<str> = guard::token()?.into();
+    runtime.block_on(async move {
+        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+        let listener = TcpListener::bind(address).await.map_err(|why| why.to_string())?;
+        let port = listener.local_addr().map_err(|why| why.to_string())?.port();
+        let (replies, _) = broadcast::channel(BEHIND_MAX);
+        let (commands, inbox) = mpsc::unbounded_channel();
+        let sender = replies.clone();
+        std::thread::spawn(move || session.run(inbox, &sender));
+        let shared = Shared { port, token: token.clone(), commands, replies };
+        ready(&Ready { address: format!("http://127.0.0.1:{port}/?token={token}"), port });
+        let mut routes = Router::new().route("/socket", get(socket));
+        for asset in ASSETS {
+            routes =
+                routes.route(
+                    asset.path,
+                    get(move |state, headers, ticket| async move {
+                        file(asset, &state, &headers, &ticket)
+                    }),
+                );
+        }
+        let ended = async {
+            tokio::select! {
+                _ = tokio::signal::ctrl_c() => {}
+                _ = stop => {}
+            }
+        };
+        tokio::select! {
+            served = axum::serve(listener, routes.with_state(shared)) => {
+                served.map_err(|why| why.to_string())
+            }
+            () = ended => Ok(()),
+        }
+    })
+}
+
+fn admitted(shared: &Shared, headers: &HeaderMap, ticket: &Ticket) -> Result<(), Refusal> {
+    let text = |name| headers.get(name).and_then(|value| value.to_str().ok());
+    let (host, origin) = (text(header::HOST), text(header::ORIGIN));
+    guard::check(shared.port, host, origin, ticket.token.as_deref(), &shared.token)
+}
+
+fn refused(why: Refusal) -> Response {
+    (StatusCode::FORBIDDEN, why.message()).into_response()
+}
+
+/// A file of the page. It is no secret, but a foreign page may not embed it.
+fn file(
+    asset: &'static Asset,
+    State(shared): &State<Shared>,
+    headers: &HeaderMap,
+    Query(ticket): &Query<Ticket>,
+) -> Response {
+    let needs_token = asset.path == "/";
+    match admitted(shared, headers, ticket) {
+        Err(Refusal::Token) if !needs_token => {}
+        Err(why) => return refused(why),
+        Ok(()) => {}
+    }
+    let headers = [
+        (header::CONTENT_TYPE, asset.media),
+        (header::CACHE_CONTROL, "no-store"),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (
+            header::CONTENT_SECURITY_POLICY,
+            "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; \
+             frame-ancestors 'self'",
+        ),
+    ];
+    (headers, asset.content).into_response()
+}
+
+/// The socket of a tab.
+async fn socket(
+    State(shared): State<Shared>,
+    headers: HeaderMap,
+    Query(ticket): Query<Ticket>,
+    upgrade: WebSocketUpgrade,
+) -> Response {
+    if let Err(why) = admitted(&shared, &headers, &ticket) {
+        return refused(why);
+    }
+    upgrade
+        .max_message_size(REQUEST_MAX_BYTES)
+        .max_frame_size(REQUEST_MAX_BYTES)
+        .on_upgrade(move |socket| talk(socket, shared))
+}
+
+async fn talk(mut socket: WebSocket, shared: Shared) {
+    let mut replies = shared.replies.subscribe();
+    if !join(&mut socket, &shared).await {
+        return;
+    }
+    loop {
+        tokio::select! {
+            given = socket.recv() => match given {
+                Some(Ok(Message::Text(text))) => {
+                    let command = match serde_json::from_str::<Request>(&text) {
+                        Ok(request) => Command::Request(request),
+                        Err(why) => Command::Nonsense(why.to_string()),
+                    };
+                    if shared.commands.send(command).is_err() {
+                        return;
+                    }
+                }
+                Some(Ok(Message::Ping(_) | Message::Pong(_))) => {}
+                // Binary data, a message that is too large, a tab that has gone.
+                _ => return,
+            },
+            said = replies.recv() => if !pass_on(&mut socket, said, &mut replies, &shared).await {
+                return;
+            },
+        }
+    }
+}
+
+/// Sends what the session said; a tab that is too far behind gets the present instead.
+async fn pass_on(
+    socket: &mut WebSocket,
+    said: Result<Arc<str>, RecvError>,
+    replies: &mut Receiver<Arc<str>>,
+    shared: &Shared,
+) -> bool {
+    match said {
+        Ok(text) => socket.send(Message::Text((&*text).into())).await.is_ok(),
+        Err(RecvError::Lagged(_)) => {
+            *replies = shared.replies.subscribe();
+            join(socket, shared).await
+        }
+        Err(RecvError::Closed) => false,
+    }
+}
+
+/// Sends the present.
+async fn join(socket: &mut WebSocket, shared: &Shared) -> bool {
+    let (answer, present) = tokio::sync::oneshot::channel();
+    if shared.commands.send(Command::Join(answer)).is_err() {
+        return false;
+    }
+    let Ok(present) = present.await else { return false };
+    for text in present {
+        if socket.send(Message::Text((&*text).into())).await.is_err() {
+            return false;
+        }
+    }
+    true
+}

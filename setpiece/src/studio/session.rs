@@ -1,0 +1,349 @@
+//! The session: the open scenario, on a thread of its own.
+
+use super::message::{
+    Checked, DRAWS_MAX, EPISODES_MAX, Episode, Happened, Opened, ParamInfo, Reply, Request,
+    Summarised,
+};
+use crate::dsl::report::diagnostics;
+use crate::engine::control::agents::Agent;
+use crate::engine::environment::{Environment, EnvironmentOptions};
+use crate::files::{SOURCE_MAX_BYTES, read_file, write};
+use crate::film::{Film, FilmOptions, film};
+use crate::load::{LoadOptions, compile_text_with, load_with};
+use crate::render::Scene;
+use crate::run::{RunOptions, run};
+use crate::scenario::{Bindings, Type, Verdict};
+use crate::scene::of_match;
+use crate::watch::Watcher;
+use crate::{Error, Loaded};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::broadcast;
+use tokio::sync::mpsc::UnboundedReceiver;
+use tokio::sync::mpsc::error::TryRecvError;
+use tokio::sync::oneshot;
+
+/// How long the session waits for a file before it looks at its requests again.
+const WAIT: Duration = Duration::from_millis(20);
+/// An episode without an end is shown up to here.
+const STEPS_MAX: u32 = 3_000;
+
+/// What the session is asked for.
+pub(super) enum Command {
+    /// A page's request.
+    Request(Request),
+    /// Something that is none, and why.
+    Nonsense(String),
+    /// Everything that a new page needs.
+    Join(oneshot::Sender<Vec<Arc<str>>>),
+}
+
+/// The open scenario.
+pub struct Session {
+    source: String,
+    /// The file, if it is one.
+    path: Option<PathBuf>,
+    allow_outside: bool,
+    text: String,
+    /// The last good scenario.
+    loaded: Loaded,
+    params: BTreeMap<String, f64>,
+    seed: u64,
+    episode: u64,
+    agent: Agent,
+    watcher: Watcher,
+    /// The last message of each kind, for pages that come later.
+    opened: Arc<str>,
+    checked: Arc<str>,
+    played: Option<Arc<str>>,
+}
+
+impl Session {
+    /// Opens a scenario by its name in the library or as a file.
+    ///
+    /// # Errors
+    /// Like [`load_with`].
+    pub fn open(source: &std::ffi::OsStr, allow_outside: bool) -> Result<Session, Error> {
+        let loaded = load_with(source, &LoadOptions { allow_outside, ..LoadOptions::default() })?;
+        let path = Path::new(source).is_file().then(|| PathBuf::from(source));
+        let text = loaded.sources.iter().next().map_or("", |(_, file)| &*file.text).to_owned();
+        let name = source.to_string_lossy().into_owned();
+        let watcher = Watcher::new(&loaded.inputs);
+        let nothing: Arc<str> = Arc::from("");
+        let mut session = Session {
+            source: name,
+            path,
+            allow_outside,
+            text,
+            loaded,
+            params: BTreeMap::new(),
+            seed: 0,
+            episode: 0,
+            agent: Agent::Bot,
+            watcher,
+            opened: nothing.clone(),
+            checked: nothing,
+            played: None,
+        };
+        session.opened = said(&session.opening());
+        session.checked = said(&session.checked(&Ok(())));
+        session.played = session.play().ok().map(|reply| said(&reply));
+        Ok(session)
+    }
+
+    /// Serves requests until nobody can send any.
+    pub(super) fn run(
+        mut self,
+        mut inbox: UnboundedReceiver<Command>,
+        pages: &broadcast::Sender<Arc<str>>,
+    ) {
+        loop {
+            match inbox.try_recv() {
+                Ok(Command::Join(answer)) => {
+                    let present = [&self.opened, &self.checked].into_iter().chain(&self.played);
+                    // A page that has gone needs no answer.
+                    let _ = answer.send(present.cloned().collect());
+                }
+                Ok(Command::Request(request)) => self.meet(request, pages),
+                Ok(Command::Nonsense(why)) => {
+                    tell(pages, &Reply::Refused { message: format!("not a request: {why}") });
+                }
+                Err(TryRecvError::Empty) => {
+                    if self.watcher.changed(WAIT) {
+                        self.reload(pages);
+                    }
+                }
+                Err(TryRecvError::Disconnected) => return,
+            }
+        }
+    }
+
+    fn meet(&mut self, request: Request, pages: &broadcast::Sender<Arc<str>>) {
+        let refuse = |message: String| tell(pages, &Reply::Refused { message });
+        match request {
+            Request::Text { text } => self.take(text, pages),
+            Request::Save => match &self.path {
+                Some(path) => match write(path, self.text.as_bytes()) {
+                    Ok(()) => tell(pages, &Reply::Saved),
+                    Err(why) => refuse(why.to_string()),
+                },
+                None => refuse(format!("`{}` is a scenario of the library", self.source)),
+            },
+            Request::Play { seed, episode, agent } => match Agent::from_name(&agent) {
+                Some(agent) => {
+                    (self.seed, self.episode, self.agent) = (seed, episode, agent);
+                    self.show(pages);
+                }
+                None => refuse(format!("no agent `{agent}`")),
+            },
+            Request::Bind { params } => {
+                self.params = params;
+                self.checked = said(&self.checked(&Ok(())));
+                let _ = pages.send(self.checked.clone());
+                self.show(pages);
+            }
+            Request::Cloud { count } => match self.cloud(count.min(DRAWS_MAX)) {
+                Ok(reply) => tell(pages, &reply),
+                Err(why) => refuse(why.to_string()),
+            },
+            Request::Summary { episodes } => match self.summary(episodes.min(EPISODES_MAX)) {
+                Ok(reply) => tell(pages, &reply),
+                Err(why) => refuse(why.to_string()),
+            },
+        }
+    }
+
+    /// Reads the file again.
+    fn reload(&mut self, pages: &broadcast::Sender<Arc<str>>) {
+        let Some(path) = self.path.clone() else { return };
+        let text =
+            read_file(&path, SOURCE_MAX_BYTES).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+        let Some(text) = text else { return };
+        let is_new = text != self.text;
+        self.take(text, pages);
+        if is_new {
+            self.opened = said(&self.opening());
+            let _ = pages.send(self.opened.clone());
+        }
+    }
+
+    /// Takes another text: checks it, and plays it if it is sound. Otherwise the last good one stays.
+    fn take(&mut self, text: String, pages: &broadcast::Sender<Arc<str>>) {
+        let options = LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() };
+        let name = self
+            .path
+            .as_deref()
+            .map_or("studio.pitch".to_owned(), |path| path.to_string_lossy().into_owned());
+        self.text = text;
+        let result = compile_text_with(&self.text, &name, &options).map(|mut loaded| {
+            if loaded.inputs.is_empty() {
+                loaded.inputs.clone_from(&self.loaded.inputs);
+            }
+            self.watcher.watch(&loaded.inputs);
+            self.loaded = loaded;
+        });
+        let is_sound = result.is_ok();
+        self.checked = said(&self.checked(&result));
+        self.opened = said(&self.opening());
+        let _ = pages.send(self.checked.clone());
+        if is_sound {
+            self.show(pages);
+        }
+    }
+
+    /// Plays the episode and shows it.
+    fn show(&mut self, pages: &broadcast::Sender<Arc<str>>) {
+        match self.play() {
+            Ok(reply) => {
+                let played = said(&reply);
+                let _ = pages.send(played.clone());
+                self.played = Some(played);
+            }
+            Err(why) => tell(pages, &Reply::Refused { message: why.to_string() }),
+        }
+    }
+
+    fn opening(&self) -> Reply {
+        Reply::Opened(Opened {
+            source: self.source.clone(),
+            is_file: self.path.is_some(),
+            text: self.text.clone(),
+            agents: Agent::NAMED.iter().map(|(name, _)| *name).collect(),
+        })
+    }
+
+    fn checked(&self, result: &Result<(), Error>) -> Reply {
+        let (problems, fault) = match result {
+            Ok(()) => (diagnostics(&self.loaded.warnings, &self.loaded.sources), None),
+            Err(Error::Compile(failure)) => {
+                (diagnostics(&failure.problems, &failure.sources), None)
+            }
+            Err(other) => (Vec::new(), Some(other.to_string())),
+        };
+        let scenario = &self.loaded.scenario;
+        let values = self.bindings().0;
+        let params = scenario.params.iter().zip(values).map(|(param, value)| ParamInfo {
+            name: param.name.clone(),
+            doc: param.doc.clone(),
+            value,
+            shown: param.show(value),
+            range: param.range,
+            choices: param.choices.clone(),
+            values: param.values.clone(),
+            kind: match param.ty {
+                Type::Bool => "bool",
+                Type::Int => "integer",
+                _ => "number",
+            },
+        });
+        Reply::Checked(Checked {
+            problems,
+            fault,
+            name: scenario.name.clone(),
+            title: scenario.title().to_owned(),
+            params: params.collect(),
+        })
+    }
+
+    /// The parameters' values: those that were set, within their ranges.
+    fn bindings(&self) -> Bindings {
+        let value = |param: &crate::scenario::Param| {
+            let set = self.params.get(&param.name).copied().filter(|value| value.is_finite());
+            match (set, param.range) {
+                (Some(value), Some((low, high))) => value.clamp(low, high),
+                (Some(value), None) => value,
+                (None, _) => param.default,
+            }
+        };
+        Bindings(self.loaded.scenario.params.iter().map(value).collect())
+    }
+
+    fn environment(&self) -> EnvironmentOptions {
+        EnvironmentOptions { bindings: Some(self.bindings()), ..EnvironmentOptions::default() }
+    }
+
+    fn play(&self) -> Result<Reply, Error> {
+        let scenario = &self.loaded.scenario;
+        let is_endless = scenario.endings.list.is_empty() && scenario.start.limit.is_none();
+        let options = FilmOptions {
+            seed: self.seed,
+            episode: self.episode,
+            agent: self.agent,
+            environment: self.environment(),
+            until_step: is_endless.then_some(STEPS_MAX),
+        };
+        let film = film(scenario, &options)?;
+        let events = film.events.iter().map(|(at, event)| happened(&film, *at, event)).collect();
+        let verdict = film.outcome.as_ref().and_then(|outcome| outcome.verdict);
+        let agent = Agent::NAMED.iter().find(|(_, agent)| *agent == self.agent);
+        Ok(Reply::Episode(Box::new(Episode {
+            seed: self.seed,
+            episode: self.episode,
+            agent: agent.map_or("", |(name, _)| name),
+            names: film.names.to_vec(),
+            events,
+            outcome: film.outcome.as_ref().map(|outcome| outcome.label.to_string()),
+            success: verdict.map(|verdict| verdict == Verdict::Success),
+            scenes: film.scenes,
+        })))
+    }
+
+    fn cloud(&self, count: u32) -> Result<Reply, Error> {
+        let mut environment = Environment::new(self.loaded.scenario.clone(), self.environment())
+            .map_err(Error::Environment)?;
+        let (mut starts, mut scene) = (Vec::new(), Scene::default());
+        for episode in 0..u64::from(count) {
+            environment
+                .reset(Some(self.seed), Some(episode))
+                .map_err(|why| Error::Episode(Box::new(why.into())))?;
+            of_match(environment.state(), &mut scene);
+            let [x, y, _] = scene.ball.pos;
+            let players = scene.players.iter().map(|player| player.pos);
+            starts.push(std::iter::once([x, y]).chain(players).collect());
+        }
+        Ok(Reply::Cloud { starts })
+    }
+
+    fn summary(&self, episodes: u32) -> Result<Reply, Error> {
+        let options = RunOptions {
+            episodes: 0..u64::from(episodes),
+            seed: self.seed,
+            agent: self.agent,
+            threads: 1,
+            environment: self.environment(),
+        };
+        let summary = run(&self.loaded.scenario, &options, |_| {})?;
+        Ok(Reply::Summary(Summarised {
+            episodes,
+            outcomes: summary.outcomes.into_iter().map(|(name, _, count)| (name, count)).collect(),
+            mean_return: summary.mean_return,
+            score: summary.score,
+            terms: summary.terms,
+            records: summary.records,
+        }))
+    }
+}
+
+fn happened(film: &Film, at: usize, event: &crate::engine::state::event::Event) -> Happened {
+    let name = match event.qualifier {
+        Some(qualifier) => format!("{} {}", event.kind.name(), qualifier.name()),
+        None => event.kind.name().to_owned(),
+    };
+    Happened {
+        at,
+        name,
+        by: event.by.and_then(|by| film.names.get(by.index()).cloned()),
+        team: event.team.or_else(|| event.by.map(|by| by.team())).map(crate::scenario::Team::name),
+    }
+}
+
+fn said(reply: &Reply) -> Arc<str> {
+    serde_json::to_string(reply).unwrap_or_default().into()
+}
+
+fn tell(pages: &broadcast::Sender<Arc<str>>, reply: &Reply) {
+    // Without a page there is nobody to tell.
+    let _ = pages.send(said(reply));
+}

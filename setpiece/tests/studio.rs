@@ -1,0 +1,281 @@
+//! `setpiece studio`: the real server and its socket.
+#![cfg(unix)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader, Write};
+use std::net::TcpStream;
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use tungstenite::client::IntoClientRequest;
+use tungstenite::{Message, WebSocket};
+
+const SCENARIO: &str = "scenario two {
+    param gap: length = 8m in 3m..15m
+    ball at (10m, 0m)
+    team left { CF at (9m, 0m) }
+    team right { CB at (10m + gap, 0m) }
+    reward near { give 0.1 as \"step\" }
+    end limit 20 steps
+}
+";
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// A running studio, ended with the test.
+struct Studio {
+    child: Child,
+    port: u16,
+    token: String,
+    folder: tempfile::TempDir,
+}
+
+impl Drop for Studio {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Studio {
+    fn open() -> Studio {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("two.pitch"), SCENARIO).unwrap();
+        let mut child = Command::new(env!("CARGO_BIN_EXE_setpiece"))
+            .args(["studio", "two.pitch"])
+            .current_dir(folder.path())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let (port, token) = line
+            .trim()
+            .strip_prefix("open http://127.0.0.1:")
+            .unwrap()
+            .split_once("/?token=")
+            .unwrap();
+        Studio { child, port: port.parse().unwrap(), token: token.to_owned(), folder }
+    }
+
+    fn file(&self) -> PathBuf {
+        self.folder.path().join("two.pitch")
+    }
+
+    /// The status of a plain request with these headers.
+    fn status(&self, path: &str, headers: &str) -> u16 {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        write!(stream, "GET {path} HTTP/1.1\r\n{headers}\r\n").unwrap();
+        let mut line = String::new();
+        BufReader::new(stream).read_line(&mut line).unwrap();
+        line.split(' ').nth(1).unwrap().parse().unwrap()
+    }
+
+    fn tab(&self) -> Tab {
+        let address = format!("ws://127.0.0.1:{}/socket?token={}", self.port, self.token);
+        let stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        let (socket, _) =
+            tungstenite::client(address.into_client_request().unwrap(), stream).unwrap();
+        Tab(socket)
+    }
+}
+
+/// A page's socket.
+struct Tab(WebSocket<TcpStream>);
+
+impl Tab {
+    fn ask(&mut self, request: &Value) {
+        self.0.send(Message::text(request.to_string())).unwrap();
+    }
+
+    /// The next message of a kind.
+    fn hear(&mut self, kind: &str) -> Value {
+        loop {
+            let message = self.0.read().unwrap();
+            let Message::Text(text) = message else { continue };
+            let value: Value = serde_json::from_str(&text).unwrap();
+            if value["type"] == kind {
+                return value;
+            }
+        }
+    }
+}
+
+#[test]
+fn a_page_gets_text_parameters_and_an_episode() {
+    let studio = Studio::open();
+    let mut tab = studio.tab();
+    let opened = tab.hear("opened");
+    assert_eq!((opened["text"].as_str(), &opened["is_file"]), (Some(SCENARIO), &json!(true)));
+    let checked = tab.hear("checked");
+    assert_eq!((&checked["problems"], &checked["name"]), (&json!([]), &json!("two")));
+    assert_eq!(checked["params"][0]["range"], json!([3.0, 15.0]));
+    let episode = tab.hear("episode");
+    assert_eq!(episode["scenes"].as_array().unwrap().len(), 21);
+    assert_eq!(episode["outcome"], "limit");
+    let reward = episode["scenes"][1]["rewards"][0]["value"].as_f64().unwrap();
+    assert!((reward - 0.1).abs() < 1e-6);
+}
+
+#[test]
+fn a_mistake_is_reported_while_the_last_good_text_stays() {
+    let studio = Studio::open();
+    let (mut tab, mut other) = (studio.tab(), studio.tab());
+    tab.hear("episode");
+    other.hear("episode");
+    tab.ask(&json!({"type": "text", "text": SCENARIO.replace("CB at", "CBB at")}));
+    for page in [&mut tab, &mut other] {
+        let checked = page.hear("checked");
+        assert_eq!(checked["problems"][0]["code"], "SP0203", "{checked}");
+        assert_eq!(checked["problems"][0]["labels"][0]["line"], 5);
+        assert_eq!(checked["name"], "two");
+    }
+    tab.ask(&json!({"type": "text", "text": SCENARIO.replace("10m + gap", "30m")}));
+    // The parameter is now of no use, which is a warning.
+    let checked = tab.hear("checked");
+    assert!(checked["problems"].as_array().unwrap().iter().all(|one| one["severity"] == "warning"));
+    let episode = tab.hear("episode");
+    let x = episode["scenes"][0]["players"][1]["pos"][0].as_f64().unwrap();
+    assert!((x - 30.0).abs() < 0.01, "{x}");
+    // Nothing is written before somebody saves.
+    assert_eq!(std::fs::read_to_string(studio.file()).unwrap(), SCENARIO);
+    tab.ask(&json!({"type": "save"}));
+    tab.hear("saved");
+    assert!(std::fs::read_to_string(studio.file()).unwrap().contains("CB at (30m, 0m)"));
+}
+
+#[test]
+fn a_file_saved_elsewhere_shows_its_start() {
+    let studio = Studio::open();
+    let mut tab = studio.tab();
+    tab.hear("episode");
+    std::thread::sleep(Duration::from_millis(50));
+    std::fs::write(studio.file(), SCENARIO.replace("9m, 0m", "5m, 2m")).unwrap();
+    let begin = Instant::now();
+    let episode = tab.hear("episode");
+    assert_eq!(episode["scenes"][0]["players"][0]["pos"], json!([5.0, 2.0]));
+    assert!(begin.elapsed() < PATIENCE / 4, "{:?}", begin.elapsed());
+    assert!(tab.hear("opened")["text"].as_str().unwrap().contains("5m, 2m"));
+}
+
+#[test]
+fn parameters_seeds_clouds_and_summaries_follow_the_page() {
+    let studio = Studio::open();
+    let mut tab = studio.tab();
+    tab.hear("episode");
+    tab.ask(&json!({"type": "bind", "params": {"gap": 12.0}}));
+    assert_eq!(tab.hear("checked")["params"][0]["shown"], "12m");
+    let episode = tab.hear("episode");
+    let x = episode["scenes"][0]["players"][1]["pos"][0].as_f64().unwrap();
+    assert!((x - 22.0).abs() < 0.01, "{x}");
+    // A slider never leaves its range, whatever it says.
+    tab.ask(&json!({"type": "bind", "params": {"gap": 1e9}}));
+    assert_eq!(tab.hear("checked")["params"][0]["value"], 15.0);
+    tab.ask(&json!({"type": "play", "seed": 7, "episode": 3, "agent": "idle"}));
+    let played = tab.hear("episode");
+    while_not(&mut tab, played, |value| value["seed"] == 7 && value["agent"] == "idle");
+    tab.ask(&json!({"type": "cloud", "count": 12}));
+    let cloud = tab.hear("cloud");
+    assert_eq!(cloud["starts"].as_array().unwrap().len(), 12);
+    assert_eq!(cloud["starts"][0].as_array().unwrap().len(), 3);
+    tab.ask(&json!({"type": "summary", "episodes": 9}));
+    let summary = tab.hear("summary");
+    assert_eq!(summary["outcomes"], json!([["limit", 9]]));
+    assert!((summary["mean_return"].as_f64().unwrap() - 2.0).abs() < 1e-6, "{summary}");
+    tab.ask(&json!({"type": "play", "seed": 7, "episode": 3, "agent": "genius"}));
+    assert!(tab.hear("refused")["message"].as_str().unwrap().contains("no agent `genius`"));
+}
+
+/// Reads episodes until one is as wanted.
+fn while_not(tab: &mut Tab, first: Value, wanted: impl Fn(&Value) -> bool) {
+    let mut value = first;
+    while !wanted(&value) {
+        value = tab.hear("episode");
+    }
+}
+
+#[test]
+fn garbage_ends_nothing() {
+    let studio = Studio::open();
+    let mut tab = studio.tab();
+    tab.hear("episode");
+    for garbage in ["", "{", "null", "[1]", r#"{"type":"text"}"#, r#"{"type":"bind","params":3}"#] {
+        tab.0.send(Message::text(garbage)).unwrap();
+        assert!(tab.hear("refused")["message"].as_str().unwrap().starts_with("not a request"));
+    }
+    // Binary data and a message that is too large end that tab alone.
+    let mut binary = studio.tab();
+    binary.0.send(Message::binary(vec![1, 2, 3])).unwrap();
+    while binary.0.read().is_ok() {}
+    let mut large = studio.tab();
+    let _ = large.0.send(Message::text("x".repeat(4 << 20)));
+    while large.0.read().is_ok() {}
+    tab.ask(&json!({"type": "summary", "episodes": 1}));
+    tab.hear("summary");
+}
+
+#[test]
+fn only_its_own_page_is_served() {
+    let studio = Studio::open();
+    let own = format!("Host: 127.0.0.1:{}\r\n", studio.port);
+    let page = format!("/?token={}", studio.token);
+    assert_eq!(studio.status(&page, &own), 200);
+    assert_eq!(studio.status("/studio.js", &own), 200);
+    assert_eq!(studio.status("/", &own), 403);
+    assert_eq!(studio.status("/?token=wrong", &own), 403);
+    assert_eq!(studio.status(&page, "Host: evil.example\r\n"), 403);
+    let foreign = format!("{own}Origin: http://evil.example\r\n");
+    assert_eq!(studio.status(&page, &foreign), 403);
+    assert_eq!(studio.status("/studio.js", &foreign), 403);
+    assert_eq!(studio.status("/etc/passwd", &own), 404);
+    let upgrade = "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n\
+                   Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+    let socket = format!("/socket?token={}", studio.token);
+    assert_eq!(studio.status("/socket?token=wrong", &format!("{own}{upgrade}")), 403);
+    assert_eq!(studio.status(&socket, &format!("{foreign}{upgrade}")), 403);
+}
+
+#[test]
+fn a_tab_that_stops_reading_stops_nothing() {
+    let studio = Studio::open();
+    let silent: Vec<Tab> = (0..9).map(|_| studio.tab()).collect();
+    let mut tab = studio.tab();
+    tab.hear("episode");
+    for episode in 0..150 {
+        tab.ask(&json!({"type": "play", "seed": 1, "episode": episode, "agent": "bot"}));
+    }
+    let first = tab.hear("episode");
+    while_not(&mut tab, first, |value| value["episode"] == 149);
+    drop(silent);
+}
+
+#[test]
+fn an_interrupt_ends_it_with_the_port_free() {
+    let mut studio = Studio::open();
+    let mut tab = studio.tab();
+    tab.hear("episode");
+    let id = studio.child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert!(studio.child.wait().unwrap().success());
+    std::net::TcpListener::bind(("127.0.0.1", studio.port)).unwrap();
+}
+
+#[test]
+fn what_cannot_be_opened_or_served_is_one_clear_error() {
+    let run = |args: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_setpiece")).args(args).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, why) = run(&["studio", "academy_cornr"]);
+    assert!(code == Some(1) && why.contains("SP0005") && why.contains("academy_corner"), "{why}");
+    let taken = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+    let port = taken.local_addr().unwrap().port().to_string();
+    let (code, why) = run(&["studio", "academy_corner", "--port", &port]);
+    assert!(code == Some(1) && why.contains("SP0018") && why.contains("--port"), "{why}");
+}

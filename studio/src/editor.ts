@@ -1,0 +1,129 @@
+// The text, with the reports beside their lines.
+//
+// Whatever checks texts gives it problems through `report`: today the session's compiler, later a
+// language server.
+
+import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
+import { type Diagnostic, lintGutter, setDiagnostics } from "@codemirror/lint";
+import { EditorState, Transaction } from "@codemirror/state";
+import { EditorView, keymap, lineNumbers } from "@codemirror/view";
+import { tags } from "@lezer/highlight";
+import type { Label, Problem } from "./messages";
+
+const WORDS = new Set(
+  ("scenario abstract extends reward behavior formation region ending const fn import param let " +
+    "state record observe ball team left right at ahead behind of by between beyond offset from " +
+    "along facing jitter require with when else on give once as end success failure limit agents " +
+    "rules start mirror do until for repeat times choose interrupt finish if then and or not in " +
+    "each absent remove script kickoff count max min mean sum first last series has completed " +
+    "true false nobody none").split(" "),
+);
+
+const pitch = StreamLanguage.define<{ comment: boolean }>({
+  startState: () => ({ comment: false }),
+  token(stream, state) {
+    if (state.comment || stream.match("/*")) {
+      state.comment = !stream.match(/^.*?\*\//);
+      if (state.comment) stream.skipToEnd();
+      return "comment";
+    }
+    if (stream.match(/^\/\/.*/)) return "comment";
+    if (stream.match(/^"(?:[^"\\]|\\.)*"?/)) return "string";
+    if (stream.match(/^\d+(\.\d+)?([eE][-+]?\d+)?(m\/s|km\/h|ms|m|s|deg|rad|%)?/)) return "number";
+    const word = stream.match(/^[A-Za-z_]\w*/) as RegExpMatchArray | null;
+    if (word) {
+      if (/^(GK|CB|LB|RB|DM|CM|LM|RM|AM|CF)$/.test(word[0])) return "typeName";
+      return WORDS.has(word[0]) ? "keyword" : "variableName";
+    }
+    stream.next();
+    return null;
+  },
+});
+
+const colours = HighlightStyle.define([
+  { tag: tags.keyword, color: "var(--keyword)" },
+  { tag: tags.comment, color: "var(--faint)", fontStyle: "italic" },
+  { tag: tags.string, color: "var(--string)" },
+  { tag: tags.number, color: "var(--number)" },
+  { tag: tags.typeName, color: "var(--role)", fontWeight: "600" },
+]);
+
+export class Editor {
+  private readonly view: EditorView;
+  private quiet = false;
+
+  constructor(parent: HTMLElement, changed: (text: string) => void, save: () => void) {
+    this.view = new EditorView({
+      parent,
+      state: EditorState.create({
+        extensions: [
+          lineNumbers(),
+          history(),
+          pitch,
+          syntaxHighlighting(colours),
+          lintGutter(),
+          EditorView.lineWrapping,
+          keymap.of([
+            { key: "Mod-s", run: () => (save(), true), preventDefault: true },
+            indentWithTab,
+            ...defaultKeymap,
+            ...historyKeymap,
+          ]),
+          EditorView.updateListener.of((update) => {
+            if (update.docChanged && !this.quiet) changed(this.text());
+          }),
+          EditorView.contentAttributes.of({ "aria-label": "Scenario text" }),
+        ],
+      }),
+    });
+  }
+
+  text(): string {
+    return this.view.state.doc.toString();
+  }
+
+  /** Shows a text that somebody else has written; what is alike stays, so that the cursor does. */
+  show(text: string): void {
+    const old = this.text();
+    if (old === text) return;
+    let from = 0;
+    const least = Math.min(old.length, text.length);
+    while (from < least && old[from] === text[from]) from++;
+    let tail = 0;
+    while (tail < least - from && old[old.length - 1 - tail] === text[text.length - 1 - tail]) tail++;
+    this.quiet = true;
+    const insert = text.slice(from, text.length - tail);
+    // Undo takes back what was written here, not what came from elsewhere.
+    const annotations = Transaction.addToHistory.of(false);
+    this.view.dispatch({ changes: { from, to: old.length - tail, insert }, annotations });
+    this.quiet = false;
+  }
+
+  report(problems: Problem[]): void {
+    const shown = problems.map((problem): Diagnostic => {
+      const [from, to] = this.range(problem.labels[0]);
+      const help = problem.help ? `\n${problem.help}` : "";
+      return {
+        from,
+        to,
+        severity: problem.severity === "warning" ? "warning" : "error",
+        message: `${problem.code}: ${problem.message}${help}`,
+      };
+    });
+    this.view.dispatch(setDiagnostics(this.view.state, shown));
+  }
+
+  private range(label: Label | undefined): [number, number] {
+    const doc = this.view.state.doc;
+    const offset = (line: number, column: number): number => {
+      const at = doc.line(Math.min(Math.max(line, 1), doc.lines));
+      // Columns count characters, the editor counts UTF-16 units.
+      const before = [...at.text].slice(0, column - 1).join("").length;
+      return Math.min(at.from + before, at.to);
+    };
+    if (!label) return [0, 0];
+    const from = offset(label.line, label.column);
+    return [from, Math.max(from, offset(label.end_line, label.end_column))];
+  }
+}

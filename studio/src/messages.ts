@@ -1,0 +1,62 @@
+// What the server says and what it is asked for: see setpiece/src/studio/message.rs.
+
+export type Side = "left" | "right";
+export interface Id { team: Side; slot: number }
+
+export interface Player {
+  id: Id;
+  number: number;
+  role: string;
+  pos: [number, number];
+  vel: [number, number];
+  facing: [number, number];
+  posture: string;
+  yellow_cards: number;
+  present: boolean;
+  agent: boolean;
+}
+
+export interface Scene {
+  step: number;
+  ball: { pos: [number, number, number]; owner: Id | null };
+  players: Player[];
+  score: [number, number];
+  clock_s: number;
+  mode: string;
+  rewards: { name: string; value: number }[];
+  placed: boolean;
+}
+
+export interface Label {
+  line: number; column: number; end_line: number; end_column: number; text: string;
+}
+export interface Problem {
+  code: string; severity: string; message: string; help: string | null; labels: Label[];
+}
+export interface Param {
+  name: string; doc: string; value: number; shown: string; range: [number, number] | null;
+  choices: string[]; values: number[]; kind: "bool" | "integer" | "number";
+}
+export interface Happened { at: number; name: string; by: string | null; team: Side | null }
+
+export type Reply =
+  | { type: "opened"; source: string; is_file: boolean; text: string; agents: string[] }
+  | { type: "checked"; problems: Problem[]; fault: string | null; name: string; title: string;
+      params: Param[] }
+  | { type: "episode"; seed: number; episode: number; agent: string; scenes: Scene[];
+      names: string[]; events: Happened[]; outcome: string | null; success: boolean | null }
+  | { type: "cloud"; starts: [number, number][][] }
+  | { type: "summary"; episodes: number; outcomes: [string, number][]; mean_return: number;
+      score: [number, number]; terms: [string, number][]; records: [string, number][] }
+  | { type: "saved" }
+  | { type: "refused"; message: string };
+
+export type Request =
+  | { type: "text"; text: string }
+  | { type: "save" }
+  | { type: "play"; seed: number; episode: number; agent: string }
+  | { type: "bind"; params: Record<string, number> }
+  | { type: "cloud"; count: number }
+  | { type: "summary"; episodes: number };
+
+export type Episode = Extract<Reply, { type: "episode" }>;

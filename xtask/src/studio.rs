@@ -1,0 +1,44 @@
+//! The studio's page: built by npm from `studio/`, kept in `studio/dist`, embedded in the command.
+
+use crate::ci::{root, run};
+use std::path::Path;
+use std::process::Command;
+
+/// The built files.
+const FILES: &[&str] = &["index.html", "studio.css", "studio.js"];
+
+/// Builds the page into `studio/dist`.
+pub(crate) fn build() -> Result<(), String> {
+    build_into("dist")
+}
+
+/// Checks that the committed page is what the sources give. Without npm it can't, and says so.
+pub(crate) fn check() -> Result<(), String> {
+    if Command::new(npm()).arg("--version").output().is_err() {
+        println!("xtask: no npm here: the studio's page is not compared with its sources");
+        return Ok(());
+    }
+    let fresh = root().join("target/studio");
+    build_into("../target/studio")?;
+    for file in FILES {
+        let read = |path: &Path| std::fs::read(path).map_err(|why| format!("{file}: {why}"));
+        if read(&root().join("studio/dist").join(file))? != read(&fresh.join(file))? {
+            return Err(format!(
+                "studio/dist/{file} isn't what the sources give: run `cargo xtask studio`"
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn build_into(folder: &str) -> Result<(), String> {
+    let studio = root().join("studio");
+    let quiet = ["--no-audit", "--no-fund", "--loglevel=error"];
+    run(Command::new(npm()).arg("ci").args(quiet).current_dir(&studio))?;
+    let build = ["run", "--silent", "build", "--", "--logLevel=warn", "--outDir", folder];
+    run(Command::new(npm()).args(build).current_dir(&studio))
+}
+
+fn npm() -> &'static str {
+    if cfg!(windows) { "npm.cmd" } else { "npm" }
+}

@@ -1,8 +1,8 @@
 //! The studio: a page on this machine that shows a scenario's text and its football.
 //!
-//! A [`Session`] holds the scenario on a thread of its own: it compiles, plays and watches the file.
-//! The server ([`serve`]) passes messages between the session and any number of pages. A page that
-//! closes or stops reading stops nothing.
+//! A [`Session`] holds the scenario on a thread of its own: it compiles, plays and watches the
+//! file. The server ([`serve`]) passes messages between the session and any number of pages. A page
+//! that closes or stops reading stops nothing.
 //!
 //! Only this machine can connect, with the token of the printed address: [`guard`] checks each
 //! request.

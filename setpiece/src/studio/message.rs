@@ -54,9 +54,9 @@ pub enum Request {
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum Reply {
     /// A scenario is open.
-    Opened(Opened),
+    Opened(OpenReply),
     /// The text has been checked.
-    Checked(Checked),
+    Checked(CheckReply),
     /// An episode has been played.
     Episode(Box<Episode>),
     /// Many starts.
@@ -65,7 +65,7 @@ pub enum Reply {
         starts: Vec<Vec<[f32; 2]>>,
     },
     /// Many episodes.
-    Summary(Summarised),
+    Summary(SummaryReply),
     /// The file was written.
     Saved,
     /// A request could not be met.
@@ -77,7 +77,7 @@ pub enum Reply {
 
 /// An open scenario.
 #[derive(Clone, Debug, Serialize)]
-pub struct Opened {
+pub struct OpenReply {
     /// The name or path that was asked for.
     pub source: String,
     /// Whether the text can be saved.
@@ -90,7 +90,7 @@ pub struct Opened {
 
 /// The result of a check.
 #[derive(Clone, Debug, Serialize)]
-pub struct Checked {
+pub struct CheckReply {
     /// Errors and warnings.
     pub problems: Vec<Diagnostic>,
     /// What is wrong besides, such as a file that can't be read.
@@ -100,12 +100,12 @@ pub struct Checked {
     /// The first line of its documentation.
     pub title: String,
     /// Its parameters.
-    pub params: Vec<ParamInfo>,
+    pub params: Vec<ParamControl>,
 }
 
 /// A parameter.
 #[derive(Clone, Debug, Serialize)]
-pub struct ParamInfo {
+pub struct ParamControl {
     /// Its name.
     pub name: String,
     /// Its documentation.
@@ -160,7 +160,7 @@ pub struct Happened {
 
 /// The results of many episodes.
 #[derive(Clone, Debug, Serialize)]
-pub struct Summarised {
+pub struct SummaryReply {
     /// How many.
     pub episodes: u32,
     /// How often each ending came, the most frequent first.

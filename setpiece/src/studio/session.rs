@@ -1,12 +1,13 @@
 //! The session: the open scenario, on a thread of its own.
 
 use super::message::{
-    Checked, DRAWS_MAX, EPISODES_MAX, Episode, Happened, Opened, ParamInfo, Reply, Request,
-    Summarised,
+    CheckReply, DRAWS_MAX, EPISODES_MAX, Episode, Happened, OpenReply, ParamControl, Reply,
+    Request, SummaryReply,
 };
 use crate::dsl::report::diagnostics;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{Environment, EnvironmentOptions};
+use crate::engine::state::PlayerId;
 use crate::files::{SOURCE_MAX_BYTES, read_file, write};
 use crate::film::{Film, FilmOptions, film};
 use crate::load::{LoadOptions, compile_text_with, load_with};
@@ -169,7 +170,8 @@ impl Session {
         }
     }
 
-    /// Takes another text: checks it, and plays it if it is sound. Otherwise the last good one stays.
+    /// Takes another text: checks it, and plays it if it is sound. Otherwise the last good one
+    /// stays.
     fn take(&mut self, text: String, pages: &broadcast::Sender<Arc<str>>) {
         let options = LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() };
         let name = self
@@ -206,7 +208,7 @@ impl Session {
     }
 
     fn opening(&self) -> Reply {
-        Reply::Opened(Opened {
+        Reply::Opened(OpenReply {
             source: self.source.clone(),
             is_file: self.path.is_some(),
             text: self.text.clone(),
@@ -224,7 +226,7 @@ impl Session {
         };
         let scenario = &self.loaded.scenario;
         let values = self.bindings().0;
-        let params = scenario.params.iter().zip(values).map(|(param, value)| ParamInfo {
+        let params = scenario.params.iter().zip(values).map(|(param, value)| ParamControl {
             name: param.name.clone(),
             doc: param.doc.clone(),
             value,
@@ -238,7 +240,7 @@ impl Session {
                 _ => "number",
             },
         });
-        Reply::Checked(Checked {
+        Reply::Checked(CheckReply {
             problems,
             fault,
             name: scenario.name.clone(),
@@ -315,7 +317,7 @@ impl Session {
             environment: self.environment(),
         };
         let summary = run(&self.loaded.scenario, &options, |_| {})?;
-        Ok(Reply::Summary(Summarised {
+        Ok(Reply::Summary(SummaryReply {
             episodes,
             outcomes: summary.outcomes.into_iter().map(|(name, _, count)| (name, count)).collect(),
             mean_return: summary.mean_return,
@@ -335,7 +337,7 @@ fn happened(film: &Film, at: usize, event: &crate::engine::state::event::Event) 
         at,
         name,
         by: event.by.and_then(|by| film.names.get(by.index()).cloned()),
-        team: event.team.or_else(|| event.by.map(|by| by.team())).map(crate::scenario::Team::name),
+        team: event.team.or_else(|| event.by.map(PlayerId::team)).map(crate::scenario::Team::name),
     }
 }
 

@@ -12,7 +12,9 @@
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::observe;
+use setpiece::render::{Options, PixelObserver, Pixels, Scene};
 use setpiece::scenario::{Action, Scenario};
+use setpiece::scene::seen_by;
 use std::sync::Arc;
 
 /// The observation that takes most steps to write.
@@ -79,6 +81,26 @@ fn a_step_allocates_nothing_but_what_rapier_does() {
     for name in ["academy_empty_goal", "academy_3_vs_1_with_keeper", "academy_corner"] {
         let steps = steps(name, 20);
         assert!(steps.played > 200 && steps.allocated == 0, "{name}: {steps:?}");
+    }
+}
+
+#[test]
+fn pictures_allocate_nothing() {
+    let scenario = setpiece::load("11_vs_11_stochastic").unwrap().scenario;
+    let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
+    let mut scratch = Scratch::default();
+    for pixels in [Pixels::SMALL, Pixels::SMALL_GRAY] {
+        let mut observer = PixelObserver::new(pixels, Options::default()).unwrap();
+        let (mut scene, mut out) = (Scene::default(), vec![0; pixels.len()]);
+        environment.reset(Some(1), None).unwrap();
+        for step in 0..600 {
+            environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
+            let counted = allocation_counter::measure(|| {
+                seen_by(environment.state(), 0, &mut scene);
+                observer.observe(&scene, &mut out).unwrap();
+            });
+            assert!(step < 100 || counted.count_total == 0, "{step}: {counted:?}");
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use setpiece::engine::observe::ObserveError;
 use setpiece::render::{
     Camera, Options, PitchRegion, PixelObserver, Pixels, RenderError, Renderer, Scene,
 };
-use setpiece::scene::{SceneWriter, seen_by};
+use setpiece::scene::{SceneWriter, of_match, seen_by};
 
 /// Writes observations in pixels.
 pub(crate) struct PixelEye {
@@ -75,13 +75,14 @@ impl Frames {
         scene
     }
 
-    /// The current frame: uint8 `(height, width, 3)`.
+    /// The current frame: uint8 `(height, width, 3)`. Without `news` it depends on the state alone.
     pub(crate) fn frame<'py>(
         &mut self,
         py: Python<'py>,
         engine: &Engine,
         (width, height): (usize, usize),
         camera: &str,
+        news: bool,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let camera = camera_of(py, camera)?;
         let fits = |(held, renderer): &(Camera, Renderer)| {
@@ -98,7 +99,11 @@ impl Frames {
         if let (Some((_, renderer)), Ok(pixels)) = (&mut self.renderer, guard.as_slice_mut()) {
             let (writer, scene) = (&self.writer, &mut self.scene);
             let drawn = py.detach(|| {
-                writer.write(engine, scene);
+                if news {
+                    writer.write(engine, scene);
+                } else {
+                    of_match(engine.state(), scene);
+                }
                 renderer.render_rgb(scene, pixels)
             });
             drawn.map_err(|why| errors::parameter(py, "render_size", &why.to_string()))?;

@@ -48,9 +48,17 @@ class Terms(BaseCallback):
         self.ended.clear()
 
 
+def seen(args: argparse.Namespace) -> dict[str, Any]:
+    """Returns what the agents see: pictures in stacks of four, so that motion shows."""
+    pictures = args.observation.startswith("pixels")
+    return {"observation": args.observation, "stack": 4 if pictures else 1}
+
+
 def evaluate(model: Any, args: argparse.Namespace, episodes: int = 100) -> float:
     """Returns the mean score of the likeliest actions; every environment plays one episode."""
-    envs = setpiece.sb3.make_vec(args.scenario, episodes, seed=1_000_000, threads=args.threads)
+    envs = setpiece.sb3.make_vec(
+        args.scenario, episodes, seed=1_000_000, threads=args.threads, **seen(args)
+    )
     observation: Any = envs.reset()
     score, playing = np.zeros(episodes), np.ones(episodes, bool)
     while playing.any():
@@ -73,6 +81,11 @@ def main(argv: list[str] | None = None) -> float:
     parser.add_argument(
         "--rewards", help="rewards instead of the scenario's own: scoring,checkpoints"
     )
+    parser.add_argument(
+        "--observation",
+        default="simple115v2",
+        help="simple115v2, or pixels_gray for a convolutional network",
+    )
     parser.add_argument("--steps", type=int, default=1_000_000)
     parser.add_argument("--envs", type=int, default=32)
     parser.add_argument("--threads", type=int, default=2, help="of the engine and of PyTorch")
@@ -91,12 +104,18 @@ def main(argv: list[str] | None = None) -> float:
         algorithm = MaskablePPO
     envs = VecMonitor(
         setpiece.sb3.make_vec(
-            args.scenario, args.envs, seed=args.seed, threads=args.threads, rewards=args.rewards
+            args.scenario,
+            args.envs,
+            seed=args.seed,
+            threads=args.threads,
+            rewards=args.rewards,
+            **seen(args),
         )
     )
+    pictures = args.observation.startswith("pixels")
     # The same settings as `train_cleanrl.py`.
     model = algorithm(
-        "MlpPolicy",
+        "CnnPolicy" if pictures else "MlpPolicy",
         envs,
         n_steps=64,
         batch_size=16 * args.envs,
@@ -104,7 +123,7 @@ def main(argv: list[str] | None = None) -> float:
         gamma=0.993,
         ent_coef=0.01,
         learning_rate=lambda left: args.lr * left,
-        policy_kwargs={"net_arch": [128, 128]},
+        policy_kwargs={} if pictures else {"net_arch": [128, 128]},
         seed=args.seed,
         device="cpu",
     )

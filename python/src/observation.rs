@@ -1,7 +1,6 @@
 //! Observations: the engine's writers on `NumPy` arrays.
 
 use crate::errors;
-use crate::picture::PixelEye;
 use numpy::ndarray::arr0;
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods, ToPyArray};
 use pyo3::intern;
@@ -9,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use setpiece::engine::environment::Environment as Engine;
 use setpiece::engine::observe::{Floats, ObserveError, Raw, RawTeam, raw, smm};
+use setpiece::pixels::PixelEye;
 use setpiece::render::Pixels;
 
 /// Planes of a super mini map.

@@ -1,40 +1,11 @@
-//! Pictures: observations in pixels, and frames for people.
+//! Frames for people.
 
 use crate::errors;
 use numpy::{PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use setpiece::engine::environment::Environment as Engine;
-use setpiece::engine::observe::ObserveError;
-use setpiece::render::{
-    Camera, Options, PitchRegion, PixelObserver, Pixels, RenderError, Renderer, Scene,
-};
-use setpiece::scene::{SceneWriter, of_match, seen_by};
-
-/// Writes observations in pixels.
-pub(crate) struct PixelEye {
-    observer: PixelObserver,
-    scene: Scene,
-}
-
-impl PixelEye {
-    /// Prepares observations of a shape.
-    pub(crate) fn new(pixels: Pixels) -> Result<PixelEye, RenderError> {
-        let observer = PixelObserver::new(pixels, Options::default())?;
-        Ok(PixelEye { observer, scene: Scene::default() })
-    }
-
-    /// Writes what an agent sees.
-    pub(crate) fn write(
-        &mut self,
-        engine: &Engine,
-        agent: usize,
-        out: &mut [u8],
-    ) -> Result<(), ObserveError> {
-        seen_by(engine.state(), agent, &mut self.scene);
-        let (found, expected) = (out.len(), self.observer.pixels().len());
-        self.observer.observe(&self.scene, out).map_err(|_| ObserveError::Size { expected, found })
-    }
-}
+use setpiece::render::{Camera, Options, PitchRegion, Renderer, Scene};
+use setpiece::scene::{SceneWriter, of_match};
 
 /// The camera of a name.
 pub(crate) fn camera_of(py: Python<'_>, name: &str) -> PyResult<Camera> {

@@ -8,12 +8,14 @@ pub use once::{ONCE_NAMES, once};
 pub use scaling::scaling;
 
 use crate::Error;
+use crate::pixels::PixelEye;
 use cpu_time::ProcessTime;
 use setpiece_engine::batch::{Batch, EpisodeError, Policy, ReadyMade};
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece_engine::laps::{Laps, Phase};
 use setpiece_engine::observe::{Floats, SMM_HEIGHT, SMM_WIDTH, smm, smm_size};
+use setpiece_render::Pixels;
 use setpiece_scenario::Scenario;
 use setpiece_scenario::vocabulary::Action;
 use std::hint::black_box;
@@ -48,6 +50,21 @@ pub enum BenchObservation {
     Simple115v2,
     /// GRF's super mini map, 72 by 96 by 4 bytes.
     Smm,
+    /// A picture, 72 by 96 by 3 bytes.
+    Pixels,
+    /// A picture in gray, 72 by 96 bytes.
+    PixelsGray,
+}
+
+impl BenchObservation {
+    /// The shape of a picture; none for other observations.
+    fn pixels(self) -> Option<Pixels> {
+        match self {
+            BenchObservation::Pixels => Some(Pixels::SMALL),
+            BenchObservation::PixelsGray => Some(Pixels::SMALL_GRAY),
+            _ => None,
+        }
+    }
 }
 
 /// The result of a measurement.
@@ -178,6 +195,7 @@ struct BenchLane {
     observation: BenchObservation,
     floats: Vec<f32>,
     map: Vec<u8>,
+    eye: Option<PixelEye>,
     steps: u64,
     resets: u64,
     failed: Option<Box<EpisodeError>>,
@@ -190,6 +208,8 @@ fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<BenchLa
         BenchObservation::None => (0, 0),
         BenchObservation::Simple115v2 => (prototype.layout(Floats::Simple115v2).len(), 0),
         BenchObservation::Smm => (0, smm_size(SMM_WIDTH, SMM_HEIGHT)),
+        BenchObservation::Pixels => (0, Pixels::SMALL.len()),
+        BenchObservation::PixelsGray => (0, Pixels::SMALL_GRAY.len()),
     };
     let lane = |at: usize| BenchLane {
         environment: prototype.clone(),
@@ -199,6 +219,8 @@ fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<BenchLa
         observation: options.observation,
         floats: vec![0.0; floats],
         map: vec![0; map],
+        // The sides of small pictures can always be drawn.
+        eye: options.observation.pixels().and_then(|pixels| PixelEye::new(pixels).ok()),
         steps: 0,
         resets: 0,
         failed: None,
@@ -236,6 +258,10 @@ impl BenchLane {
             // Buffers have the sizes of their observations.
             let _ = match self.observation {
                 BenchObservation::None => Ok(()),
+                BenchObservation::Pixels | BenchObservation::PixelsGray => match &mut self.eye {
+                    Some(eye) => eye.write(&self.environment, agent, &mut self.map),
+                    None => Ok(()),
+                },
                 BenchObservation::Simple115v2 => {
                     self.environment.observe(Floats::Simple115v2, agent, &mut self.floats)
                 }

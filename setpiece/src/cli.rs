@@ -7,6 +7,7 @@ mod check;
 mod doc;
 mod explain;
 mod fmt;
+mod live;
 mod out;
 mod play;
 mod playing;
@@ -112,6 +113,8 @@ enum Command {
   setpiece run corner.pitch --agent run_and_shoot --episodes 100 --seed 1
   setpiece run 11_vs_11_stochastic --set difficulty=0.95 --reward scoring --reward checkpoints
   setpiece run corner.pitch --watch
+  setpiece run corner.pitch --live
+  setpiece run corner.pitch --episodes 100 --plot curves.svg
   setpiece run 11_vs_11_stochastic --from half_time.pitchs")]
     Run(play::RunArgs),
     /// Draw an episode: a video, a sheet of frames seen from above, or one moment

@@ -8,6 +8,7 @@
 pub mod bench;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod curves;
 pub mod doc;
 pub mod drawing;
 pub mod error;
@@ -17,6 +18,9 @@ pub mod film;
 pub mod live;
 pub mod load;
 pub mod picture;
+pub mod pixels;
+#[cfg(feature = "render")]
+pub mod plot;
 pub mod probe;
 pub mod replay;
 pub mod run;

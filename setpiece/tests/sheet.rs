@@ -353,3 +353,39 @@ fn a_moment_is_drawn_for_print_and_from_the_stand() {
     let picture = Pixmap::load_png(folder.path().join("stand.png")).unwrap();
     assert_eq!((picture.width(), picture.height()), (320, 180));
 }
+
+#[test]
+fn a_run_draws_what_its_terms_pay_over_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |args: &[&str]| {
+        let args = [&["run", "academy_empty_goal_close", "-n", "5"], args].concat();
+        setpiece(folder.path(), &args)
+    };
+    let output = run(&["--agent", "run_and_shoot", "--plot", "a.svg", "--format", "json"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let picture = std::fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    let mean = format!("{:+.3} return", summary["mean_return"].as_f64().unwrap());
+    assert!(picture.contains(&mean), "no `{mean}` in {picture}");
+    assert!(run(&["--plot", "a.png"]).status.success());
+    assert!(Pixmap::load_png(folder.path().join("a.png")).is_ok());
+    let output = run(&["--plot", "a.pdf"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("name it `a.svg`"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn an_episode_is_shown_live_step_by_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = "scenario short { ball at centre  team left { CM at (-1m, 0m) }
+        reward pace { give 0.5 as \"step\" }  end limit 3 steps }";
+    std::fs::write(folder.path().join("short.pitch"), scenario).unwrap();
+    let begin = std::time::Instant::now();
+    let output = setpiece(folder.path(), &["run", "short.pitch", "-n", "1", "--live"]);
+    let shown = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    // The start and three steps, a tenth of a second apart.
+    assert_eq!(shown.matches('┌').count(), 4, "{shown}");
+    assert!(shown.contains("+1.500 pace/step") && shown.contains("0 : 0  limit"), "{shown}");
+    assert!(begin.elapsed().as_secs_f64() >= 0.3);
+}

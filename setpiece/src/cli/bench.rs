@@ -52,11 +52,16 @@ pub(crate) struct BenchArgs {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
 enum ObservationName {
     /// GRF's 115 floats
     Simple115v2,
     /// GRF's super mini map, 72 by 96 by 4 bytes
     Smm,
+    /// A picture from the stand, 72 by 96 by 3 bytes
+    Pixels,
+    /// The same in gray, 72 by 96 bytes
+    PixelsGray,
     /// Nothing
     None,
 }
@@ -157,6 +162,8 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
                     ObservationName::None => BenchObservation::None,
                     ObservationName::Simple115v2 => BenchObservation::Simple115v2,
                     ObservationName::Smm => BenchObservation::Smm,
+                    ObservationName::Pixels => BenchObservation::Pixels,
+                    ObservationName::PixelsGray => BenchObservation::PixelsGray,
                 },
                 seed: 0,
                 environment: EnvironmentOptions::default(),

@@ -60,6 +60,14 @@ impl Out {
         }
     }
 
+    /// Goes up this many lines, to print over them. No-op where the output isn't a terminal.
+    pub(crate) fn up(&self, lines: usize) {
+        let mut stdout = std::io::stdout();
+        if stdout.is_terminal() && write!(stdout, "\x1b[{lines}A").is_err() {
+            self.failed.set(true);
+        }
+    }
+
     /// Whether something could not be printed.
     pub(crate) fn failed(&self) -> bool {
         self.failed.get()

@@ -1,15 +1,30 @@
 //! `setpiece run`: plays episodes of a scenario, once or whenever its file changes.
 
+use super::live::live;
 use super::out::{Out, StyledText};
 use super::{FAULT, FINE, playing::Playing, summary};
+#[cfg(feature = "render")]
+use crate::curves::curves;
+#[cfg(feature = "render")]
+use crate::dsl::problem::Code;
 use crate::engine::environment::EnvironmentOptions;
+#[cfg(feature = "render")]
+use crate::error::FileFault;
+#[cfg(feature = "render")]
+use crate::files::{refuse_overwriting, write};
 use crate::live::Live;
+#[cfg(feature = "render")]
+use crate::plot;
 use crate::run::{RunOptions, Summary, first_error, run};
 use crate::scenario::Scenario;
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
 use indicatif::{ProgressBar, ProgressStyle};
+#[cfg(feature = "render")]
+use std::ffi::OsStr;
 use std::io::IsTerminal;
+#[cfg(feature = "render")]
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -34,6 +49,13 @@ pub(crate) struct RunArgs {
     /// The output format
     #[arg(long, value_enum, default_value_t = RunFormat::Text)]
     format: RunFormat,
+    /// Show the episodes in the terminal, ten steps a second, instead of a summary
+    #[arg(long, conflicts_with_all = ["format", "watch", "threads"])]
+    live: bool,
+    /// Also draw the mean return of every term over the time of an episode, as .svg or .png
+    #[cfg(feature = "render")]
+    #[arg(long, value_name = "OUT", conflicts_with_all = ["watch", "live"])]
+    plot: Option<PathBuf>,
     /// Run again whenever the file, or one it imports, changes
     #[arg(short, long, conflicts_with = "format")]
     watch: bool,
@@ -55,6 +77,15 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let loaded = crate::load_with(&args.playing.scenario, &out.loading())?;
     out.warnings(&loaded);
     let options = options(args, &loaded)?;
+    if args.live {
+        return live(&loaded, &options, out);
+    }
+    #[cfg(feature = "render")]
+    if let Some(path) = &args.plot
+        && !plot(path, &loaded, &options, out)?
+    {
+        return Ok(FAULT);
+    }
     let summary = with_progress(&loaded, &options)?;
     if let Some(error) =
         first_error(&summary).filter(|_| summary.episodes.iter().all(Result::is_err))
@@ -70,6 +101,31 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
         return Ok(FAULT);
     }
     Ok(FINE)
+}
+
+/// Writes the curves; false, with a report, if the file's name asks for something else.
+#[cfg(feature = "render")]
+fn plot(path: &Path, loaded: &Loaded, options: &RunOptions, out: &Out) -> Result<bool, Error> {
+    refuse_overwriting(path, &loaded.inputs)?;
+    let name = &loaded.scenario.name;
+    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+    let picture = match ending.as_deref().and_then(OsStr::to_str) {
+        Some("svg") => plot::svg(name, &curves(&loaded.scenario, options)?).into_bytes(),
+        Some("png") => {
+            let curves = curves(&loaded.scenario, options)?;
+            let too_large = || FileFault::Write("the picture is too large".to_owned());
+            plot::png(name, &curves)
+                .ok_or_else(|| Error::File { path: path.to_owned(), why: too_large() })?
+        }
+        _ => {
+            let message = format!("curves can't be drawn as `{}`", path.display());
+            let help = format!("name it `{}`", path.with_extension("svg").display());
+            out.fault(&Code::NoPicture.to_string(), &message, Some(&help));
+            return Ok(false);
+        }
+    };
+    write(path, picture)?;
+    Ok(true)
 }
 
 fn options(args: &RunArgs, loaded: &Loaded) -> Result<RunOptions, Error> {

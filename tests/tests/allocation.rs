@@ -12,9 +12,9 @@
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::observe;
-use setpiece::render::{Options, PixelObserver, Pixels, Scene};
+use setpiece::pixels::PixelEye;
+use setpiece::render::Pixels;
 use setpiece::scenario::{Action, Scenario};
-use setpiece::scene::seen_by;
 use std::sync::Arc;
 
 /// The observation that takes most steps to write.
@@ -90,14 +90,12 @@ fn pictures_allocate_nothing() {
     let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
     let mut scratch = Scratch::default();
     for pixels in [Pixels::SMALL, Pixels::SMALL_GRAY] {
-        let mut observer = PixelObserver::new(pixels, Options::default()).unwrap();
-        let (mut scene, mut out) = (Scene::default(), vec![0; pixels.len()]);
+        let (mut eye, mut out) = (PixelEye::new(pixels).unwrap(), vec![0; pixels.len()]);
         environment.reset(Some(1), None).unwrap();
         for step in 0..600 {
             environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
             let counted = allocation_counter::measure(|| {
-                seen_by(environment.state(), 0, &mut scene);
-                observer.observe(&scene, &mut out).unwrap();
+                eye.write(&environment, 0, &mut out).unwrap();
             });
             assert!(step < 100 || counted.count_total == 0, "{step}: {counted:?}");
         }

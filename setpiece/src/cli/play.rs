@@ -108,7 +108,7 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
 fn plot(path: &Path, loaded: &Loaded, options: &RunOptions, out: &Out) -> Result<bool, Error> {
     refuse_overwriting(path, &loaded.inputs)?;
     let name = &loaded.scenario.name;
-    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+    let ending = path.extension().map(OsStr::to_ascii_lowercase);
     let picture = match ending.as_deref().and_then(OsStr::to_str) {
         Some("svg") => plot::svg(name, &curves(&loaded.scenario, options)?).into_bytes(),
         Some("png") => {

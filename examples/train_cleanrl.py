@@ -2,6 +2,8 @@
 
     python examples/train_cleanrl.py --scenario academy_empty_goal_close --steps 200000 --out runs/close
 
+With `--observation pixels_gray --stack 4` the policy sees pictures, through three convolutions.
+
 It needs `torch` and `tensorboard`. The log in `--out` has the mean score (goals of the left team
 minus those of the right per episode), the mean return and the return of every reward term, over the
 episodes that ended since the last entry.
@@ -37,28 +39,60 @@ HIDDEN = 128
 
 
 class Policy(nn.Module):
-    """Two networks over the observation: one rates actions, the other predicts the return."""
+    """Two networks over the observation: one rates actions, the other predicts the return.
 
-    def __init__(self, inputs: int, actions: int) -> None:
+    Pictures first pass through convolutions, which both networks share.
+    """
+
+    def __init__(self, shape: tuple[int, ...], actions: int) -> None:
         super().__init__()
+        self.eye = Eye(shape) if len(shape) == 3 else nn.Flatten()
+        inputs = HIDDEN if len(shape) == 3 else int(np.prod(shape))
         self.actor = nn.Sequential(*_body(inputs), _layer(HIDDEN, actions, 0.01))
         self.critic = nn.Sequential(*_body(inputs), _layer(HIDDEN, 1, 1.0))
 
-    def actions(self, observations: Tensor, masks: Tensor | None) -> Categorical:
-        """Returns the distribution of actions; masked ones are never drawn."""
-        logits = self.actor(observations)
-        return Categorical(logits=logits if masks is None else logits.masked_fill(masks == 0, -1e9))
+    def forward(
+        self, observations: Tensor, masks: Tensor | None = None
+    ) -> tuple[Categorical, Tensor]:
+        """Returns the distributions of actions and the values; masked actions are never drawn."""
+        seen = self.eye(observations)
+        logits = self.actor(seen)
+        if masks is not None:
+            logits = logits.masked_fill(masks == 0, -1e9)
+        return Categorical(logits=logits), self.critic(seen).squeeze(-1)
 
-    def forward(self, observations: Tensor) -> Tensor:
-        """Returns the values."""
-        values: Tensor = self.critic(observations).squeeze(-1)
-        return values
+
+class Eye(nn.Module):
+    """Turns pictures, uint8 `(batch, height, width, channels)`, into `HIDDEN` features."""
+
+    def __init__(self, shape: tuple[int, ...]) -> None:
+        super().__init__()
+        height, width, channels = shape
+        self.layers = nn.Sequential(
+            _scaled(nn.Conv2d(channels, 16, 8, stride=4)),
+            nn.ReLU(),
+            _scaled(nn.Conv2d(16, 32, 4, stride=2)),
+            nn.ReLU(),
+            _scaled(nn.Conv2d(32, 32, 3)),
+            nn.ReLU(),
+            nn.Flatten(),
+        )
+        features = self.layers(torch.zeros(1, channels, height, width)).shape[1]
+        self.layers.append(_layer(features, HIDDEN)).append(nn.ReLU())
+
+    def forward(self, pictures: Tensor) -> Tensor:
+        """Returns the features."""
+        features: Tensor = self.layers(pictures.permute(0, 3, 1, 2).float() / 255)
+        return features
 
 
-def _layer(inputs: int, outputs: int, gain: float = 2**0.5) -> nn.Linear:
-    layer = nn.Linear(inputs, outputs)
+def _layer(inputs: int, outputs: int, gain: float = 2**0.5) -> nn.Module:
+    return _scaled(nn.Linear(inputs, outputs), gain)
+
+
+def _scaled(layer: nn.Linear | nn.Conv2d, gain: float = 2**0.5) -> nn.Module:
     nn.init.orthogonal_(layer.weight, gain)
-    nn.init.zeros_(layer.bias)
+    nn.init.zeros_(layer.bias)  # type: ignore[arg-type]
     return layer
 
 
@@ -90,23 +124,34 @@ class Episodes:
         self.__init__()  # type: ignore[misc]
 
 
+def environments(
+    args: argparse.Namespace, number: int, **others: Any
+) -> setpiece.FootballVectorEnv:
+    """Makes environments of the scenario and of what the policy sees."""
+    return setpiece.make_vec(
+        args.scenario,
+        number,
+        threads=args.threads,
+        autoreset_mode="same_step",
+        observation=args.observation,
+        stack=args.stack,
+        **others,
+    )
+
+
 def train(args: argparse.Namespace) -> Policy:
     """Trains a policy for `args.steps` steps of all environments together."""
     torch.manual_seed(args.seed)
-    envs = setpiece.make_vec(
-        args.scenario,
-        args.envs,
-        threads=args.threads,
-        autoreset_mode="same_step",
-        rewards=args.rewards,
-        seed=args.seed,
-    )
+    envs = environments(args, args.envs, rewards=args.rewards, seed=args.seed)
     space = envs.single_observation_space
-    policy = Policy(int(np.prod(space.shape)), int(envs.single_action_space.n))
+    policy = Policy(space.shape, int(envs.single_action_space.n))
     optimizer = torch.optim.Adam(policy.parameters(), lr=args.lr, eps=1e-5)
     writer = SummaryWriter(args.out)
     rows = (STEPS_OF_ENV, args.envs)
-    observations = torch.zeros(*rows, int(np.prod(space.shape)))
+    pictures = space.dtype == np.uint8
+    observations = torch.zeros(
+        *rows, *space.shape, dtype=torch.uint8 if pictures else torch.float32
+    )
     masks = (
         torch.ones(*rows, int(envs.single_action_space.n), dtype=torch.int8) if args.masks else None
     )
@@ -119,14 +164,13 @@ def train(args: argparse.Namespace) -> Policy:
     for update in range(updates):
         optimizer.param_groups[0]["lr"] = args.lr * (1 - update / updates)
         for at in range(STEPS_OF_ENV):
-            observations[at] = torch.from_numpy(observation).flatten(1)
+            observations[at] = torch.from_numpy(observation)
             if masks is not None:
                 masks[at] = torch.from_numpy(infos["action_mask"])
             with torch.no_grad():
-                drawn = policy.actions(observations[at], None if masks is None else masks[at])
+                drawn, values[at] = policy(observations[at], None if masks is None else masks[at])
                 actions[at] = drawn.sample()
                 log_probs[at] = drawn.log_prob(actions[at])
-                values[at] = policy(observations[at])
             observation, reward, terminated, truncated, infos = envs.step(actions[at].numpy())
             rewards[at] = torch.from_numpy(reward)
             over = terminated | truncated
@@ -138,10 +182,10 @@ def train(args: argparse.Namespace) -> Policy:
             following[at] = 0
             for one in np.flatnonzero(truncated & ~terminated):
                 with torch.no_grad():
-                    last = torch.from_numpy(infos["final_obs"][one]).flatten().float()
-                    following[at, one] = policy(last[None])[0]
+                    last = torch.from_numpy(infos["final_obs"][one])
+                    following[at, one] = policy(last[None])[1][0]
         with torch.no_grad():
-            after = policy(torch.from_numpy(observation).flatten(1).float())
+            _, after = policy(torch.from_numpy(observation))
         advantages = torch.zeros(rows)
         advantage = torch.zeros(args.envs)
         for at in reversed(range(STEPS_OF_ENV)):
@@ -157,12 +201,12 @@ def train(args: argparse.Namespace) -> Policy:
         for _ in range(EPOCHS):
             for rows_of in torch.randperm(STEPS_OF_ENV * args.envs).chunk(MINIBATCHES):
                 seen, did, was, gained, foreseen = (part[rows_of] for part in flat)
-                drawn = policy.actions(seen, None if flat_masks is None else flat_masks[rows_of])
+                drawn, now = policy(seen, None if flat_masks is None else flat_masks[rows_of])
                 ratio = (drawn.log_prob(did) - was).exp()
                 gained = (gained - gained.mean()) / (gained.std() + 1e-8)
                 loss = (
                     -torch.min(gained * ratio, gained * ratio.clamp(1 - CLIP, 1 + CLIP)).mean()
-                    + VALUE * 0.5 * (policy(seen) - foreseen).square().mean()
+                    + VALUE * 0.5 * (now - foreseen).square().mean()
                     - ENTROPY * drawn.entropy().mean()
                 )
                 optimizer.zero_grad()
@@ -185,17 +229,14 @@ def evaluate(policy: Policy, args: argparse.Namespace, episodes: int = 100) -> f
     Environment k plays seed 1000000 + k, once. Taking the first episodes to end would favour short
     ones.
     """
-    envs = setpiece.make_vec(
-        args.scenario, episodes, threads=args.threads, autoreset_mode="same_step"
-    )
+    envs = environments(args, episodes)
     observation, infos = envs.reset(seed=1_000_000)
     score, playing = np.zeros(episodes), np.ones(episodes, bool)
     while playing.any():
         with torch.no_grad():
             masks = torch.from_numpy(infos["action_mask"]) if args.masks else None
-            actions = policy.actions(
-                torch.from_numpy(observation).flatten(1).float(), masks
-            ).logits.argmax(-1)
+            drawn, _ = policy(torch.from_numpy(observation), masks)
+            actions = drawn.logits.argmax(-1)
         observation, _, terminated, truncated, infos = envs.step(actions.numpy())
         over = (terminated | truncated) & playing
         if over.any():
@@ -212,6 +253,12 @@ def main(argv: list[str] | None = None) -> float:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--scenario", default="academy_empty_goal_close", help="a name or a file")
+    parser.add_argument(
+        "--observation",
+        default="simple115v2",
+        help="of numbers, or `pixels`, `pixels_gray`, `smm`",
+    )
+    parser.add_argument("--stack", type=int, default=1, help="observations that are seen at once")
     parser.add_argument(
         "--rewards", help="rewards instead of the scenario's own: scoring,checkpoints"
     )

@@ -18,7 +18,6 @@ from setpiece._callbacks import (
 )
 from setpiece._casting import behaviors, revivable
 from setpiece._opponents import Opponent, native_action_set
-from setpiece._optional import need
 from setpiece._options import ParamValue, check_flag, check_number, check_params
 from setpiece._seats import Seats
 from setpiece._spaces import (
@@ -30,6 +29,7 @@ from setpiece._spaces import (
     check_size,
     check_stack,
 )
+from setpiece._window import pygame_ce
 from setpiece._words import check_word
 
 RENDER_MODES = ("ansi", "rgb_array", "human")
@@ -120,7 +120,7 @@ class EnvOptions:
         if render_mode is not None:
             check_word("render_mode", render_mode, RENDER_MODES)
         if render_mode == "human":
-            need("pygame", "human", '`render_mode="human"`')
+            pygame_ce('`render_mode="human"`')
         reward_names, reward_functions = read_rewards(given("rewards"))
         ends = read_ends(given("ends"))
         observation = check_observation(given("observation", "simple115v2"))

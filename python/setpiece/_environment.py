@@ -25,6 +25,7 @@ from setpiece._options import (
     NUMBER_MAX,
     ParamValue,
     ResetOptions,
+    check_flag,
     check_number,
     check_path,
     check_snapshot,
@@ -571,12 +572,18 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             return self._native.moments()
 
     def picture(
-        self, size: tuple[int, int] | None = None, camera: str | None = None
+        self,
+        size: tuple[int, int] | None = None,
+        camera: str | None = None,
+        *,
+        news: bool = True,
     ) -> NDArray[np.uint8]:
         """Returns a picture of the match for people, uint8 `(height, width, 3)`.
 
         - `size`: width and height, each at most 4096; None: the `render_size`.
         - `camera`: `"broadcast"` or `"above"`; None: the environment's `camera`.
+        - `news`: whether a banner shows what has just happened (a goal, a card). Without it the
+          picture depends on the state alone: a restored snapshot gives the same one.
 
         It needs no `render_mode`. Raises `ResetNeeded` before the first episode.
 
@@ -594,7 +601,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 raise gymnasium.error.ResetNeeded(
                     "call `reset` before `render`: there is nothing to be seen yet"
                 )
-            return self._native.frame(size, camera)
+            return self._native.frame(size, camera, check_flag("news", news))
 
     def __repr__(self) -> str:
         agents = ", ".join(self.agents)

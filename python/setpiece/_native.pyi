@@ -24,6 +24,7 @@ __all__ = [
     "EpisodeKey",
     "LibraryEntry",
     "Live",
+    "Moment",
     "Param",
     "RecordedAct",
     "RecordedSteer",
@@ -36,6 +37,8 @@ __all__ = [
     "library",
     "load",
     "load_cast",
+    "moments_video",
+    "replay_video",
     "restore",
     "run_command",
     "write",
@@ -223,7 +226,7 @@ class Environment:
     def played(self) -> dict[str, int]: ...
     def action_mask(self) -> NDArray[np.int8]: ...
     def drawing(self) -> str: ...
-    def frame(self, size: tuple[int, int], camera: str) -> NDArray[np.uint8]: ...
+    def frame(self, size: tuple[int, int], camera: str, news: bool = True) -> NDArray[np.uint8]: ...
     def moments(self) -> list[Moment]: ...
 
 @final

@@ -30,7 +30,7 @@ from setpiece._seats import Seats
 from setpiece._source import Source
 from setpiece._spaces import Layout, action_space, observation_layout, observation_space
 from setpiece._turn import Turn, one_thread
-from setpiece._window import Window, mosaic
+from setpiece._window import Window, mosaic, tile_size
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -241,7 +241,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def render(self) -> tuple[str, ...] | tuple[NDArray[np.uint8], ...] | None:
         """Returns a drawing of each environment: texts, or pictures of the `render_size`.
 
-        `"human"` shows all pictures as a mosaic in one window. None without a render mode.
+        `"human"` shows all pictures as a mosaic, smaller so that they fit into one window of that
+        size. None without a render mode.
         """
         mode = self.render_mode
         if mode is None:
@@ -250,6 +251,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             if mode == "ansi":
                 return tuple(self._batch.drawing(at) for at in range(self.num_envs))
             size, camera = self._options.render_size, self._options.camera
+            if mode == "human":
+                size = tile_size(size, self.num_envs)
             frames = tuple(self._batch.frame(at, size, camera) for at in range(self.num_envs))
         if mode == "rgb_array":
             return frames

@@ -302,7 +302,7 @@ impl Batch {
         let Some(lane) = self.lanes.lanes().get(at) else {
             return Err(errors::parameter(py, "at", &format!("no environment {at}")));
         };
-        self.frames.frame(py, &lane.engine, size, camera)
+        self.frames.frame(py, &lane.engine, size, camera, false)
     }
 
     /// A drawing of an environment's pitch in text.

@@ -304,14 +304,17 @@ impl Environment {
         self.info.action_mask(py, &self.engine)
     }
 
-    /// The current frame for people: uint8 `(height, width, 3)`.
+    /// The current frame for people: uint8 `(height, width, 3)`. Without `news` it depends on the
+    /// state alone.
+    #[pyo3(signature = (size, camera, news = true))]
     fn frame<'py>(
         &mut self,
         py: Python<'py>,
         size: (usize, usize),
         camera: &str,
+        news: bool,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        self.frames.frame(py, &self.engine, size, camera)
+        self.frames.frame(py, &self.engine, size, camera, news)
     }
 
     /// The moments that the last step led to: where play was stopped, if it was, and the present.

@@ -205,14 +205,15 @@ impl<T: Element + Copy + Default> Stack<T> {
         }
         write(&mut self.fresh)?;
         let (planes, row) = (self.planes.max(1), self.planes.max(1) * self.depth);
+        // One move for all pixels: what comes from the next pixel is overwritten below.
+        held.copy_within(planes.min(held.len()).., 0);
+        let written = if first { 0 } else { row - planes };
         for (pixel, fresh) in held.chunks_exact_mut(row).zip(self.fresh.chunks_exact(planes)) {
-            if first {
-                for place in pixel.chunks_exact_mut(planes) {
-                    place.copy_from_slice(fresh);
+            // No slices are copied: calls for a few bytes would cost more than the bytes.
+            for place in pixel[written..].chunks_exact_mut(planes) {
+                for (place, fresh) in place.iter_mut().zip(fresh) {
+                    *place = *fresh;
                 }
-            } else {
-                pixel.copy_within(planes.., 0);
-                pixel[row - planes..].copy_from_slice(fresh);
             }
         }
         Ok(())

@@ -5,7 +5,7 @@ use numpy::{PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use setpiece::engine::environment::Environment as Engine;
 use setpiece::render::{Camera, Options, PitchRegion, Renderer, Scene};
-use setpiece::scene::SceneWriter;
+use setpiece::scene::{SceneWriter, of_match};
 
 /// The camera of a name.
 pub(crate) fn camera_of(py: Python<'_>, name: &str) -> PyResult<Camera> {
@@ -46,13 +46,14 @@ impl Frames {
         scene
     }
 
-    /// The current frame: uint8 `(height, width, 3)`.
+    /// The current frame: uint8 `(height, width, 3)`. Without `news` it depends on the state alone.
     pub(crate) fn frame<'py>(
         &mut self,
         py: Python<'py>,
         engine: &Engine,
         (width, height): (usize, usize),
         camera: &str,
+        news: bool,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let camera = camera_of(py, camera)?;
         let fits = |(held, renderer): &(Camera, Renderer)| {
@@ -69,7 +70,11 @@ impl Frames {
         if let (Some((_, renderer)), Ok(pixels)) = (&mut self.renderer, guard.as_slice_mut()) {
             let (writer, scene) = (&self.writer, &mut self.scene);
             let drawn = py.detach(|| {
-                writer.write(engine, scene);
+                if news {
+                    writer.write(engine, scene);
+                } else {
+                    of_match(engine.state(), scene);
+                }
                 renderer.render_rgb(scene, pixels)
             });
             drawn.map_err(|why| errors::parameter(py, "render_size", &why.to_string()))?;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -70,6 +71,50 @@ def test_the_same_state_gives_the_same_bytes_on_any_thread() -> None:
             assert np.array_equal(other, expected)
     copy = env.clone()
     assert np.array_equal(copy.look("pixels"), env.look("pixels"))
+
+
+def test_a_picture_without_news_depends_on_the_state_alone() -> None:
+    env = setpiece.make("11_vs_11_stochastic")
+    env.reset(seed=1)
+    generator, size = np.random.default_rng(0), (480, 270)
+    while np.array_equal(env.picture(size), env.picture(size, news=False)):
+        env.step(int(generator.integers(0, 19)))
+    copy = env.clone()
+    assert np.array_equal(copy.picture(size, news=False), env.picture(size, news=False))
+    copy.restore(env.snapshot())
+    assert np.array_equal(copy.picture(size, news=False), env.picture(size, news=False))
+    assert np.array_equal(copy.look("pixels"), env.look("pixels"))
+
+
+def test_several_matches_are_drawn_at_once() -> None:
+    def frames(seed: int) -> list[np.ndarray]:
+        env = setpiece.make(THREE, render_mode="rgb_array", render_size=(320, 180))
+        env.reset(seed=seed)
+        drawn = []
+        for _ in range(5):
+            env.step(Action.RIGHT)
+            drawn.append(env.picture())
+        return drawn
+
+    alone = [frames(seed) for seed in range(4)]
+    with ThreadPoolExecutor(4) as pool:
+        together = [*pool.map(frames, range(4))]
+    assert np.array_equal(alone, together)
+
+
+def test_a_vector_in_pixels_is_fast() -> None:
+    n, steps = 32, 50
+    envs = setpiece.make_vec(THREE, n, observation="pixels", threads=1, copy=False)
+    envs.reset(seed=1)
+    actions = np.random.default_rng(0).integers(0, 19, (steps, n))
+
+    def steps_per_second() -> float:
+        begun = time.process_time()
+        for each in actions:
+            envs.step(each)
+        return n * steps / (time.process_time() - begun)
+
+    assert max(steps_per_second() for _ in range(4)) >= 5_000
 
 
 def test_gray_is_the_gray_of_the_colours() -> None:
@@ -207,10 +252,29 @@ def test_the_drop_in_draws_once_it_is_asked_to() -> None:
     assert "frame" not in env.step(0)[0][0]
 
 
+def test_the_drop_in_sees_the_same_after_set_state() -> None:
+    env = gfootball.env.create_environment(
+        "11_vs_11_stochastic",
+        representation="pixels",
+        channel_dimensions=(480, 270),
+        other_config_options={"game_engine_random_seed": 1},
+    )
+    env.reset()
+    generator = np.random.default_rng(0)
+    match = env.unwrapped
+    while np.array_equal(match.picture((480, 270)), match.picture((480, 270), news=True)):
+        env.step(int(generator.integers(0, 19)))
+    state = env.get_state()
+    expected = env.step(0)[0]
+    env.set_state(state)
+    assert np.array_equal(env.step(0)[0], expected)
+
+
 def test_a_video_is_recorded_by_gymnasium_s_wrapper(tmp_path: Path) -> None:
     pytest.importorskip("moviepy")
     env = gymnasium.wrappers.RecordVideo(
-        setpiece.make(THREE, render_mode="rgb_array", render_size=(160, 96)), str(tmp_path)
+        setpiece.make(THREE, render_mode="rgb_array", render_size=(160, 96)),
+        str(tmp_path / "videos"),
     )
     env.reset(seed=1)
     done = False
@@ -218,4 +282,4 @@ def test_a_video_is_recorded_by_gymnasium_s_wrapper(tmp_path: Path) -> None:
         _, _, terminated, truncated, _ = env.step(Action.RIGHT)
         done = terminated or truncated
     env.close()
-    assert [path.suffix for path in tmp_path.iterdir() if path.suffix == ".mp4"] == [".mp4"]
+    assert len([*tmp_path.glob("videos/*.mp4")]) == 1

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from setpiece import Action, gfootball
 from setpiece.gfootball import dump_to_video, play_game, replay
 from setpiece.gfootball.env._hands import Hands
 from setpiece.gfootball.env.config import Config
+from setpiece.gfootball.env.observation_processor import read_dump
 
 CLOSE = "academy_empty_goal_close"
 
@@ -143,12 +143,6 @@ def test_hands_send_one_action_a_step() -> None:
 def test_dumps_hold_no_moments(tmp_path: Path) -> None:
     small = {"render_resolution_x": 160}
     for dump in dumped(tmp_path, write_video=True, other_config_options=small):
-        with Path(dump["dump"]).open("rb") as file:
-            assert b"Moment" not in file.read()
-            file.seek(0)
-            assert set(pickle.load(file)) == {
-                "debug",
-                "observation",
-                "reward",
-                "cumulative_reward",
-            }
+        assert b"Moment" not in Path(dump["dump"]).read_bytes()
+        for record in read_dump(dump["dump"]):
+            assert set(record) == {"debug", "observation", "reward", "cumulative_reward"}

@@ -12,6 +12,8 @@
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::observe;
+use setpiece::pixels::PixelEye;
+use setpiece::render::Pixels;
 use setpiece::scenario::{Action, Scenario};
 use std::sync::Arc;
 
@@ -79,6 +81,24 @@ fn a_step_allocates_nothing_but_what_rapier_does() {
     for name in ["academy_empty_goal", "academy_3_vs_1_with_keeper", "academy_corner"] {
         let steps = steps(name, 20);
         assert!(steps.played > 200 && steps.allocated == 0, "{name}: {steps:?}");
+    }
+}
+
+#[test]
+fn pictures_allocate_nothing() {
+    let scenario = setpiece::load("11_vs_11_stochastic").unwrap().scenario;
+    let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
+    let mut scratch = Scratch::default();
+    for pixels in [Pixels::SMALL, Pixels::SMALL_GRAY] {
+        let (mut eye, mut out) = (PixelEye::new(pixels).unwrap(), vec![0; pixels.len()]);
+        environment.reset(Some(1), None).unwrap();
+        for step in 0..600 {
+            environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
+            let counted = allocation_counter::measure(|| {
+                eye.write(&environment, 0, &mut out).unwrap();
+            });
+            assert!(step < 100 || counted.count_total == 0, "{step}: {counted:?}");
+        }
     }
 }
 

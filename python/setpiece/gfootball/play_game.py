@@ -19,7 +19,10 @@ from setpiece.gfootball.env.football_env import FootballEnv
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command until Ctrl-C; returns its exit code: 0, 1 (input, Ctrl-C) or 2 (usage)."""
+    """Runs the command until Ctrl-C, or until its window is closed.
+
+    Returns its exit code: 0, 1 (input, Ctrl-C) or 2 (usage).
+    """
     parser = _flags.parser("play_game", "Play matches by hand")
     parser.add_argument(
         "--players",
@@ -57,6 +60,9 @@ def _play(given: argparse.Namespace) -> None:
             done = False
             while not done:
                 _, _, done, _ = env.step([])
+                if env.window_closed:
+                    env.write_dump("shutdown")
+                    return
             played += 1
     except KeyboardInterrupt:
         env.write_dump("shutdown")

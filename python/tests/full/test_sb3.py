@@ -18,7 +18,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from gymnasium.wrappers import TimeLimit
 from stable_baselines3 import PPO
 from stable_baselines3.common.logger import configure
-from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor
+from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor, VecVideoRecorder
 
 from setpiece.sb3 import Sb3VecEnv, make_vec
 
@@ -296,3 +296,27 @@ def test_behaviours_play_a_side(tmp_path: Path) -> None:
     vec.reset()
     vec.step(np.array([Action.IDLE]))
     assert vec.env_method("played")[0]["right_CB_1"] == Action.LEFT
+
+
+def test_its_recorder_makes_a_video(tmp_path: Path) -> None:
+    pytest.importorskip("moviepy")
+    envs = VecVideoRecorder(
+        make_vec(CLOSE, 2, render_mode="rgb_array", render_size=(160, 96)),
+        str(tmp_path / "videos"),
+        record_video_trigger=lambda step: step == 0,
+        video_length=20,
+    )
+    envs.seed(1)
+    envs.reset()
+    for _ in range(21):
+        envs.step(np.full(2, Action.RIGHT))
+    envs.close()
+    (video,) = tmp_path.glob("videos/*.mp4")
+    assert video.stat().st_size > 1000
+
+
+def test_it_learns_from_pictures() -> None:
+    envs = make_vec(CLOSE, 4, observation="pixels_gray", stack=2)
+    policy = PPO("CnnPolicy", envs, n_steps=16, batch_size=32, n_epochs=1, device="cpu")
+    policy.learn(128)
+    assert policy.predict(envs.reset())[0].shape == (4,)

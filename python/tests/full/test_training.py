@@ -58,6 +58,13 @@ def test_plain_ppo_with_masks_and_other_rewards(example: Any, tmp_path: Path) ->
     assert curves(tmp_path) >= {*CURVES, "terms/checkpoints/carried", "terms/checkpoints/goal"}
 
 
+@pytest.mark.parametrize("observation", ["pixels_gray", "smm"])
+def test_plain_ppo_sees_pictures(example: Any, tmp_path: Path, observation: str) -> None:
+    options = ["--steps", "4096", "--observation", observation, "--stack", "2"]
+    assert -1 <= example("train_cleanrl").main([*CLOSE, *options, "--out", str(tmp_path)]) <= 1
+    assert curves(tmp_path) >= CURVES
+
+
 @pytest.mark.parametrize("masks", [[], ["--masks"]])
 def test_stable_baselines3(example: Any, tmp_path: Path, masks: list[str]) -> None:
     pytest.importorskip("stable_baselines3")

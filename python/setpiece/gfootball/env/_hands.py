@@ -7,7 +7,7 @@ from types import ModuleType
 from typing import Any
 
 from setpiece._errors import UnavailableError
-from setpiece._optional import need
+from setpiece._window import pygame_ce
 from setpiece.gfootball.env.football_action_set import CoreAction, get_action_set
 from setpiece.gfootball.env.player_base import PlayerBase
 
@@ -36,7 +36,7 @@ STICKY = ("keeper_rush", "pressure", "team_pressure", "sprint", "dribble")
 
 def pygame_of(what: str) -> ModuleType:
     """Imports pygame and begins to listen; raises `MissingPackageError` without it."""
-    pygame = need("pygame", "human", what)
+    pygame = pygame_ce(what)
     pygame.display.init()
     return pygame
 

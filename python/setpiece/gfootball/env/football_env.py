@@ -115,21 +115,26 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def observation(self) -> Any:
         """Returns the current observation, without playing."""
-        seen = self._core.whole if self._agent is None else self._agent_observations()
+        # Copies: dumps keep the match without frames.
+        seen = dict(self._core.whole) if self._agent is None else self._agent_observations()
         if self._rendering:
             frame = self.picture()
             for each in [seen] if isinstance(seen, dict) else seen:
                 each["frame"] = frame
         return seen
 
-    def picture(self, size: tuple[int, int] | None = None) -> NDArray[np.uint8]:
+    def picture(
+        self, size: tuple[int, int] | None = None, *, news: bool = False
+    ) -> NDArray[np.uint8]:
         """Returns a picture of the match, uint8 `(height, width, 3)`, red, green, blue.
 
-        `size`: width and height; None: `render_resolution_x` and `render_resolution_y`.
+        - `size`: width and height; None: `render_resolution_x` and `render_resolution_y`.
+        - `news`: whether a banner shows what has just happened. Without it the picture depends on
+          the state alone, as an observation should.
         """
         config = self._config
         own = config["render_resolution_x"], config["render_resolution_y"]
-        return self._core.picture(own if size is None else size)
+        return self._core.picture(own if size is None else size, news=news)
 
     def seed(self, seed: int | None = None) -> list[int]:
         """Draws the seeds of future episodes from a separate stream; returns the stream's seed."""
@@ -187,9 +192,14 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             self._window = Window(str(self._config["level"]), self.metadata["render_fps"])
         self._rendering = True
         if mode == "rgb_array":
-            return self.picture()
+            return self.picture(news=True)
         self._show()
         return True
+
+    @property
+    def window_closed(self) -> bool:
+        """Whether the user has closed the window that `render` opened."""
+        return self._window is not None and self._window.closed
 
     def disable_render(self) -> bool:
         """Ends drawing, closes the window and returns True."""
@@ -201,7 +211,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def _show(self) -> None:
         if self._window is not None and self._rendering:
-            self._window.show(self.picture())
+            self._window.show(self.picture(news=True))
 
     def tracker_setup(self, start: int, end: int) -> None:
         """No-op.

@@ -272,11 +272,11 @@ class FootballEnvCore:
         """Returns what the last step led to, to be kept for a video."""
         return [] if self._env is None else self._env.moments()
 
-    def picture(self, size: tuple[int, int]) -> NDArray[np.uint8]:
-        """Returns a picture of the match, uint8 `(height, width, 3)`."""
+    def picture(self, size: tuple[int, int], *, news: bool) -> NDArray[np.uint8]:
+        """Returns a picture of the match, uint8 `(height, width, 3)`, with `news` or without."""
         if self._env is None:
             raise gymnasium.error.ResetNeeded("call `reset`: there is nothing to be seen yet")
-        return self._env.picture(size)
+        return self._env.picture(size, news=news)
 
     def _pace(self) -> None:
         """Waits until the step's time has passed."""

@@ -192,6 +192,30 @@ fn parameters_seeds_clouds_and_summaries_follow_the_page() {
     assert!(tab.hear("refused")["message"].as_str().unwrap().contains("no agent `genius`"));
 }
 
+#[test]
+fn a_drag_rewrites_the_numbers_of_one_place() {
+    let studio = Studio::open();
+    let mut tab = studio.tab();
+    tab.hear("episode");
+    let left = json!({"team": "left", "slot": 0});
+    tab.ask(&json!({"type": "move", "player": left, "to": [4.0, -6.28]}));
+    let episode = tab.hear("episode");
+    assert_eq!(episode["scenes"][0]["players"][0]["pos"], json!([4.0, -6.3]));
+    let text = tab.hear("opened")["text"].as_str().unwrap().to_owned();
+    assert_eq!(text, SCENARIO.replace("(9m, 0m)", "(4m, -6.3m)"));
+    tab.ask(&json!({"type": "move", "player": null, "to": [12.0, 1.0]}));
+    tab.hear("episode");
+    let text = tab.hear("opened")["text"].as_str().unwrap().to_owned();
+    assert!(text.contains("ball at (12m, 1m)"), "{text}");
+    // The defender's place depends on a parameter.
+    let right = json!({"team": "right", "slot": 0});
+    tab.ask(&json!({"type": "move", "player": right, "to": [1.0, 1.0]}));
+    assert!(tab.hear("refused")["message"].as_str().unwrap().contains("computed"));
+    let nobody = json!({"team": "left", "slot": 9});
+    tab.ask(&json!({"type": "move", "player": nobody, "to": [1.0, 1.0]}));
+    assert!(tab.hear("refused")["message"].as_str().unwrap().contains("isn't written"));
+}
+
 /// Reads episodes until one is as wanted.
 fn while_not(tab: &mut Tab, first: Value, wanted: impl Fn(&Value) -> bool) {
     let mut value = first;

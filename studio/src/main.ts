@@ -1,6 +1,7 @@
 // The page: the text on the left, the football on the right.
 
 import "./style.css";
+import { Drag } from "./drag";
 import { Editor } from "./editor";
 import type { Episode, Reply } from "./messages";
 import { Params } from "./params";
@@ -35,6 +36,13 @@ const socket = new Socket(hear, (connected) => {
   element("state").textContent = connected ? "" : "The studio has ended. Start it again.";
 });
 const editor = new Editor(element("editor"), edited, save);
+// Only the start can be dragged.
+const drag = new Drag(
+  canvas,
+  pitch,
+  () => (clock.now.at === 0 && !clock.playing ? episode?.scenes[0] : undefined),
+  (player, to) => socket.ask({ type: "move", player, to }),
+);
 const plot = new Plot(element("plot"), (at) => go(at));
 const params = new Params(element("params"), (values) => {
   socket.ask({ type: "bind", params: values });
@@ -171,7 +179,8 @@ function frame(now: number): void {
   const { at, share } = clock.now;
   const scene = episode?.scenes[at];
   if (episode && scene) {
-    pitch.draw(episode.scenes, at, share, trails.checked);
+    const scenes = at === 0 ? [drag.shown(scene), ...episode.scenes.slice(1, 2)] : episode.scenes;
+    pitch.draw(scenes, at, share, trails.checked);
     scrub.value = String(at);
     element("moment").textContent = `${(scene.step / 10).toFixed(1)} s`;
     element("toggle").textContent = clock.playing ? "Pause" : "Play";

@@ -56,6 +56,7 @@ export type Request =
   | { type: "save" }
   | { type: "play"; seed: number; episode: number; agent: string }
   | { type: "bind"; params: Record<string, number> }
+  | { type: "move"; player: Id | null; to: [number, number] }
   | { type: "cloud"; count: number }
   | { type: "summary"; episodes: number };
 

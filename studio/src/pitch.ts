@@ -25,6 +25,13 @@ export class Pitch {
     this.context = context;
   }
 
+  /** The place in metres of a point of the page. */
+  place(x: number, y: number): [number, number] {
+    const box = this.canvas.getBoundingClientRect();
+    const scale = (2 * (HALF_X + MARGIN)) / box.width;
+    return [(x - box.left - box.width / 2) * scale, (y - box.top - box.height / 2) * scale];
+  }
+
   /** Lays many starts over the pitch; none takes them away. */
   lay(starts: [number, number][][]): void {
     this.cloud = starts;

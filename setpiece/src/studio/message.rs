@@ -2,6 +2,7 @@
 
 use crate::dsl::report::Diagnostic;
 use crate::render::Scene;
+use crate::render::scene::Id;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -36,6 +37,13 @@ pub enum Request {
     Bind {
         /// Values by name; others have their defaults.
         params: BTreeMap<String, f64>,
+    },
+    /// Put a player, or the ball, elsewhere at the start: the numbers in the text change.
+    Move {
+        /// The player, by team and place in the team's list; none for the ball.
+        player: Option<Id>,
+        /// Metres from the centre spot.
+        to: [f64; 2],
     },
     /// Draw many starts.
     Cloud {

@@ -1,5 +1,6 @@
 //! The session: the open scenario, on a thread of its own.
 
+use super::drag::moved;
 use super::message::{
     CheckReply, DRAWS_MAX, EPISODES_MAX, Episode, Happened, OpenReply, ParamControl, Reply,
     Request, SummaryReply,
@@ -12,9 +13,10 @@ use crate::files::{SOURCE_MAX_BYTES, read_file, write};
 use crate::film::{Film, FilmOptions, film};
 use crate::load::{LoadOptions, compile_text_with, load_with};
 use crate::render::Scene;
+use crate::render::scene::Id;
 use crate::run::{RunOptions, run};
 use crate::scenario::{Bindings, Type, Verdict};
-use crate::scene::of_match;
+use crate::scene::{of_match, team};
 use crate::watch::Watcher;
 use crate::{Error, Loaded};
 use std::collections::BTreeMap;
@@ -145,6 +147,13 @@ impl Session {
                 let _ = pages.send(self.checked.clone());
                 self.show(pages);
             }
+            Request::Move { player, to } => match self.dragged(player, to) {
+                Ok(text) => {
+                    self.take(text, pages);
+                    let _ = pages.send(self.opened.clone());
+                }
+                Err(why) => refuse(why),
+            },
             Request::Cloud { count } => match self.cloud(count.min(DRAWS_MAX)) {
                 Ok(reply) => tell(pages, &reply),
                 Err(why) => refuse(why.to_string()),
@@ -193,6 +202,32 @@ impl Session {
         if is_sound {
             self.show(pages);
         }
+    }
+
+    /// The text with a player or the ball put elsewhere.
+    fn dragged(&self, player: Option<Id>, to: [f64; 2]) -> Result<String, String> {
+        if to.iter().any(|metres| !metres.is_finite()) {
+            return Err("a place is two numbers".to_owned());
+        }
+        let elsewhere = || "this place isn't written in this file".to_owned();
+        let Some(id) = player else {
+            let statement = self.text.find("ball at ").ok_or_else(elsewhere)?;
+            return moved(&self.text, statement, to, false);
+        };
+        let of_team = |slot: &&crate::scenario::PlayerSlot| slot.team == team(id.team);
+        let slots = &self.loaded.scenario.players;
+        let slot = slots.iter().filter(of_team).nth(usize::from(id.slot)).ok_or_else(elsewhere)?;
+        let at = slots.iter().position(|other| std::ptr::eq(other, slot)).ok_or_else(elsewhere)?;
+        let span = self.loaded.origins.players.get(at).copied().ok_or_else(elsewhere)?;
+        let (sources, main) = (&self.loaded.sources, self.loaded.sources.iter().next());
+        let is_here =
+            main.is_some_and(|(file, _)| file == span.file) && !sources.text(span).is_empty();
+        // A text that has changed since the last good one has its statements elsewhere.
+        let same = main.is_some_and(|(_, source)| *source.text == *self.text);
+        if !is_here || !same {
+            return Err(elsewhere());
+        }
+        moved(&self.text, span.start as usize, to, slot.team == crate::scenario::Team::Right)
     }
 
     /// Plays the episode and shows it.

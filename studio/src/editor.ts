@@ -83,8 +83,12 @@ export class Editor {
     return this.view.state.doc.toString();
   }
 
-  /** Shows a text that somebody else has written; what is alike stays, so that the cursor does. */
-  show(text: string): void {
+  /**
+   * Shows another text; what is alike stays, so that the cursor does.
+   *
+   * `undoable`: whether undo takes it back. What comes from elsewhere stays.
+   */
+  show(text: string, undoable: boolean): void {
     const old = this.text();
     if (old === text) return;
     let from = 0;
@@ -94,8 +98,7 @@ export class Editor {
     while (tail < least - from && old[old.length - 1 - tail] === text[text.length - 1 - tail]) tail++;
     this.quiet = true;
     const insert = text.slice(from, text.length - tail);
-    // Undo takes back what was written here, not what came from elsewhere.
-    const annotations = Transaction.addToHistory.of(false);
+    const annotations = Transaction.addToHistory.of(undoable);
     this.view.dispatch({ changes: { from, to: old.length - tail, insert }, annotations });
     this.quiet = false;
   }

@@ -30,6 +30,8 @@ const clock = new Clock();
 const pitch = new Pitch(canvas);
 let episode: Episode | null = null;
 let dirty = false;
+/** Whether the next text comes of a drag on this page. */
+let moved = false;
 let waiting = 0;
 
 const socket = new Socket(hear, (connected) => {
@@ -41,7 +43,10 @@ const drag = new Drag(
   canvas,
   pitch,
   () => (clock.now.at === 0 && !clock.playing ? episode?.scenes[0] : undefined),
-  (player, to) => socket.ask({ type: "move", player, to }),
+  (player, to) => {
+    moved = true;
+    socket.ask({ type: "move", player, to });
+  },
 );
 const plot = new Plot(element("plot"), (at) => go(at));
 const params = new Params(element("params"), (values) => {
@@ -80,7 +85,8 @@ function go(at: number): void {
 function hear(reply: Reply): void {
   switch (reply.type) {
     case "opened":
-      editor.show(reply.text);
+      editor.show(reply.text, moved);
+      moved = false;
       dirty = false;
       element<HTMLButtonElement>("save").hidden = !reply.is_file;
       if (agent.options.length === 0) {
@@ -127,6 +133,7 @@ function hear(reply: Reply): void {
       element("state").textContent = "saved";
       break;
     case "refused":
+      moved = false;
       element("state").textContent = reply.message;
       break;
   }

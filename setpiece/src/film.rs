@@ -127,7 +127,7 @@ pub fn replayed(replay: &Replay) -> Result<Film, Error> {
 
 impl Film {
     /// The first moment of an episode.
-    fn begun(environment: &Environment, origin: String) -> Film {
+    pub(crate) fn begun(environment: &Environment, origin: String) -> Film {
         let scenario = environment.scenario();
         let writer = SceneWriter::default();
         let mut first = Scene::default();
@@ -147,7 +147,7 @@ impl Film {
     }
 
     /// Keeps the result of a step.
-    fn take(&mut self, environment: &Environment) {
+    pub(crate) fn take(&mut self, environment: &Environment) {
         let (judged, now) = (environment.judged_state(), environment.state());
         let stop = self.scenes.len();
         let stopped = !std::ptr::eq::<Match>(judged, now);

@@ -9,6 +9,8 @@
 
 pub mod drag;
 pub mod guard;
+pub mod hands;
+mod live;
 pub mod message;
 mod page;
 mod server;

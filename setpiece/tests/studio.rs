@@ -44,10 +44,14 @@ impl Drop for Studio {
 
 impl Studio {
     fn open() -> Studio {
+        Studio::of("two.pitch")
+    }
+
+    fn of(scenario: &str) -> Studio {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("two.pitch"), SCENARIO).unwrap();
         let mut child = Command::new(env!("CARGO_BIN_EXE_setpiece"))
-            .args(["studio", "two.pitch"])
+            .args(["studio", scenario])
             .current_dir(folder.path())
             .stdout(Stdio::piped())
             .spawn()
@@ -198,7 +202,7 @@ fn a_drag_rewrites_the_numbers_of_one_place() {
     let mut tab = studio.tab();
     tab.hear("episode");
     let left = json!({"team": "left", "slot": 0});
-    tab.ask(&json!({"type": "move", "player": left, "to": [4.0, -6.28]}));
+    tab.ask(&json!({"type": "move", "player": left, "to": [4.0, -6.27]}));
     let episode = tab.hear("episode");
     assert_eq!(episode["scenes"][0]["players"][0]["pos"], json!([4.0, -6.3]));
     let text = tab.hear("opened")["text"].as_str().unwrap().to_owned();
@@ -214,6 +218,35 @@ fn a_drag_rewrites_the_numbers_of_one_place() {
     let nobody = json!({"team": "left", "slot": 9});
     tab.ask(&json!({"type": "move", "player": nobody, "to": [1.0, 1.0]}));
     assert!(tab.hear("refused")["message"].as_str().unwrap().contains("isn't written"));
+}
+
+#[test]
+fn a_person_plays_a_goal_by_hand() {
+    let studio = Studio::of("academy_empty_goal_close");
+    let (mut tab, mut other) = (studio.tab(), studio.tab());
+    tab.hear("episode");
+    other.hear("episode");
+    tab.ask(&json!({"type": "begin", "side": "right"}));
+    assert!(tab.hear("refused")["message"].as_str().unwrap().contains("no agent plays"));
+    tab.ask(&json!({"type": "begin", "side": "left"}));
+    assert_eq!(tab.hear("step")["scenes"][0]["step"], 0);
+    let begin = Instant::now();
+    tab.ask(&json!({"type": "hold", "keys": {"way": [1, 0], "held": ["sprint"]}}));
+    let step = tab.hear("step");
+    assert_eq!(step["scenes"][0]["step"], 1);
+    for page in [&mut tab, &mut other] {
+        let episode = page.hear("episode");
+        assert_eq!((&episode["agent"], &episode["outcome"]), (&json!("you"), &json!("scored")));
+        let length = episode["scenes"].as_array().unwrap().len();
+        assert!((10..60).contains(&length), "{length}");
+    }
+    // At the pace of the match.
+    assert!(begin.elapsed() > Duration::from_secs(1), "{:?}", begin.elapsed());
+    // Whoever stops can watch what they have played.
+    tab.ask(&json!({"type": "begin", "side": "left"}));
+    tab.hear("step");
+    tab.ask(&json!({"type": "stop"}));
+    assert_eq!(tab.hear("episode")["outcome"], Value::Null);
 }
 
 /// Reads episodes until one is as wanted.

@@ -3,7 +3,8 @@
 import "./style.css";
 import { Drag } from "./drag";
 import { Editor } from "./editor";
-import type { Episode, Reply } from "./messages";
+import type { Episode, Reply, Scene, Side } from "./messages";
+import { Hands } from "./hands";
 import { Params } from "./params";
 import { Pitch } from "./pitch";
 import { Clock } from "./player";
@@ -11,6 +12,7 @@ import { Plot } from "./plot";
 import { Socket } from "./socket";
 
 const CHECK_MS = 60;
+const STEP_MS = 100;
 const CLOUD = 150;
 const EPISODES = 100;
 
@@ -29,11 +31,15 @@ const [trails, cloud] = [element<HTMLInputElement>("trails"), element<HTMLInputE
 const clock = new Clock();
 const pitch = new Pitch(canvas);
 let episode: Episode | null = null;
+/** The scenes of a match that somebody plays now, and when the last one came. */
+let live: Scene[] = [];
+let arrived = 0;
 let dirty = false;
 /** Whether the next text comes of a drag on this page. */
 let moved = false;
 let waiting = 0;
 
+const hands = new Hands((keys) => socket.ask({ type: "hold", keys }));
 const socket = new Socket(hear, (connected) => {
   element("state").textContent = connected ? "" : "The studio has ended. Start it again.";
 });
@@ -113,8 +119,11 @@ function hear(reply: Reply): void {
     }
     case "episode": {
       const first = episode === null;
+      const played = live.length > 0;
       episode = reply;
-      clock.load(reply, first || clock.playing);
+      clock.load(reply, first || (clock.playing && !played));
+      if (played) clock.go(clock.last);
+      [live, hands.active] = [[], false];
       scrub.max = String(clock.last);
       [seed.value, index.value] = [String(reply.seed), String(reply.episode)];
       if (reply.agent) agent.value = reply.agent;
@@ -122,6 +131,11 @@ function hear(reply: Reply): void {
       events(reply);
       break;
     }
+    case "step":
+      if (reply.scenes[0]?.step === 0) live = [];
+      live.push(...reply.scenes);
+      arrived = performance.now();
+      break;
     case "cloud":
       pitch.lay(cloud.checked ? reply.starts : []);
       break;
@@ -133,6 +147,7 @@ function hear(reply: Reply): void {
       element("state").textContent = "saved";
       break;
     case "refused":
+      if (live.length === 0) hands.active = false;
       moved = false;
       element("state").textContent = reply.message;
       break;
@@ -180,12 +195,33 @@ function results(reply: Extract<Reply, { type: "summary" }>): void {
   element("results").replaceChildren(table);
 }
 
+/** Shows the match that somebody plays, one step late, so that it moves smoothly. */
+function hand(now: number): void {
+  const last = live[live.length - 1];
+  if (!last) return;
+  const side = element<HTMLSelectElement>("side").value;
+  hands.send(last.ball.owner?.team === side);
+  const at = Math.max(0, live.length - 2);
+  pitch.draw(live, at, Math.min(1, (now - arrived) / STEP_MS), trails.checked);
+  element("score").textContent = `${last.score[0]} : ${last.score[1]} · by hand`;
+  element("moment").textContent = `${(last.step / 10).toFixed(1)} s`;
+}
+
+function byHand(): void {
+  clock.playing = false;
+  hands.begin();
+  canvas.focus();
+  socket.ask({ type: "begin", side: element<HTMLSelectElement>("side").value as Side });
+}
+
 function frame(now: number): void {
   clock.pass(Math.min(0.25, (now - before) / 1000));
   before = now;
   const { at, share } = clock.now;
   const scene = episode?.scenes[at];
-  if (episode && scene) {
+  if (live.length > 0) {
+    hand(now);
+  } else if (episode && scene) {
     const scenes = at === 0 ? [drag.shown(scene), ...episode.scenes.slice(1, 2)] : episode.scenes;
     pitch.draw(scenes, at, share, trails.checked);
     scrub.value = String(at);
@@ -206,6 +242,7 @@ element("back").onclick = () => go(clock.now.at - 1);
 element("forth").onclick = () => go(clock.now.at + 1);
 element("next").onclick = next;
 element("save").onclick = save;
+element("hand").onclick = byHand;
 element("summarise").onclick = () => {
   element("results").textContent = "playing…";
   socket.ask({ type: "summary", episodes: EPISODES });
@@ -225,6 +262,7 @@ function next(): void {
 // Keys for everything, but not while somebody writes.
 document.addEventListener("keydown", (event) => {
   const target = event.target as HTMLElement;
+  if (hands.active && event.key !== "Escape") return;
   if (target.closest(".cm-editor, input:not(#scrub):not([type=checkbox]), select")) return;
   const keys: Record<string, () => void> = {
     " ": () => clock.toggle(),
@@ -233,6 +271,8 @@ document.addEventListener("keydown", (event) => {
     Home: () => go(0),
     End: () => go(clock.last),
     n: next,
+    h: byHand,
+    Escape: () => socket.ask({ type: "stop" }),
   };
   const act = keys[event.key];
   if (act && !event.ctrlKey && !event.metaKey) {

@@ -39,12 +39,17 @@ export interface Param {
 }
 export interface Happened { at: number; name: string; by: string | null; team: Side | null }
 
+export type HeldKey =
+  | "long_pass" | "high_pass" | "short_pass" | "shot" | "sliding" | "sprint" | "dribble";
+export interface Keys { way: [number, number]; held: HeldKey[] }
+
 export type Reply =
   | { type: "opened"; source: string; is_file: boolean; text: string; agents: string[] }
   | { type: "checked"; problems: Problem[]; fault: string | null; name: string; title: string;
       params: Param[] }
   | { type: "episode"; seed: number; episode: number; agent: string; scenes: Scene[];
       names: string[]; events: Happened[]; outcome: string | null; success: boolean | null }
+  | { type: "step"; scenes: Scene[] }
   | { type: "cloud"; starts: [number, number][][] }
   | { type: "summary"; episodes: number; outcomes: [string, number][]; mean_return: number;
       score: [number, number]; terms: [string, number][]; records: [string, number][] }
@@ -56,6 +61,9 @@ export type Request =
   | { type: "save" }
   | { type: "play"; seed: number; episode: number; agent: string }
   | { type: "bind"; params: Record<string, number> }
+  | { type: "begin"; side: Side }
+  | { type: "hold"; keys: Keys }
+  | { type: "stop" }
   | { type: "move"; player: Id | null; to: [number, number] }
   | { type: "cloud"; count: number }
   | { type: "summary"; episodes: number };

@@ -2,7 +2,8 @@
 
 use crate::dsl::report::Diagnostic;
 use crate::render::Scene;
-use crate::render::scene::Id;
+use crate::render::scene::{Id, Side};
+use crate::studio::hands::HeldKeys;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -33,6 +34,18 @@ pub enum Request {
         /// Who plays the agents: a name of the command line.
         agent: String,
     },
+    /// Play the episode by hand, at the pace of the match.
+    Begin {
+        /// `left` or `right`: whose first agent the person plays. The others play as before.
+        side: Side,
+    },
+    /// What the person holds down now.
+    Hold {
+        /// The keys.
+        keys: HeldKeys,
+    },
+    /// Stop playing by hand.
+    Stop,
     /// Bind parameters, SI units, and play again.
     Bind {
         /// Values by name; others have their defaults.
@@ -67,6 +80,11 @@ pub enum Reply {
     Checked(CheckReply),
     /// An episode has been played.
     Episode(Box<Episode>),
+    /// A step that a person has played.
+    Step {
+        /// The moments that it led to: where play was stopped, if it was, and the present.
+        scenes: Vec<Scene>,
+    },
     /// Many starts.
     Cloud {
         /// The ball and everyone, metres: `[x, y]` each, the ball first.

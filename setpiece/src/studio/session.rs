@@ -1,11 +1,13 @@
 //! The session: the open scenario, on a thread of its own.
 
 use super::drag::moved;
+use super::live::LiveMatch;
 use super::message::{
     CheckReply, DRAWS_MAX, EPISODES_MAX, Episode, Happened, OpenReply, ParamControl, Reply,
     Request, SummaryReply,
 };
 use crate::dsl::report::diagnostics;
+use crate::engine::batch::ReadyMade;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{Environment, EnvironmentOptions};
 use crate::engine::state::PlayerId;
@@ -57,6 +59,8 @@ pub struct Session {
     episode: u64,
     agent: Agent,
     watcher: Watcher,
+    /// The match that a person plays.
+    live: Option<LiveMatch>,
     /// The last message of each kind, for pages that come later.
     opened: Arc<str>,
     checked: Arc<str>,
@@ -86,6 +90,7 @@ impl Session {
             episode: 0,
             agent: Agent::Bot,
             watcher,
+            live: None,
             opened: nothing.clone(),
             checked: nothing,
             played: None,
@@ -114,6 +119,7 @@ impl Session {
                     tell(pages, &Reply::Refused { message: format!("not a request: {why}") });
                 }
                 Err(TryRecvError::Empty) => {
+                    self.go_on(pages);
                     if self.watcher.changed(WAIT) {
                         self.reload(pages);
                     }
@@ -141,6 +147,19 @@ impl Session {
                 }
                 None => refuse(format!("no agent `{agent}`")),
             },
+            Request::Begin { side } => match self.begin(team(side)) {
+                Ok(live) => {
+                    tell(pages, &Reply::Step { scenes: live.film.scenes.clone() });
+                    self.live = Some(live);
+                }
+                Err(why) => refuse(why),
+            },
+            Request::Hold { keys } => {
+                if let Some(live) = &mut self.live {
+                    live.hold(keys);
+                }
+            }
+            Request::Stop => self.end(pages),
             Request::Bind { params } => {
                 self.params = params;
                 self.checked = said(&self.checked(&Ok(())));
@@ -163,6 +182,38 @@ impl Session {
                 Err(why) => refuse(why.to_string()),
             },
         }
+    }
+
+    fn begin(&self, side: crate::scenario::Team) -> Result<LiveMatch, String> {
+        let environment = Environment::new(self.loaded.scenario.clone(), self.environment())
+            .map_err(|why| Error::Environment(why).to_string())?;
+        let policy = ReadyMade::new(self.agent);
+        LiveMatch::begin(environment, (self.seed, self.episode), policy, side)
+    }
+
+    /// Plays the next step of a person's match when it is due.
+    fn go_on(&mut self, pages: &broadcast::Sender<Arc<str>>) {
+        let Some(live) = self.live.as_mut().filter(|live| live.is_due()) else { return };
+        let before = live.film.scenes.len();
+        let played = live.step();
+        let scenes = live.film.scenes.get(before..).unwrap_or_default().to_vec();
+        tell(pages, &Reply::Step { scenes });
+        match played {
+            Ok(true) if live.film.length() < STEPS_MAX => {}
+            Ok(_) => self.end(pages),
+            Err(why) => {
+                self.live = None;
+                tell(pages, &Reply::Refused { message: why.to_string() });
+            }
+        }
+    }
+
+    /// Ends a person's match: from now on it can be watched like any other.
+    fn end(&mut self, pages: &broadcast::Sender<Arc<str>>) {
+        let Some(live) = self.live.take() else { return };
+        let played = said(&self.episode_of(live.film, "you"));
+        let _ = pages.send(played.clone());
+        self.played = Some(played);
     }
 
     /// Reads the file again.
@@ -311,20 +362,24 @@ impl Session {
             environment: self.environment(),
             until_step: is_endless.then_some(STEPS_MAX),
         };
+        let agent = Agent::NAMED.iter().find(|(_, agent)| *agent == self.agent);
         let film = film(scenario, &options)?;
+        Ok(self.episode_of(film, agent.map_or("", |(name, _)| name)))
+    }
+
+    fn episode_of(&self, film: Film, agent: &'static str) -> Reply {
         let events = film.events.iter().map(|(at, event)| happened(&film, *at, event)).collect();
         let verdict = film.outcome.as_ref().and_then(|outcome| outcome.verdict);
-        let agent = Agent::NAMED.iter().find(|(_, agent)| *agent == self.agent);
-        Ok(Reply::Episode(Box::new(Episode {
+        Reply::Episode(Box::new(Episode {
             seed: self.seed,
             episode: self.episode,
-            agent: agent.map_or("", |(name, _)| name),
+            agent,
             names: film.names.to_vec(),
             events,
             outcome: film.outcome.as_ref().map(|outcome| outcome.label.to_string()),
             success: verdict.map(|verdict| verdict == Verdict::Success),
             scenes: film.scenes,
-        })))
+        }))
     }
 
     fn cloud(&self, count: u32) -> Result<Reply, Error> {

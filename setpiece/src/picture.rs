@@ -23,7 +23,8 @@ const COLOURS: [[&str; 3]; 2] =
 /// Draws a moment from above in metres, with the left team attacking to the right. Players are
 /// discs in their team's colour with role, heading and name.
 ///
-/// `names`: everybody's label, by [`PlayerId::index`]; a role as a name is left out.
+/// `names`: everybody's label, by their
+/// [index](crate::engine::state::PlayerId::index); a role as a name is left out.
 pub fn svg(title: &str, names: &[String; PLAYERS_MAX], scene: &Scene) -> String {
     let (x, y) = (HALF_LENGTH_M + MARGIN_M, HALF_WIDTH_M + MARGIN_M);
     let (width, height) = (2.0 * x, 2.0 * y);

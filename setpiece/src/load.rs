@@ -153,14 +153,21 @@ fn of_file(scenario: Scenario, path: &Path, cast: &[Cast]) -> Result<Loaded, Err
     if let Some(cast) = cast.first() {
         return Err(Error::Cast { ai: cast.ai.clone() });
     }
-    Ok(Loaded {
-        scenario: Arc::new(scenario),
-        warnings: Vec::new(),
-        sources: Sources::default(),
-        origin: None,
-        origins: Origins::default(),
-        inputs: vec![path.to_owned()],
-    })
+    Ok(Loaded { inputs: vec![path.to_owned()], ..Loaded::without_text(scenario) })
+}
+
+impl Loaded {
+    /// A compiled scenario, whose text is unknown.
+    pub fn without_text(scenario: Scenario) -> Loaded {
+        Loaded {
+            scenario: Arc::new(scenario),
+            warnings: Vec::new(),
+            sources: Sources::default(),
+            origin: None,
+            origins: Origins::default(),
+            inputs: Vec::new(),
+        }
+    }
 }
 
 /// Compiles a text; `name` is its name in reports.

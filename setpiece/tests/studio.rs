@@ -249,6 +249,38 @@ fn a_person_plays_a_goal_by_hand() {
     assert_eq!(tab.hear("episode")["outcome"], Value::Null);
 }
 
+#[test]
+fn a_recorded_episode_is_shown_as_it_was_played() {
+    use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+    use setpiece::replay::{Recorder, Replay};
+    use setpiece::scenario::Action;
+    let scenario = setpiece::load("academy_corner").unwrap().scenario;
+    let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
+    let (mut recorder, mut scratch) = (Recorder::default(), Scratch::default());
+    environment.reset(Some(7), Some(2)).unwrap();
+    recorder.begin(None);
+    for _ in 0..9 {
+        recorder.note(Action::HighPass, None);
+        environment.step(&[Action::HighPass], &mut scratch).unwrap();
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.pitchr");
+    let replay = Replay::of(&environment, &recorder).unwrap();
+    std::fs::write(&path, replay.to_bytes().unwrap()).unwrap();
+    let studio = Studio::of(path.to_str().unwrap());
+    let mut tab = studio.tab();
+    let opened = tab.hear("opened");
+    assert_eq!((&opened["text"], &opened["is_file"]), (&json!(""), &json!(false)));
+    let episode = tab.hear("episode");
+    assert_eq!((&episode["seed"], &episode["episode"]), (&json!(7), &json!(2)));
+    let ball: [f32; 3] =
+        serde_json::from_value(episode["scenes"][9]["ball"]["pos"].clone()).unwrap();
+    assert_eq!(ball, environment.state().ball.pos.to_array());
+    // A recording has no text to change.
+    tab.ask(&json!({"type": "move", "player": null, "to": [0, 0]}));
+    tab.hear("refused");
+}
+
 /// Reads episodes until one is as wanted.
 fn while_not(tab: &mut Tab, first: Value, wanted: impl Fn(&Value) -> bool) {
     let mut value = first;

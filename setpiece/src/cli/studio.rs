@@ -9,7 +9,7 @@ use std::ffi::OsString;
 
 #[derive(Args, Debug)]
 pub(crate) struct StudioArgs {
-    /// A scenario of the library or a .pitch file
+    /// A scenario of the library, a .pitch file, or a recorded episode (.pitchr)
     #[arg(value_name = "SCENARIO", default_value = "academy_3_vs_1_with_keeper")]
     scenario: OsString,
     /// The port, on this machine alone; 0 takes any that is free

@@ -11,11 +11,13 @@ use crate::engine::batch::ReadyMade;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{Environment, EnvironmentOptions};
 use crate::engine::state::PlayerId;
+use crate::error::{FileFault, Packed};
 use crate::files::{SOURCE_MAX_BYTES, read_file, write};
-use crate::film::{Film, FilmOptions, film};
+use crate::film::{Film, FilmOptions, film, replayed};
 use crate::load::{LoadOptions, compile_text_with, load_with};
 use crate::render::Scene;
 use crate::render::scene::Id;
+use crate::replay::{REPLAY_MAX_BYTES, Replay};
 use crate::run::{RunOptions, run};
 use crate::scenario::{Bindings, Type, Verdict};
 use crate::scene::{of_match, team};
@@ -68,13 +70,34 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens a scenario by its name in the library or as a file.
+    /// Opens a scenario by its name in the library or as a file, or a recorded episode.
     ///
     /// # Errors
-    /// Like [`load_with`].
+    /// Like [`load_with`]; [`Error::Replay`] for a recording that can't be played here.
     pub fn open(source: &std::ffi::OsStr, allow_outside: bool) -> Result<Session, Error> {
-        let loaded = load_with(source, &LoadOptions { allow_outside, ..LoadOptions::default() })?;
-        let path = Path::new(source).is_file().then(|| PathBuf::from(source));
+        let options = LoadOptions { allow_outside, ..LoadOptions::default() };
+        match load_with(source, &options) {
+            Err(Error::File { path, why: FileFault::Packed(Packed::Replay) }) => {
+                let replay = Replay::from_bytes(&read_file(&path, REPLAY_MAX_BYTES)?)?;
+                let film = replayed(&replay)?;
+                let mut session =
+                    Session::new(source, Loaded::without_text(replay.scenario()?), allow_outside);
+                (session.seed, session.episode) = (replay.seed, replay.index);
+                session.played = Some(said(&session.episode_of(film, "")));
+                Ok(session)
+            }
+            loaded => {
+                let mut session = Session::new(source, loaded?, allow_outside);
+                session.played = session.play().ok().map(|reply| said(&reply));
+                Ok(session)
+            }
+        }
+    }
+
+    fn new(source: &std::ffi::OsStr, loaded: Loaded, allow_outside: bool) -> Session {
+        // A compiled scenario and a recording have no text to edit.
+        let has_text = loaded.sources.iter().next().is_some();
+        let path = (has_text && Path::new(source).is_file()).then(|| PathBuf::from(source));
         let text = loaded.sources.iter().next().map_or("", |(_, file)| &*file.text).to_owned();
         let name = source.to_string_lossy().into_owned();
         let watcher = Watcher::new(&loaded.inputs);
@@ -97,8 +120,7 @@ impl Session {
         };
         session.opened = said(&session.opening());
         session.checked = said(&session.checked(&Ok(())));
-        session.played = session.play().ok().map(|reply| said(&reply));
-        Ok(session)
+        session
     }
 
     /// Serves requests until nobody can send any.

@@ -35,7 +35,11 @@ enum Command {
     /// Check the house rules: which room may use which, file lengths, words, names
     Tidy,
     /// Build the studio's page with npm
-    Studio,
+    Studio {
+        /// Also drive it in Chromium (`CHROMIUM`, else /usr/bin/chromium)
+        #[arg(long)]
+        drive: bool,
+    },
     /// Check licences, sources and advisories of the dependencies with cargo-deny
     Deny,
     /// Write docs/pitchc.schema.json
@@ -78,7 +82,8 @@ fn main() -> ExitCode {
         Command::Python { full: false } => ("python", ci::python()),
         Command::Python { full: true } => ("python", ci::python_full()),
         Command::Tidy => ("tidy", tidy::tidy()),
-        Command::Studio => ("studio", studio::build()),
+        Command::Studio { drive: false } => ("studio", studio::build()),
+        Command::Studio { drive: true } => ("studio", studio::drive()),
         Command::Deny => ("deny", ci::deny()),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),

@@ -12,6 +12,16 @@ pub(crate) fn build() -> Result<(), String> {
     build_into("dist")
 }
 
+/// Builds the page and the command, and runs the page's tests in a browser.
+pub(crate) fn drive() -> Result<(), String> {
+    build()?;
+    run(Command::new("cargo").args(["build", "--package", "setpiece"]).current_dir(root()))?;
+    run(Command::new(npm())
+        .args(["test", "--silent"])
+        .env("SETPIECE", root().join("target/debug/setpiece"))
+        .current_dir(root().join("studio")))
+}
+
 /// Checks that the committed page is what the sources give. Without npm it can't, and says so.
 pub(crate) fn check() -> Result<(), String> {
     if Command::new(npm()).arg("--version").output().is_err() {

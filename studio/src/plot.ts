@@ -32,7 +32,11 @@ export class Plot {
     const axis = { stroke: "#8996a5", grid: { stroke: "#8996a533" }, ticks: { show: false } };
     const options: uPlot.Options = {
       ...this.size(),
-      scales: { x: { time: false } },
+      scales: {
+        x: { time: false },
+        // Where nothing is paid, the line of 0 stands in the middle.
+        y: { range: (_, least, most) => (least === most ? [least - 0.1, most + 0.1] : [least, most]) },
+      },
       axes: [axis, axis],
       legend: { live: true },
       series: [

@@ -7,16 +7,16 @@ from contests import Contest, per_cpu_second
 # Metres. Six players and the ball in boxes, some in need of room, like an Academy scenario with
 # draws.
 SCENIC = """
-class Man:
+class Footballer:
     width: 0.5
     length: 0.5
 
-ego = new Man at (Range(8, 14), Range(-3, 3))
-left_wing = new Man at (Range(10, 20), Range(6, 20))
-right_wing = new Man at (Range(10, 20), Range(-20, -6))
-defender = new Man at (Range(30, 42), Range(-8, 8))
-other = new Man at (Range(30, 42), Range(-8, 8))
-keeper = new Man at (Range(50, 54), Range(-2, 2))
+ego = new Footballer at (Range(8, 14), Range(-3, 3))
+left_wing = new Footballer at (Range(10, 20), Range(6, 20))
+right_wing = new Footballer at (Range(10, 20), Range(-20, -6))
+defender = new Footballer at (Range(30, 42), Range(-8, 8))
+other = new Footballer at (Range(30, 42), Range(-8, 8))
+keeper = new Footballer at (Range(50, 54), Range(-2, 2))
 ball = new Object at (Range(16, 20), Range(-3, 3)), with width 0.22, with length 0.22
 require (distance from defender to other) > 4
 require (distance from ego to ball) > 3

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Format, house rules, lints, dependencies, tests, docs, the wheel and its tests.
+/// Format, house rules, lints, dependencies, the studio, tests, docs, the wheel and its tests.
 pub(crate) fn ci() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"])?;
     crate::tidy::tidy()?;
@@ -17,6 +17,7 @@ pub(crate) fn ci() -> Result<(), String> {
     }
     crate::studio::check()?;
     rust_tests()?;
+    crate::studio::drive_if_there()?;
     run(Command::new("cargo")
         .args(["doc", "--workspace", "--no-deps", "--quiet"])
         .env("RUSTDOCFLAGS", "-D warnings"))?;

@@ -12,20 +12,37 @@ pub(crate) fn build() -> Result<(), String> {
     build_into("dist")
 }
 
-/// Builds the page and the command, and runs the page's tests in a browser.
+/// Builds the page, and runs its tests in a browser.
 pub(crate) fn drive() -> Result<(), String> {
     build()?;
+    tests()
+}
+
+/// Runs the page's tests where npm and the browser are; elsewhere says that it doesn't.
+pub(crate) fn drive_if_there() -> Result<(), String> {
+    if !has_npm() || !Path::new(&browser()).exists() {
+        println!(
+            "studio: left out, its tests need npm and Chromium: `apt-get install chromium`, or set CHROMIUM"
+        );
+        return Ok(());
+    }
+    tests()
+}
+
+/// Builds the command, and runs the page's tests; the page's packages are installed.
+fn tests() -> Result<(), String> {
     run(Command::new("cargo").args(["build", "--package", "setpiece"]).current_dir(root()))?;
     run(Command::new(npm())
         .args(["test", "--silent"])
         .env("SETPIECE", root().join("target/debug/setpiece"))
+        .env("CHROMIUM", browser())
         .current_dir(root().join("studio")))
 }
 
 /// Checks that the committed page is what the sources give. Without npm it can't, and says so.
 pub(crate) fn check() -> Result<(), String> {
-    if Command::new(npm()).arg("--version").output().is_err() {
-        println!("xtask: no npm here: the studio's page is not compared with its sources");
+    if !has_npm() {
+        println!("studio: left out, no npm here: the page is not compared with its sources");
         return Ok(());
     }
     let fresh = root().join("target/studio");
@@ -47,6 +64,15 @@ fn build_into(folder: &str) -> Result<(), String> {
     run(Command::new(npm()).arg("ci").args(quiet).current_dir(&studio))?;
     let build = ["run", "--silent", "build", "--", "--logLevel=warn", "--outDir", folder];
     run(Command::new(npm()).args(build).current_dir(&studio))
+}
+
+/// Where Chromium is: Debian's, unless `CHROMIUM` says otherwise.
+fn browser() -> String {
+    std::env::var("CHROMIUM").unwrap_or_else(|_| "/usr/bin/chromium".to_owned())
+}
+
+fn has_npm() -> bool {
+    Command::new(npm()).arg("--version").output().is_ok()
 }
 
 fn npm() -> &'static str {

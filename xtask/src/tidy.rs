@@ -147,7 +147,10 @@ const DSL_ARROWS: &[(&str, &[&str])] = &[
     ("format", &["source", "problem", "parse"]),
     ("resolve", &["source", "ast", "problem", "parse"]),
     ("lower", &["source", "check", "cast", "origins", "ast", "problem", "parse", "resolve"]),
-    ("compile", &["source", "cast", "origins", "ast", "problem", "parse", "resolve", "lower"]),
+    (
+        "compile",
+        &["source", "cast", "origins", "ast", "problem", "parse", "check", "resolve", "lower"],
+    ),
 ];
 
 /// Checks every rule and reports each breach.

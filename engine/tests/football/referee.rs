@@ -323,14 +323,14 @@ fn who_runs_into_a_rival_loses_their_balance_and_who_stands_does_not() {
 /// Shoots at a player's chest: the handballs of each seed, and what was given.
 fn handballs(
     rules: &[(Rule, f64)],
-    man: PlayerId,
+    who: PlayerId,
     at: Vec2,
     height: f32,
 ) -> Vec<(Event, GameMode)> {
     let mut called = Vec::new();
     for seed in 0..400 {
         let mut bench = alone(rules, seed);
-        bench.game.players[man.index()].pos = at;
+        bench.game.players[who.index()].pos = at;
         let from = Vec3::new(at.x - 3.0, at.y, height);
         bench.game.ball = Ball { pos: from, vel: Vec3::new(25.0, 0.0, 0.5), spin: Vec3::ZERO };
         bench.game.last_touch = Some(LEFT_MAN);
@@ -338,7 +338,7 @@ fn handballs(
         bench.step(Action::BuiltinAi);
         bench.step(Action::BuiltinAi);
         if let Some(event) = bench.seen(EventKind::Handball) {
-            assert_eq!(bench.game.player(man).yellow_cards, 1, "it stopped a shot");
+            assert_eq!(bench.game.player(who).yellow_cards, 1, "it stopped a shot");
             bench.restart();
             called.push((event, bench.game.mode));
         }
@@ -359,13 +359,13 @@ fn handball_is_rare_and_only_where_the_rule_is_on() {
     );
     let called = handballs(&on, RIGHT_MAN, near_goal, 1.0);
     assert!(!called.is_empty() && called.iter().all(|(_, mode)| *mode == GameMode::Penalty));
-    for (rules, man, at, height) in [
+    for (rules, who, at, height) in [
         (&[] as &[_], RIGHT_MAN, middle, 1.0),
         (&on, RIGHT_MAN, middle, 0.2),
         (&on, PlayerId(11), near_goal, 1.0),
         (&[(Rule::Handball, 1.0), (Rule::Stochastic, 0.0)], RIGHT_MAN, middle, 1.0),
     ] {
-        assert_eq!(handballs(rules, man, at, height), []);
+        assert_eq!(handballs(rules, who, at, height), []);
     }
 }
 

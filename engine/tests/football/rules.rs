@@ -30,8 +30,9 @@ fn a_wall_stands_in_the_way_of_a_free_kick_near_goal() {
             let away = pos - spot;
             (away.dot(ahead) - 9.15).abs() < 0.2 && ahead.perp_dot(away).abs() < 1.0
         };
-        let men = bench.game.team(Team::Right).filter(|(_, player)| in_way(player.pos)).count();
-        assert_eq!(men, wall, "at {spot}");
+        let opponents =
+            bench.game.team(Team::Right).filter(|(_, player)| in_way(player.pos)).count();
+        assert_eq!(opponents, wall, "at {spot}");
         for (_, rival) in bench.game.team(Team::Right).filter(|(_, player)| player.role != Role::GK)
         {
             assert!(rival.pos.distance(spot) > 9.0, "{} is too near", rival.pos);
@@ -60,13 +61,13 @@ fn a_long_shot_at_a_lone_keeper_is_seen_coming() {
                 player.pos = Vec2::new(-30.0, 30.0);
             }
             bench.game.players[11].pos = Vec2::new(50.0, 0.0);
-            let man = PlayerId(2);
+            let who = PlayerId(2);
             let from = Vec2::new(x, 0.0);
-            bench.game.players[man.index()].pos = from;
+            bench.game.players[who.index()].pos = from;
             let aim = (Vec2::new(55.0, (seed % 7) as f32 - 3.0) - from).normalize();
             let vel = (aim * 33.0).extend(9.0);
             bench.game.ball = Ball { pos: from.extend(0.11), vel, spin: Vec3::ZERO };
-            contact::note(&mut bench.game, man, contact::Touch::Played);
+            contact::note(&mut bench.game, who, contact::Touch::Played);
             for _ in 0..60 {
                 bench.step(Action::Idle);
                 if bench.game.dead || bench.game.play.hands.is_some() {
@@ -249,14 +250,14 @@ fn a_shot_at_the_keepers_chest_does_not_go_through() {
             player.pos = Vec2::new(-10.0, 30.0);
         }
         bench.game.players[11].pos = Vec2::new(53.5, 0.0);
-        let man = PlayerId(2);
-        bench.game.players[man.index()].pos = Vec2::new(43.0, 0.0);
+        let who = PlayerId(2);
+        bench.game.players[who.index()].pos = Vec2::new(43.0, 0.0);
         bench.game.ball = Ball {
             pos: Vec3::new(44.0, 0.0, 0.5),
             vel: Vec3::new(25.0, 0.0, 1.5),
             spin: Vec3::ZERO,
         };
-        contact::note(&mut bench.game, man, contact::Touch::Played);
+        contact::note(&mut bench.game, who, contact::Touch::Played);
         for _ in 0..8 {
             bench.step(Action::BuiltinAi);
             if bench.game.dead {
@@ -527,15 +528,15 @@ fn a_parry_goes_back_into_play() {
             player.pos = Vec2::new(-10.0, 30.0);
         }
         bench.game.players[11].pos = Vec2::new(54.0, 0.0);
-        let man = PlayerId(2);
-        bench.game.players[man.index()].pos = Vec2::new(34.0, 0.0);
+        let who = PlayerId(2);
+        bench.game.players[who.index()].pos = Vec2::new(34.0, 0.0);
         let aside = (seed % 7) as f32 - 3.0;
         bench.game.ball = Ball {
             pos: Vec3::new(35.0, 0.0, 0.5),
             vel: Vec3::new(24.0, 1.15 * aside, 3.0),
             spin: Vec3::ZERO,
         };
-        contact::note(&mut bench.game, man, contact::Touch::Played);
+        contact::note(&mut bench.game, who, contact::Touch::Played);
         let mut parried = false;
         for _ in 0..25 {
             bench.step(Action::BuiltinAi);

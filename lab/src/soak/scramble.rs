@@ -27,7 +27,7 @@ const STARTS: [&str; 9] =
 const SIDES: [&str; 2] = ["left", "right"];
 
 /// A player of a scenario.
-struct Man {
+struct Footballer {
     name: String,
     role: &'static str,
     /// Normalised.
@@ -47,15 +47,15 @@ pub(super) fn scenario(random: &mut Stream, limit: u32) -> String {
         return text;
     }
     let sizes = [size(random, 1), size(random, 0)];
-    let teams = [0, 1].map(|team| men(random, team, sizes[team]));
+    let teams = [0, 1].map(|team| footballers(random, team, sizes[team]));
     text.push_str("scenario soak {\n");
     rules(&mut text, random);
     start(&mut text, random, &teams);
     agents(&mut text, random, &teams);
     for (side, team) in SIDES.into_iter().zip(&teams) {
         let _ = writeln!(text, "    team {side} {{\n        difficulty: {:.2}", random.unit());
-        for man in team {
-            player(&mut text, random, man, &teams, behaviors);
+        for footballer in team {
+            player(&mut text, random, footballer, &teams, behaviors);
         }
         text.push_str("    }\n");
     }
@@ -78,21 +78,21 @@ fn size(random: &mut Stream, least: u32) -> u32 {
     if one_in(random, 3) { least + random.below(3) } else { least + random.below(12 - least) }
 }
 
-fn men(random: &mut Stream, team: usize, size: u32) -> Vec<Man> {
+fn footballers(random: &mut Stream, team: usize, size: u32) -> Vec<Footballer> {
     let keeper = !one_in(random, 4);
     let side = if team == 0 { -1.0 } else { 1.0 };
-    let man = |index| {
+    let footballer = |index| {
         let role = if index == 0 && keeper { "GK" } else { ROLES[random.below(9) as usize] };
         let at_home = role == "GK" && !one_in(random, 6);
         let place = if at_home { (side, 0.0) } else { (spread(random), spread(random) * 0.42) };
-        Man {
+        Footballer {
             name: format!("{}{index}", &SIDES[team][..1]),
             role,
             place,
             controllable: !one_in(random, 12),
         }
     };
-    (0..size).map(man).collect()
+    (0..size).map(footballer).collect()
 }
 
 fn rules(text: &mut String, random: &mut Stream) {
@@ -112,7 +112,7 @@ fn rules(text: &mut String, random: &mut Stream) {
     text.push_str(" }\n");
 }
 
-fn start(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
+fn start(text: &mut String, random: &mut Stream, teams: &[Vec<Footballer>; 2]) {
     let kind = STARTS[random.below(9) as usize];
     let team = usize::from(!teams[1].is_empty() && one_in(random, 2));
     let whose = matches!(kind, "corner" | "goal_kick" | "penalty")
@@ -136,19 +136,19 @@ fn start(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
     }
 }
 
-fn ball(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
+fn ball(text: &mut String, random: &mut Stream, teams: &[Vec<Footballer>; 2]) {
     let owner = teams
         .iter()
         .flatten()
-        .filter(|man| man.place.0.abs() < 0.95)
+        .filter(|footballer| footballer.place.0.abs() < 0.95)
         .nth(random.below(22) as usize);
-    if let Some(man) = owner {
+    if let Some(footballer) = owner {
         let _ = writeln!(
             text,
             "    ball at {} + ({:.2}m, 0m) {{ owner: {} }}",
-            man.name,
+            footballer.name,
             spread(random),
-            man.name
+            footballer.name
         );
         return;
     }
@@ -168,10 +168,11 @@ fn ball(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
     text.push('\n');
 }
 
-fn agents(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
+fn agents(text: &mut String, random: &mut Stream, teams: &[Vec<Footballer>; 2]) {
     text.push_str("    agents {");
     for (side, team) in SIDES.into_iter().zip(teams) {
-        let free: Vec<&Man> = team.iter().filter(|man| man.controllable).collect();
+        let free: Vec<&Footballer> =
+            team.iter().filter(|footballer| footballer.controllable).collect();
         let count = match random.below(5) {
             _ if free.is_empty() => "0".to_owned(),
             0 => "all".to_owned(),
@@ -180,7 +181,7 @@ fn agents(text: &mut String, random: &mut Stream, teams: &[Vec<Man>; 2]) {
                 let named: Vec<&str> = free
                     .iter()
                     .filter(|_| one_in(random, 2))
-                    .map(|man| man.name.as_str())
+                    .map(|footballer| footballer.name.as_str())
                     .collect();
                 if named.is_empty() { "1".to_owned() } else { format!("[{}]", named.join(", ")) }
             }
@@ -201,26 +202,28 @@ fn manners(text: &mut String, random: &mut Stream) {
 fn player(
     text: &mut String,
     random: &mut Stream,
-    man: &Man,
-    teams: &[Vec<Man>; 2],
+    footballer: &Footballer,
+    teams: &[Vec<Footballer>; 2],
     behaviors: bool,
 ) {
     let ai = match random.below(if behaviors { 10 } else { 6 }) {
         0 => "hold".to_owned(),
         1 => "lazy".to_owned(),
         2..6 => "bot".to_owned(),
-        _ => script::call(random, teams.iter().flatten().map(|man| man.name.as_str())),
+        _ => {
+            script::call(random, teams.iter().flatten().map(|footballer| footballer.name.as_str()))
+        }
     };
     let _ = write!(
         text,
         "        {}: {} at ({:.3}, {:.3})",
-        man.name, man.role, man.place.0, man.place.1
+        footballer.name, footballer.role, footballer.place.0, footballer.place.1
     );
     if one_in(random, 8) {
         let _ = write!(text, " facing {:.0}deg", spread(random) * 180.0);
     }
     let _ = write!(text, " {{ ai: {ai}  overlap: allowed");
-    if !man.controllable {
+    if !footballer.controllable {
         text.push_str("  controllable: off");
     }
     if one_in(random, 6) {

@@ -11,6 +11,8 @@ const PHRASES: &[&str] = &[
     "him",
     "his",
     "himself",
+    "man",
+    "men",
     "whom",
     "anew",
     "told",
@@ -66,8 +68,8 @@ const AT_MOST: &[(&str, usize)] = &[
 
 /// Endings of the files that people read.
 const TEXTS: &[&str] = &[
-    "csv", "ipynb", "js", "json", "md", "pest", "pitch", "py", "pyi", "rhai", "rs", "scm", "sh",
-    "snap", "toml", "txt",
+    "csv", "ipynb", "js", "json", "md", "mjs", "pest", "pitch", "py", "pyi", "rhai", "rs", "scm",
+    "sh", "snap", "toml", "ts", "txt",
 ];
 
 /// This file lists the words, the licence's text isn't ours, and the others are made by npm.

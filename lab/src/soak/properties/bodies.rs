@@ -23,7 +23,7 @@ pub(super) fn sound(game: &Match) -> Result<(), LabError> {
         must(game.squad.has(id), || format!("{id:?} is nobody"))?;
     }
     must(game.owner.is_none_or(|id| game.player(id).active), || {
-        "a man sent off has the ball".to_owned()
+        "a player who was sent off has the ball".to_owned()
     })?;
     if let Some((keeper, _)) = game.play.hands {
         let player = game.player(keeper);

@@ -173,14 +173,14 @@ fn what_goes_through_something_is_seen() {
     assert!(scored(Vec3::new(55.0, 3.0, 2.6), Vec3::new(55.3, 3.0, 2.4)).contains("a goal from"));
     assert!(scored(Vec3::new(50.0, 3.0, 1.0), Vec3::new(50.3, 3.0, 1.0)).contains("a goal from"));
 
-    let man = |game: &Match, i: usize, at: Vec2| {
+    let moved = |game: &Match, i: usize, at: Vec2| {
         let mut game = game.clone();
         game.players[i].pos = at;
         game.players[i].body.pose = Pose::Up;
         game
     };
     let run = |from: Vec2, to: Vec2| {
-        film(&man(&free, 7, from), &man(&free, 7, to)).err().unwrap_or_default()
+        film(&moved(&free, 7, from), &moved(&free, 7, to)).err().unwrap_or_default()
     };
     assert!(run(Vec2::new(20.0, 39.0), Vec2::new(20.3, 39.0)).contains("has jumped"));
     assert_eq!(run(Vec2::new(56.0, 4.2), Vec2::new(56.0, 4.1)), "");
@@ -189,7 +189,7 @@ fn what_goes_through_something_is_seen() {
 
     let pair = |there: Vec2, back: Vec2| {
         let at = |game: &Match, way: Vec2| {
-            man(&man(game, 7, Vec2::new(30.0, 38.0)), 8, Vec2::new(30.0, 38.0) + way)
+            moved(&moved(game, 7, Vec2::new(30.0, 38.0)), 8, Vec2::new(30.0, 38.0) + way)
         };
         let mut film = TickMemory::default();
         film.pair(&at(&free, there), &at(&free, there), 7, 8).unwrap();
@@ -202,7 +202,7 @@ fn what_goes_through_something_is_seen() {
 
     let mut kick_off = free.clone();
     kick_off.play.kick_off = Some(Team::Left);
-    let inside = man(&kick_off, 18, Vec2::new(3.0, 0.0));
+    let inside = moved(&kick_off, 18, Vec2::new(3.0, 0.0));
     assert!(film(&inside, &inside).unwrap_err().contains("in the circle"));
 }
 

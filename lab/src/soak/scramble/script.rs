@@ -5,20 +5,20 @@ use super::{one_in, spread};
 use setpiece::engine::random::Stream;
 use std::fmt::Write as _;
 
-/// What a behaviour may do; `man` is its parameter.
+/// What a behaviour may do; `mate` is its parameter.
 const ACTS: [&str; 16] = [
     "move_to(ball)",
-    "move_to(man)",
+    "move_to(mate)",
     "move_to(them.goal)",
     "dribble_to(me + (uniform(2m, 9m), uniform(-6m, 6m)))",
     "dribble_to(them.goal)",
-    "pass_to(man)",
-    "high_pass_to(man)",
-    "long_pass_to(man)",
+    "pass_to(mate)",
+    "high_pass_to(mate)",
+    "long_pass_to(mate)",
     "shoot",
     "tackle",
     "slide",
-    "mark(man)",
+    "mark(mate)",
     "press",
     "hold",
     "wait for 0.5s",
@@ -41,7 +41,7 @@ const BEHAVIORS: u32 = 3;
 /// Writes the behaviours of a scenario, `act0` and so on.
 pub(super) fn behaviors(text: &mut String, random: &mut Stream) {
     for index in 0..BEHAVIORS {
-        let _ = writeln!(text, "behavior act{index}(man: player) {{");
+        let _ = writeln!(text, "behavior act{index}(mate: player) {{");
         let again = !one_in(random, 4);
         if again {
             text.push_str("    repeat {\n");
@@ -62,9 +62,9 @@ pub(super) fn behaviors(text: &mut String, random: &mut Stream) {
 }
 
 /// A call of one of them for a player, with one of the named players.
-pub(super) fn call<'a>(random: &mut Stream, men: impl Iterator<Item = &'a str>) -> String {
-    let men: Vec<&str> = men.collect();
-    format!("act{}({})", random.below(BEHAVIORS), men[random.below(men.len() as u32) as usize])
+pub(super) fn call<'a>(random: &mut Stream, names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.collect();
+    format!("act{}({})", random.below(BEHAVIORS), names[random.below(names.len() as u32) as usize])
 }
 
 fn statement(text: &mut String, random: &mut Stream) {

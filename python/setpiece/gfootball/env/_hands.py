@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Collection
 from types import ModuleType
 from typing import Any
@@ -55,7 +56,7 @@ def joystick(pygame: ModuleType, number: int) -> Any:
     return stick
 
 
-class Hands(PlayerBase):
+class Hands(PlayerBase, ABC):
     """A person who holds keys.
 
     Every step sends one action: a changed direction first, then the most urgent changed key.
@@ -73,9 +74,9 @@ class Hands(PlayerBase):
         """Begins an episode with nothing held."""
         self._way, self._down = (0, 0), frozenset()
 
+    @abstractmethod
     def held(self) -> tuple[tuple[int, int], Collection[str]]:
         """Returns the direction (x to the right, y down, -1..1) and what the held keys mean."""
-        raise NotImplementedError
 
     def take_action(self, observations: list[dict[str, Any]]) -> CoreAction:
         """Returns the action of the next step."""

@@ -6,12 +6,13 @@
 
 use crate::control::agents::Agent;
 use crate::draw::DrawError;
-use crate::environment::{Environment, Scratch, StepError};
+use crate::environment::{Environment, EnvironmentError, Scratch, StepError};
 use crate::judge::Recorded;
 use crate::random::{Purpose, Stream};
 use crate::statistics::MatchStatistics;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use setpiece_scenario::Bindings;
 use setpiece_scenario::vocabulary::{Action, Verdict};
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -88,11 +89,14 @@ pub struct EpisodeSummary {
 }
 
 /// Why an episode was not played to its end.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EpisodeError {
     /// No start was found.
     #[error(transparent)]
     Draw(#[from] DrawError),
+    /// The drawn parameters don't fit.
+    #[error(transparent)]
+    Environment(#[from] EnvironmentError),
     /// A step failed.
     #[error(transparent)]
     Step(#[from] StepError),
@@ -166,6 +170,7 @@ pub fn run_episode(
 ///
 /// - `prototype`: the environment that every worker plays a copy of.
 /// - `episodes`: their indices under `seed`.
+/// - `bindings`: the parameters of an episode, if they aren't the prototype's.
 /// - `policy`: makes a worker's policy. Its choices must depend only on the environment (including
 ///   its seed and index).
 /// - `after`: called with every episode as it ends, from any thread, in no order.
@@ -178,12 +183,16 @@ pub fn run_episodes<P: Policy>(
     seed: u64,
     episodes: Range<u64>,
     threads: usize,
+    bindings: impl Fn(u64) -> Option<Bindings> + Sync,
     policy: impl Fn() -> P + Sync,
     after: impl Fn(&Result<EpisodeSummary, EpisodeError>) + Sync,
 ) -> Result<Vec<Result<EpisodeSummary, EpisodeError>>, BatchError> {
     let worker = || (prototype.clone(), Scratch::default(), policy());
     let play = |(environment, scratch, policy): &mut (Environment, Scratch, P), index| {
-        let result = run_episode(environment, seed, index, policy, scratch);
+        let bound = bindings(index).map_or(Ok(()), |bindings| environment.set_bindings(&bindings));
+        let result = bound
+            .map_err(EpisodeError::from)
+            .and_then(|()| run_episode(environment, seed, index, policy, scratch));
         after(&result);
         result
     };
@@ -299,7 +308,9 @@ mod tests {
     #[test]
     fn threads_change_nothing() {
         let random = || ReadyMade::new(Agent::Random);
-        let run = |threads| run_episodes(&prototype(), 7, 0..8, threads, random, |_| ()).unwrap();
+        let run = |threads| {
+            run_episodes(&prototype(), 7, 0..8, threads, |_| None, random, |_| ()).unwrap()
+        };
         let (one, three) = (run(1), run(3));
         assert_eq!(one, three);
         let summaries: Vec<_> = one.into_iter().map(Result::unwrap).collect();

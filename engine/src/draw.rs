@@ -4,9 +4,11 @@
 //! checks the requirements of the author and of the pitch, and redraws everything until all of them
 //! hold. `football` decides what a start means for the game.
 
+mod params;
 mod place;
 mod roster;
 
+pub use params::draw_params;
 pub(crate) use roster::player_name;
 pub use roster::{AgentsChoice, Roster, RosterError, SideChoice};
 

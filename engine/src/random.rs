@@ -22,6 +22,10 @@ pub enum Purpose {
     Agent = 5,
     /// `ctx.random()` of behaviour scripts.
     Behavior = 6,
+    /// Parameters that are drawn from what they may be.
+    Params = 7,
+    /// Resampling of results.
+    Resample = 8,
 }
 
 /// The most proposals of one draw. That all of them are rejected is less likely than a hardware

@@ -14,6 +14,7 @@ pub mod file;
 pub mod operators;
 pub mod params;
 pub mod pitch;
+pub mod plan;
 pub mod program;
 pub mod scenario;
 #[cfg(feature = "schema")]
@@ -29,9 +30,9 @@ pub use program::{
     When, Who,
 };
 pub use scenario::{
-    Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, Observation, ObservedValue,
-    Others, PlayerSlot, PlayerStart, Record, Require, Reward, RewardBody, RewardHook, RuleSetting,
-    Scenario, Script, SideAgents, Start, Switching,
+    Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, LIMIT, Observation,
+    ObservedValue, Others, PlayerSlot, PlayerStart, Record, Require, Reward, RewardBody,
+    RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Switching,
 };
 pub use vocabulary::{
     Action, EventField, EventKind, Field, GameMode, Qualifier, Role, Rule, StartKind, Stat, Team,

@@ -248,6 +248,13 @@ impl Param {
         }
     }
 
+    /// A value as a text that [`Param::parse`] reads back to the bit: as [`Param::show`] writes it
+    /// where that is exact, otherwise in SI units.
+    pub fn write(&self, value: f64) -> String {
+        let shown = self.show(value);
+        if self.parse(&shown) == Ok(value) { shown } else { value.to_string() }
+    }
+
     /// What is allowed, in words: `0..1`, `one of wing, centre`.
     pub fn allowed(&self) -> String {
         if !self.choices.is_empty() {

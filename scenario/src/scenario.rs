@@ -324,6 +324,13 @@ pub struct Reward {
     pub body: RewardBody,
 }
 
+impl Reward {
+    /// The names of its terms: `reward/label`.
+    pub fn term_names(&self) -> impl Iterator<Item = String> + '_ {
+        self.body.terms.iter().map(|label| format!("{}/{label}", self.name))
+    }
+}
+
 /// The programs of a reward. The weight is already multiplied in.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -362,6 +369,9 @@ pub struct Endings {
     /// In source order, the parents' first. The first that holds ends the episode.
     pub list: Vec<Ending>,
 }
+
+/// The outcome of an episode that reached its limit.
+pub const LIMIT: &str = "limit";
 
 /// One way to end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,6 +4,7 @@
 //! the docs and Python read them. A row has a name in the language and one line of documentation.
 
 mod action;
+mod agent;
 mod event;
 mod function;
 mod places;
@@ -14,6 +15,7 @@ mod rule;
 mod types;
 
 pub use action::{Action, StickyAction};
+pub use agent::AGENTS;
 pub use event::{EventField, EventKind, Qualifier};
 pub use function::Function;
 pub use places::{Landmark, PitchRegion, RegionName, RegionShape};

@@ -3,7 +3,7 @@
 use crate::random::Stream;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::{Action, StickyAction};
+use setpiece_scenario::vocabulary::{AGENTS, Action, StickyAction};
 
 /// The point (1, 0) of the own frame, which the scripted agent runs to, metres.
 const POINT: Vec2 = Vec2::new(54.4, 0.0);
@@ -40,12 +40,15 @@ pub enum Agent {
 
 impl Agent {
     /// Every agent with its name on the command line.
-    pub const NAMED: &'static [(&'static str, Agent)] = &[
-        ("random", Agent::Random),
-        ("idle", Agent::Idle),
-        ("run_and_shoot", Agent::RunAndShoot),
-        ("bot", Agent::Bot),
-    ];
+    pub const NAMED: &'static [(&'static str, Agent)] = &{
+        let [random, idle, run_and_shoot, bot] = AGENTS;
+        [
+            (random, Agent::Random),
+            (idle, Agent::Idle),
+            (run_and_shoot, Agent::RunAndShoot),
+            (bot, Agent::Bot),
+        ]
+    };
 
     /// Finds an agent by its name.
     pub fn from_name(name: &str) -> Option<Agent> {

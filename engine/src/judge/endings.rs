@@ -7,11 +7,8 @@ use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
 use crate::state::event::{Event, Events};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
-use setpiece_scenario::{Ending, Endings};
+use setpiece_scenario::{Ending, Endings, LIMIT};
 use std::sync::Arc;
-
-/// The label of an episode that reached its limit.
-pub const LIMIT: &str = "limit";
 
 /// How an episode ended.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -84,7 +84,7 @@ impl RewardJudge {
         let mut states = Vec::with_capacity(rewards.len());
         for reward in rewards.iter() {
             let first_term = names.len();
-            names.extend(reward.body.terms.iter().map(|label| format!("{}/{label}", reward.name)));
+            names.extend(reward.term_names());
             let hook = |hook: &RewardHook| HookState::new(!scripts.uses_me(hook.script), n_agents);
             states.push(RewardState {
                 first_term,

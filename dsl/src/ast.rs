@@ -7,6 +7,7 @@
 
 mod behavior;
 mod expr;
+mod level;
 mod reward;
 mod scenario;
 mod team;
@@ -14,6 +15,7 @@ mod team;
 pub use crate::source::{FileId, Span};
 pub use behavior::*;
 pub use expr::*;
+pub use level::*;
 pub use reward::*;
 pub use scenario::*;
 pub use team::*;
@@ -78,11 +80,12 @@ pub enum ItemKind {
     Ending(FnItem),
     /// `behavior NAME …`
     Behavior(BehaviorItem),
-    /// `curriculum`, `suite`, `check`: reserved.
-    Reserved {
-        /// The keyword.
-        keyword: Ident,
-    },
+    /// `suite NAME …`
+    Suite(SuiteItem),
+    /// `check "…" …`
+    Check(CheckItem),
+    /// `curriculum NAME …`
+    Curriculum(CurriculumItem),
     /// Something that could not be read; a problem tells why.
     Broken,
 }
@@ -99,9 +102,10 @@ impl ItemKind {
             ItemKind::Region(_) => "a region",
             ItemKind::Ending(_) => "an ending",
             ItemKind::Behavior(_) => "a behavior",
-            ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => {
-                "something else"
-            }
+            ItemKind::Suite(_) => "a suite",
+            ItemKind::Check(_) => "a check",
+            ItemKind::Curriculum(_) => "a curriculum",
+            ItemKind::Import { .. } | ItemKind::Broken => "something else",
         }
     }
 
@@ -115,7 +119,9 @@ impl ItemKind {
             ItemKind::Behavior(item) => &item.params,
             ItemKind::Import { .. }
             | ItemKind::Const(_)
-            | ItemKind::Reserved { .. }
+            | ItemKind::Suite(_)
+            | ItemKind::Check(_)
+            | ItemKind::Curriculum(_)
             | ItemKind::Broken => &[],
         }
     }

@@ -1,10 +1,11 @@
 //! The compiler's entry: a root file in, a scenario and everything that is wrong with it out.
 
 mod cast;
+mod plan;
 mod scripts;
 mod unused;
 
-use crate::ast::{ItemKind, ScenarioItem, Span};
+use crate::ast::{Ident, Item, ItemKind, ScenarioItem, Span};
 use crate::cast::Cast;
 use crate::lower::casting::Casting;
 use crate::lower::mirror::Mirror;
@@ -20,6 +21,9 @@ use crate::resolve::{Library, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
 use setpiece_scenario::bounds::{self, Excess, Part};
+use setpiece_scenario::plan::Plans;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use unused::Unused;
 
 /// What a caller may choose.
@@ -33,13 +37,17 @@ pub struct CompileOptions<'a> {
     pub scripts: Option<&'a dyn ScriptApi>,
     /// Who plays players, whatever the text says; of several for one player the last wins.
     pub cast: &'a [Cast],
+    /// Whether a file may have suites, checks and curricula alone, and no scenario.
+    pub plans_suffice: bool,
 }
 
 /// What came out.
 #[derive(Clone, Debug)]
 pub struct CompileOutcome {
-    /// The scenario, exactly when no problem is an error.
+    /// The scenario, if no problem is an error and the file has one.
     pub scenario: Option<Scenario>,
+    /// The file's suites, checks and curricula, exactly when no problem is an error.
+    pub plans: Option<Plans>,
     /// Everything that was found, by file, place and code.
     pub problems: Vec<Problem>,
     /// Every file that was read, in the order they were loaded.
@@ -88,88 +96,210 @@ pub fn compile(
     scripts::load(&mut library, &mut scripts, loader, &mut problems);
     let casting = cast::read(options.cast, &guests, &library, &mut problems);
 
-    let mut chosen = None;
-    let root_items: Vec<_> =
-        library.files.first().map_or(&[][..], |file| &file.items).iter().collect();
-    let mut candidates: Vec<(&ScenarioItem, &str)> = Vec::new();
-    for item in root_items {
-        match &item.kind {
-            ItemKind::Scenario(scenario) => candidates.push((scenario, &item.doc)),
-            ItemKind::Reserved { keyword } => problems.push(not_yet(&keyword.node, keyword.span)),
-            _ => {}
-        }
-    }
-    let mut unused = Unused::default();
-    let wanted = pick(&candidates, options.scenario.as_deref(), &library, &mut problems);
+    let items = library.files.first().map_or(&[][..], |file| &file.items);
+    let candidates: Vec<(&ScenarioItem, &str)> = items
+        .iter()
+        .filter_map(|item| match &item.kind {
+            ItemKind::Scenario(scenario) => Some((scenario, item.doc.as_str())),
+            _ => None,
+        })
+        .collect();
+    let has_plans = items.iter().any(|item| is_plan(&item.kind));
+    let wanted = if has_plans && options.plans_suffice && options.scenario.is_none() {
+        concrete(&candidates).next_back()
+    } else {
+        pick(&candidates, options.scenario.as_deref(), &library, &mut problems)
+    };
     let effort = Effort::new();
-    for (item, doc) in &candidates {
-        if item.is_abstract {
-            let mut found = Vec::new();
-            compile_one(&library, &scripts, &[], item, doc, &effort, &mut found, &mut unused);
-            // What is missing, a child may bring.
-            found.retain(|problem| {
-                !problem.code().may_be_echo() && problem.code() != Code::UnknownName
-            });
-            problems.append(&mut found);
-            if is_enough(&effort, item, &mut problems) {
-                break;
-            }
-            continue;
-        }
-        let is_wanted = wanted.is_some_and(|wanted| std::ptr::eq(wanted, *item));
-        let casting = if is_wanted { casting.as_slice() } else { &[] };
-        let lowered = compile_one(
-            &library,
-            &scripts,
-            casting,
-            item,
-            doc,
-            &effort,
-            &mut problems,
-            &mut unused,
-        );
-        if is_wanted {
-            chosen = Some(lowered);
-        }
-        if is_enough(&effort, item, &mut problems) {
-            break;
-        }
-    }
-
-    if let Some(root) = library.files.first() {
-        behavior::report_names(&root.items, &mut problems);
-        unused.report(&root.items, &mut problems);
-    }
+    let mut compilation = Compilation {
+        library: &library,
+        scripts: &scripts,
+        effort: &effort,
+        lowered: BTreeMap::new(),
+        played: wanted.iter().map(|item| item.name.span).collect(),
+        problems,
+        unused: Unused::default(),
+    };
+    compilation.scenarios(&candidates, wanted, &casting);
+    let nothing = nothing();
+    let plans = if has_plans { compilation.plans(items, &nothing) } else { Plans::default() };
+    let Compilation { mut lowered, played, mut problems, unused, .. } = compilation;
+    behavior::report_names(items, &mut problems);
+    unused.report(items, &mut problems);
 
     let lost = library.files.iter().flat_map(|file| &file.lost).map(String::as_str).collect();
     let mut problems = triage(problems, &library.sources, &lost);
-    if let Some((scenario, origins)) = &chosen
-        && !has_errors(&problems)
-        && let Err(excess) = bounds::check(scenario)
-    {
-        problems.push(too_costly(&scenario.name, excess, origins));
-    }
-    if let Some((scenario, origins)) = &chosen
-        && !has_errors(&problems)
-        && let Err(fault) = setpiece_scenario::verify::verify(scenario)
-    {
-        // Only a program beyond every bound gets here: what is small enough passes by construction.
-        let span = origins.scenario.unwrap_or(Span { file: FileId(0), start: 0, end: 0 });
-        problems
-            .push(Problem::new(span, Whole::CantRun { scenario: scenario.name.clone(), fault }));
+    for (scenario, origins) in played.iter().filter_map(|name| lowered.get(name)) {
+        if !has_errors(&problems) {
+            problems.extend(unfit(scenario, origins));
+        }
     }
     let failed = has_errors(&problems);
-    let (scenario, origins) = match chosen {
-        Some((scenario, origins)) => ((!failed).then_some(scenario), origins),
+    let (scenario, origins) = match wanted.and_then(|item| lowered.remove(&item.name.span)) {
+        Some((scenario, origins)) => ((!failed).then(|| Arc::unwrap_or_clone(scenario)), origins),
         None => (None, Origins::default()),
     };
     CompileOutcome {
         scenario,
+        plans: (!failed).then_some(plans),
         problems,
         inputs: library.inputs.clone(),
         sources: library.sources,
         origins,
     }
+}
+
+/// A compilation under way.
+struct Compilation<'a> {
+    library: &'a Library,
+    scripts: &'a LoadedScripts<'a>,
+    effort: &'a Effort,
+    /// The scenarios that are compiled so far, by the place of their name.
+    lowered: BTreeMap<Span, (Arc<Scenario>, Origins)>,
+    /// Those that are wanted, or played by a plan.
+    played: BTreeSet<Span>,
+    problems: Vec<Problem>,
+    unused: Unused,
+}
+
+impl<'a> Compilation<'a> {
+    /// Compiles the scenarios of the root, until enough is wrong.
+    fn scenarios(
+        &mut self,
+        candidates: &[(&'a ScenarioItem, &'a str)],
+        wanted: Option<&ScenarioItem>,
+        casting: &'a [Casting<'a>],
+    ) {
+        for &(item, doc) in candidates {
+            if item.is_abstract {
+                let before = self.problems.len();
+                self.one(item, doc, &[]);
+                // What is missing, a child may bring.
+                let found = self.problems.split_off(before);
+                self.problems.extend(found.into_iter().filter(|problem| {
+                    !problem.code().may_be_echo() && problem.code() != Code::UnknownName
+                }));
+            } else {
+                let is_wanted = wanted.is_some_and(|wanted| std::ptr::eq(wanted, item));
+                let lowered = self.one(item, doc, if is_wanted { casting } else { &[] });
+                self.lowered.insert(item.name.span, lowered);
+            }
+            if is_enough(self.effort, item, &mut self.problems) {
+                break;
+            }
+        }
+    }
+
+    /// Compiles the suites, checks and curricula of some items; `nothing` is a scenario that says
+    /// nothing.
+    fn plans(&mut self, items: &'a [Item], nothing: &'a ScenarioItem) -> Plans {
+        let (library, scripts, effort) = (self.library, self.scripts, self.effort);
+        let flat = flatten(library, nothing, &mut Vec::new());
+        let world = World::new(library, &flat, Mirror::Off, &[], scripts, effort);
+        let plans = plan::Planner::new(&world, &mut |item, doc| {
+            self.played.insert(item.name.span);
+            if let Some((scenario, _)) = self.lowered.get(&item.name.span) {
+                return scenario.clone();
+            }
+            let (scenario, origins) = self.one(item, doc, &[]);
+            self.lowered.insert(item.name.span, (scenario.clone(), origins));
+            scenario
+        })
+        .plans(items);
+        self.problems.extend(world.problems.take());
+        self.unused.use_all(world.used.take());
+        plans
+    }
+
+    /// Compiles one scenario.
+    fn one<'i>(
+        &mut self,
+        item: &'i ScenarioItem,
+        doc: &str,
+        casting: &'i [Casting<'i>],
+    ) -> (Arc<Scenario>, Origins)
+    where
+        'a: 'i,
+    {
+        let mut flat = flatten(self.library, item, &mut self.problems);
+        self.effort.spend(SCENARIO_EFFORT + flat.size());
+        let mirror = Mirror::of(flat.mirror, &mut self.problems);
+        if mirror == Mirror::Ends {
+            flat.teams.swap(0, 1);
+        }
+        let world = World::new(self.library, &flat, mirror, casting, self.scripts, self.effort);
+        let start::LoweredStart { start, mut players, agents, step, behaviors, origins: requires } =
+            start::lower_start(&world);
+        hidden::check_scenario(&world);
+        let mut rewards = Vec::new();
+        let mut reward_spans = Vec::new();
+        for (name, used, stmt) in &flat.rewards {
+            if let Some(reward) = reward::lower_use(&step, name, used, stmt.span) {
+                rewards.push(reward);
+                reward_spans.push(stmt.span);
+            }
+        }
+        let endings = ending::lower_endings(&step);
+        let records = record::lower_records(&step);
+        let observation = observation::lower_observation(&step);
+        let library_rewards = reward::lower_library(&step);
+        let behaviors = behavior::lower_behaviors(&step, &behaviors, &mut players);
+        self.unused.declare(&world);
+
+        let origins = Origins {
+            scenario: Some(item.name.span),
+            params: free(&world).map(|param| param.name.span).collect(),
+            players: world.roster.iter().map(|player| player.span).collect(),
+            rewards: reward_spans,
+            endings: flat.ends.iter().map(|end| end.span).collect(),
+            records: flat.records.iter().map(|record| record.name.span).collect(),
+            observation: flat.observed.map(|(_, span)| span),
+            requires,
+        };
+        let scenario = Scenario {
+            name: item.name.node.clone(),
+            doc: doc.to_owned(),
+            params: free(&world).map(|param| param.param.clone()).collect(),
+            scripts: world.scripts.take(),
+            players,
+            agents,
+            start,
+            rewards,
+            library: library_rewards,
+            endings,
+            records,
+            observation,
+            behaviors,
+        };
+        self.problems.extend(
+            world.problems.take().into_iter().map(|problem| located_in_child(&world, problem)),
+        );
+        self.unused.use_all(world.used.take());
+        (Arc::new(scenario), origins)
+    }
+}
+
+/// A scenario that says nothing.
+fn nothing() -> ScenarioItem {
+    let span = Span { file: FileId(0), start: 0, end: 0 };
+    ScenarioItem {
+        is_abstract: true,
+        name: Ident { node: String::new(), span },
+        params: Vec::new(),
+        extends: None,
+        body: Vec::new(),
+    }
+}
+
+/// Why the engine wouldn't run a scenario.
+fn unfit(scenario: &Scenario, origins: &Origins) -> Option<Problem> {
+    if let Err(excess) = bounds::check(scenario) {
+        return Some(too_costly(&scenario.name, excess, origins));
+    }
+    // Only a program beyond every bound gets here: what is small enough passes by construction.
+    let fault = setpiece_scenario::verify::verify(scenario).err()?;
+    let span = origins.scenario.unwrap_or(Span { file: FileId(0), start: 0, end: 0 });
+    Some(Problem::new(span, Whole::CantRun { scenario: scenario.name.clone(), fault }))
 }
 
 /// What a scenario costs above its limits, reported where most of it stands.
@@ -186,8 +316,16 @@ fn too_costly(name: &str, excess: Excess, origins: &Origins) -> Problem {
     Problem::new(span, Whole::TooCostly { scenario: name.to_owned(), excess, is_part })
 }
 
-fn not_yet(what: &str, span: Span) -> Problem {
-    Problem::new(span, Whole::NotYet { keyword: what.to_owned() })
+/// Whether an item says something about many episodes.
+fn is_plan(kind: &ItemKind) -> bool {
+    matches!(kind, ItemKind::Suite(_) | ItemKind::Check(_) | ItemKind::Curriculum(_))
+}
+
+/// The scenarios of a file that can be played.
+fn concrete<'a>(
+    candidates: &[(&'a ScenarioItem, &str)],
+) -> impl DoubleEndedIterator<Item = &'a ScenarioItem> {
+    candidates.iter().map(|(item, _)| *item).filter(|item| !item.is_abstract)
 }
 
 /// The scenario that comes out: the named one, else the last that is not abstract.
@@ -197,10 +335,9 @@ fn pick<'a>(
     library: &Library,
     problems: &mut Vec<Problem>,
 ) -> Option<&'a ScenarioItem> {
-    let concrete = || candidates.iter().map(|(item, _)| *item).filter(|item| !item.is_abstract);
     let found = match wanted {
-        Some(name) => concrete().find(|item| item.name.node == name),
-        None => concrete().next_back(),
+        Some(name) => concrete(candidates).find(|item| item.name.node == name),
+        None => concrete(candidates).next_back(),
     };
     if found.is_some() {
         return found;
@@ -211,7 +348,7 @@ fn pick<'a>(
     }
     let start = Span { file: FileId(0), start: 0, end: 0 };
     let file = library.sources.get(FileId(0)).map_or(String::new(), |source| source.name.clone());
-    let names: Vec<&str> = concrete().map(|item| item.name.node.as_str()).collect();
+    let names: Vec<&str> = concrete(candidates).map(|item| item.name.node.as_str()).collect();
     problems.push(match (wanted, candidates.first()) {
         (Some(wanted), _) if !names.is_empty() => {
             let guess = Guess::similar_or_all(wanted, &names);
@@ -241,76 +378,6 @@ fn is_enough(effort: &Effort, item: &ScenarioItem, problems: &mut Vec<Problem>) 
         ));
     }
     effort.is_spent() || (problems.len() > ENOUGH_PROBLEMS && has_errors(problems))
-}
-
-#[allow(
-    clippy::too_many_arguments,
-    reason = "what a scenario is made of, and where its findings go"
-)]
-fn compile_one<'a>(
-    library: &'a Library,
-    scripts: &'a LoadedScripts<'a>,
-    casting: &'a [Casting<'a>],
-    item: &'a ScenarioItem,
-    doc: &'a str,
-    effort: &'a Effort,
-    problems: &mut Vec<Problem>,
-    unused: &mut Unused,
-) -> (Scenario, Origins) {
-    let mut flat = flatten(library, item, problems);
-    effort.spend(SCENARIO_EFFORT + flat.size());
-    let mirror = Mirror::of(flat.mirror, problems);
-    if mirror == Mirror::Ends {
-        flat.teams.swap(0, 1);
-    }
-    let world = World::new(library, &flat, mirror, casting, scripts, effort);
-    let start::LoweredStart { start, mut players, agents, step, behaviors, origins: requires } =
-        start::lower_start(&world);
-    hidden::check_scenario(&world);
-    let mut rewards = Vec::new();
-    let mut reward_spans = Vec::new();
-    for (name, used, stmt) in &flat.rewards {
-        if let Some(reward) = reward::lower_use(&step, name, used, stmt.span) {
-            rewards.push(reward);
-            reward_spans.push(stmt.span);
-        }
-    }
-    let endings = ending::lower_endings(&step);
-    let records = record::lower_records(&step);
-    let observation = observation::lower_observation(&step);
-    let library_rewards = reward::lower_library(&step);
-    let behaviors = behavior::lower_behaviors(&step, &behaviors, &mut players);
-    unused.declare(&world);
-
-    let origins = Origins {
-        scenario: Some(item.name.span),
-        params: free(&world).map(|param| param.name.span).collect(),
-        players: world.roster.iter().map(|player| player.span).collect(),
-        rewards: reward_spans,
-        endings: flat.ends.iter().map(|end| end.span).collect(),
-        records: flat.records.iter().map(|record| record.name.span).collect(),
-        observation: flat.observed.map(|(_, span)| span),
-        requires,
-    };
-    let scenario = Scenario {
-        name: item.name.node.clone(),
-        doc: doc.to_owned(),
-        params: free(&world).map(|param| param.param.clone()).collect(),
-        scripts: world.scripts.take(),
-        players,
-        agents,
-        start,
-        rewards,
-        library: library_rewards,
-        endings,
-        records,
-        observation,
-        behaviors,
-    };
-    problems
-        .extend(world.problems.take().into_iter().map(|problem| located_in_child(&world, problem)));
-    unused.use_all(world.used.take());
-    (scenario, origins)
 }
 
 /// Points from a problem in what is inherited to what the scenario itself declares and is named

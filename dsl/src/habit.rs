@@ -30,6 +30,8 @@ pub(crate) enum HabitPlace {
     Reward,
     /// In a behaviour.
     Behavior,
+    /// In a suite, check or curriculum.
+    Level,
     /// Among options.
     Fields,
 }

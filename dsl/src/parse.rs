@@ -12,6 +12,7 @@ mod event;
 mod expr;
 mod field;
 mod item;
+mod level;
 mod reader;
 mod recover;
 mod reward;

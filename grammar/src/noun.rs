@@ -13,6 +13,19 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::kw_abstract => "`abstract`",
         Rule::kw_absent => "`absent`",
         Rule::kw_agents => "`agents`",
+        Rule::kw_stage => "`stage`",
+        Rule::kw_seed => "`seed`",
+        Rule::kw_play => "`play`",
+        Rule::kw_params => "`params`",
+        Rule::kw_over => "`over`",
+        Rule::kw_never => "`never`",
+        Rule::kw_mix => "`mix`",
+        Rule::kw_keeping => "`keeping`",
+        Rule::kw_episodes => "`episodes`",
+        Rule::kw_expect => "`expect`",
+        Rule::kw_earlier => "`earlier`",
+        Rule::kw_current => "`current`",
+        Rule::kw_adapt => "`adapt`",
         Rule::kw_ahead => "`ahead`",
         Rule::kw_all => "`all`",
         Rule::kw_along => "`along`",
@@ -112,7 +125,6 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::reserved | Rule::scen_word | Rule::next_word | Rule::team_key => "a reserved word",
         Rule::role => "a role, for example `CB`",
         Rule::brace_open
-        | Rule::balanced
         | Rule::scenario_body
         | Rule::fields
         | Rule::team_body
@@ -200,7 +212,29 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::domain => "a range or list, for example `0..1`",
         Rule::range => "a range, for example `0..1`",
         Rule::behavior => "`behavior`",
-        Rule::reserved_item => "`curriculum`, `suite` or `check`",
+        Rule::suite => "`suite`",
+        Rule::check => "`check`",
+        Rule::curriculum => "`curriculum`",
+        Rule::suite_body | Rule::check_body | Rule::curriculum_body => "`{`",
+        Rule::suite_stmt | Rule::suite_entry | Rule::suite_probe => {
+            "an entry, for example `academy_corner for 100 episodes`"
+        }
+        Rule::sweep => "`each`",
+        Rule::episodes => "`for` and a number of episodes",
+        Rule::seeded => "`seed`",
+        Rule::check_stmt | Rule::check_probe => "`play` or `expect`",
+        Rule::play => "`play`",
+        Rule::over_params => "`over params`",
+        Rule::expect => "`expect`",
+        Rule::curriculum_stmt | Rule::curriculum_probe => "`stage` or `mix`",
+        Rule::stage => "`stage`",
+        Rule::stage_until => "`until`",
+        Rule::adapt => "`adapt`",
+        Rule::mix => "`mix`",
+        Rule::goal => "a measure and its bound, for example `success_rate > 90%`",
+        Rule::measure => "a measure, for example `success_rate`",
+        Rule::measure_args => "`(`",
+        Rule::measure_arg => "what is measured, for example `length`",
         Rule::scenario => "`scenario`",
         Rule::scen_stmt => "a statement, for example `ball at (0, 0)`",
         Rule::param_stmt => "`param`",

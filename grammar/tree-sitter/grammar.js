@@ -16,7 +16,7 @@ const LONG_UNITS = ["steps", "step", "episodes", "episode"];
 const OVER_TIME = ["count", "max", "min", "mean", "sum", "first", "last", "series"];
 
 const PREC = { or: 1, and: 2, not: 3, compare: 4, set: 5, sum: 6, term: 7, unary: 8, member: 9 };
-const NUMBER = "[0-9]+(\\.[0-9]+)?(e[+-]?[0-9]+)?";
+const NUMBER = "[0-9]+(_[0-9]+)*(\\.[0-9]+)?(e[+-]?[0-9]+)?";
 
 const list = (rule) => seq(rule, repeat(seq(",", rule)), optional(","));
 const block = (statement) => seq("{", repeat(seq(statement, optional(","))), "}");
@@ -121,7 +121,7 @@ module.exports = grammar({
     // ---------------------------------------------------------------- items
 
     _item: ($) => choice(
-      $.import, $.scenario, $.reward, $.formation, $.constant, $.function, $.region, $.ending, $.behavior, $.reserved,
+      $.import, $.scenario, $.reward, $.formation, $.constant, $.function, $.region, $.ending, $.behavior, $.suite, $.check, $.curriculum,
     ),
     import: ($) => seq("import", $.string, optional(seq("as", $.identifier))),
     constant: ($) => seq("const", field("name", $.identifier), optional($._annotation), "=", $._value),
@@ -129,10 +129,6 @@ module.exports = grammar({
     region: ($) => seq("region", field("name", $.identifier), optional($.parameters), "=", $._expression),
     ending: ($) => seq("ending", field("name", $.identifier), optional($.parameters), "=", $._expression),
     behavior: ($) => seq("behavior", field("name", $.identifier), optional($.parameters), choice($.script, $.opaque)),
-    reserved: ($) => choice(
-      seq(choice("curriculum", "suite"), field("name", $.identifier), $.opaque),
-      seq("check", $.string, $.opaque),
-    ),
     // Kept as text: its words are still words of the language.
     opaque: ($) => seq("{", repeat(choice($._word, $.opaque, $.string, $.quantity, $.role, /[^{}"A-Za-z0-9_\s]/)), "}"),
     _word: ($) => choice(
@@ -150,6 +146,39 @@ module.exports = grammar({
       optional(seq("in", choice($.list, $.range))),
     ),
     range: ($) => seq($._expression, "..", $._expression),
+
+    // ---------------------------------------------------------------- levels
+
+    suite: ($) => seq("suite", field("name", $.identifier), $._suite_body),
+    _suite_body: ($) => block(choice($.sweep, $.entry)),
+    sweep: ($) => seq("each", field("name", $.identifier), "in", $.list, $._suite_body),
+    entry: ($) => seq($.reference, $.episodes),
+    episodes: ($) => prec.right(seq(
+      "for", $._expression, optional("episodes"), optional(seq("seed", $._expression)),
+    )),
+    check: ($) => seq("check", $.string, block(choice($.play, $.expect))),
+    play: ($) => prec.right(seq(
+      "play", $.reference, optional(seq("with", $.identifier)), $.episodes, optional(seq("over", "params")),
+    )),
+    expect: ($) => seq("expect", choice(seq("never", $.identifier), $.goal)),
+    curriculum: ($) => seq("curriculum", field("name", $.identifier), block(choice($.stage, $.mix))),
+    stage: ($) => prec.right(seq(
+      "stage", field("name", $.identifier), "=", $.reference,
+      optional(choice(seq("until", $.goal, repeat(seq("or", $.goal))), $.adapt)),
+    )),
+    adapt: ($) => prec.right(seq(
+      "adapt", field("name", $.identifier), "from", $._expression, "to", $._expression, "keeping", $.measure, "in",
+      $.range,
+    )),
+    mix: ($) => seq("mix", "current", ":", $._expression, optional(","), "earlier", ":", $._expression),
+    goal: ($) => prec.right(PREC.compare, seq(
+      $.measure, choice("<", "<=", ">", ">=", "==", "!="), $._expression,
+    )),
+    measure: ($) => prec.right(seq($._measured, optional(seq("(", list($.measured), ")")))),
+    measured: ($) => choice(
+      seq($._measured, ":", $._expression), seq($._measured, choice($.string, $.identifier)), $._expression,
+    ),
+    _measured: ($) => choice($.identifier, alias(choice(...OVER_TIME), $.identifier)),
 
     // ---------------------------------------------------------------- scenarios
 

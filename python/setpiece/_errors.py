@@ -154,6 +154,10 @@ class SnapshotError(SetpieceError, ValueError):
     """
 
 
+class LevelError(SetpieceError, ValueError):
+    """A level was taken of another version of its scenario."""
+
+
 class ActionError(SetpieceError, ValueError):
     """An action has the wrong type or shape, or is out of range; the episode is unchanged."""
 

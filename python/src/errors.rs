@@ -105,12 +105,15 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
                 script_fields(&fields, why)?;
                 "ScriptError"
             }
-            EpisodeError::Step(_) | EpisodeError::Endless(_) => "SetpieceError",
+            EpisodeError::Environment(_) | EpisodeError::Step(_) | EpisodeError::Endless(_) => {
+                "SetpieceError"
+            }
         },
         Error::Cast { .. } => {
             fields.set_item("name", "opponents")?;
             "ParameterError"
         }
+        Error::Level { .. } => "LevelError",
         Error::Threads(_) | Error::NoStep { .. } => "SetpieceError",
         Error::Format { .. } | Error::Compile(_) => "FormatError",
     };

@@ -8,6 +8,7 @@ mod doc;
 mod explain;
 mod fmt;
 mod live;
+mod measured;
 mod out;
 mod play;
 mod playing;
@@ -17,17 +18,25 @@ mod replay;
 mod snapshot;
 #[cfg(feature = "studio")]
 mod studio;
+mod suite;
 mod summary;
+mod test;
 
 use crate::Error;
 use crate::dsl::problem::Code;
+use crate::engine::control::agents::Agent;
 use clap::{Parser, Subcommand, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
 use out::{Out, StyledText};
 use std::ffi::{OsStr, OsString};
+use std::io::IsTerminal;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Exit code for success.
 const FINE: u8 = 0;
+/// How often a progress bar and a watcher update.
+const TICK: Duration = Duration::from_millis(200);
 /// Exit code if the input has errors.
 const FAULT: u8 = 1;
 
@@ -119,6 +128,14 @@ enum Command {
   setpiece run corner.pitch --episodes 100 --plot curves.svg
   setpiece run 11_vs_11_stochastic --from half_time.pitchs")]
     Run(play::RunArgs),
+    /// Play the checks of files and say which hold; exit code 1 if one doesn't
+    #[command(after_help = "Examples:
+  setpiece test                     every check here and below
+  setpiece test corner.pitch --filter keeper
+  setpiece test --format junit > checks.xml
+
+The worst episode of a failed check is written to `failed-checks/`.")]
+    Test(test::TestArgs),
     /// Draw an episode: a video, a sheet of frames seen from above, or one moment
     #[cfg(feature = "render")]
     #[command(after_help = "Examples:
@@ -215,6 +232,7 @@ fn run(args: Args) -> u8 {
         Command::Explain { code } => Ok(explain::explain(code.as_deref(), &out)),
         Command::Doc(args) => doc::doc(&args, &out),
         Command::Run(args) => play::run_command(&args, &out),
+        Command::Test(args) => test::test(&args, &out),
         #[cfg(feature = "render")]
         Command::Render(args) => render::render(&args, &out),
         #[cfg(not(feature = "render"))]
@@ -245,6 +263,24 @@ fn run(args: Args) -> u8 {
             FAULT
         }
     }
+}
+
+/// A progress bar on a terminal, nothing elsewhere.
+fn bar(length: u64, template: &str) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template(template);
+    let bar = ProgressBar::new(length);
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(TICK);
+    bar
+}
+
+/// An agent's name on the command line.
+fn agent_name(agent: Agent) -> &'static str {
+    let found = Agent::NAMED.iter().find(|(_, named)| *named == agent);
+    found.map_or("", |(name, _)| *name)
 }
 
 fn list(out: &Out) -> u8 {

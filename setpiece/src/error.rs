@@ -1,7 +1,7 @@
 //! Errors before an episode runs, each with a stable code and a help line.
 
 use crate::replay::ReplayError;
-use setpiece_dsl::problem::{Code, Problem, nearest};
+use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::Sources;
 use setpiece_engine::batch::EpisodeError;
 use setpiece_engine::environment::EnvironmentError;
@@ -57,6 +57,11 @@ pub enum Error {
     },
     /// Threads can't be started.
     Threads(String),
+    /// A level was taken of another scenario of that name.
+    Level {
+        /// The level.
+        level: String,
+    },
     /// A parameter can't be bound.
     Param {
         /// The reason.
@@ -127,6 +132,15 @@ pub struct Failure {
     pub inputs: Vec<PathBuf>,
 }
 
+impl Failure {
+    /// Whether nothing is wrong but that there is no scenario: rewards or formations alone.
+    pub fn is_without_scenario(&self) -> bool {
+        let mut errors =
+            self.problems.iter().filter(|problem| problem.severity() == Severity::Error);
+        errors.all(|problem| problem.code() == Code::NoScenario)
+    }
+}
+
 impl Error {
     /// The stable code; the first one of several reports.
     pub fn code(&self) -> Code {
@@ -163,11 +177,13 @@ impl Error {
             Error::Replay(_) => Code::BadReplay,
             Error::Episode(why) => match **why {
                 EpisodeError::Draw(_) => Code::DrawFailed,
+                EpisodeError::Environment(_) => Code::BadParameter,
                 EpisodeError::Step(_) => Code::ScriptFailed,
                 EpisodeError::Endless(_) => Code::Endless,
             },
             Error::NoStep { .. } => Code::NoStep,
             Error::Threads(_) => Code::NoThreads,
+            Error::Level { .. } => Code::OtherLevel,
         }
     }
 
@@ -289,6 +305,9 @@ impl std::fmt::Display for Error {
                 write!(f, "there is no step {step}: the episode has {length} steps")
             }
             Error::Threads(why) => f.write_str(why),
+            Error::Level { level } => {
+                write!(f, "the level `{level}` was taken of another version of its scenario")
+            }
         }
     }
 }

@@ -423,6 +423,30 @@ impl Drop for Temporary {
     }
 }
 
+/// Every `.pitch` file below a folder, except in hidden folders, sorted.
+///
+/// # Errors
+/// [`Error::File`] if a folder can't be read.
+pub fn pitch_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let fault = |why: std::io::Error| Error::File {
+        path: folder.to_owned(),
+        why: FileFault::Io(why.to_string()),
+    };
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(fault)? {
+        let entry = entry.map_err(fault)?;
+        let (path, kind) = (entry.path(), entry.file_type().map_err(fault)?);
+        let hidden = entry.file_name().to_string_lossy().starts_with('.');
+        if kind.is_dir() && !hidden {
+            files.append(&mut pitch_files(&path)?);
+        } else if !kind.is_dir() && path.extension().is_some_and(|ending| ending == "pitch") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]

@@ -12,13 +12,17 @@ pub mod curves;
 pub mod doc;
 pub mod drawing;
 pub mod error;
+pub mod evaluate;
 pub mod explain;
 pub mod files;
 pub mod film;
+pub mod level;
 pub mod live;
 pub mod load;
+pub mod measure;
 pub mod picture;
 pub mod pixels;
+pub mod plans;
 #[cfg(feature = "render")]
 pub mod plot;
 pub mod probe;
@@ -31,11 +35,13 @@ pub mod sheet;
 mod stdlib;
 #[cfg(feature = "studio")]
 pub mod studio;
+pub mod suite;
 #[cfg(feature = "video")]
 pub mod video;
 pub mod watch;
 
 pub use error::Error;
+pub use level::Level;
 pub use live::Live;
 pub use load::{
     Cast, CastTarget, Checked, Entry, LoadOptions, Loaded, bind, check, check_with, compile_text,

@@ -9,7 +9,7 @@ use crate::stdlib;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::{Source, Sources, Span};
 pub use setpiece_dsl::{Cast, CastTarget};
-use setpiece_dsl::{CompileOptions, Origins, Prelude, compile};
+use setpiece_dsl::{CompileOptions, CompileOutcome, Origins, Prelude, compile};
 use setpiece_scenario::file::{self, binary};
 use setpiece_scenario::{Bindings, Scenario, Team};
 use std::ffi::OsStr;
@@ -270,13 +270,32 @@ fn loader(root: &str, options: &LoadOptions<'_>) -> FileLoader {
     if options.allow_outside { FileLoader::anywhere() } else { FileLoader::beside(root) }
 }
 
-fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
+/// Compiles a root; `plans_suffice`: whether it may have suites and checks alone.
+pub(crate) fn compiled(
+    source: Source,
+    options: &LoadOptions<'_>,
+    plans_suffice: bool,
+) -> CompileOutcome {
     let loader = loader(&source.name, options);
-    let outcome =
-        compile(source, &loader, &CompileOptions { cast: options.cast, ..compile_options() });
+    let options = CompileOptions { cast: options.cast, plans_suffice, ..compile_options() };
+    compile(source, &loader, &options)
+}
+
+/// Those of some sources' names that are files on disk.
+pub(crate) fn on_disk(names: &[String]) -> Vec<PathBuf> {
+    names.iter().filter(|name| is_on_disk(name)).map(|name| path_of(name)).collect()
+}
+
+/// The text of a `.pitch` file.
+pub(crate) fn source_of(path: &Path) -> Result<Source, Error> {
+    let text = into_text(read_file(path, SOURCE_MAX_BYTES)?, path)?;
+    Ok(Source { name: name_of(path), text: text.into() })
+}
+
+fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
+    let outcome = compiled(source, options, false);
+    let inputs = on_disk(&outcome.inputs);
     let (problems, sources) = (outcome.problems, outcome.sources);
-    let inputs =
-        outcome.inputs.iter().filter(|name| is_on_disk(name)).map(|name| path_of(name)).collect();
     match outcome.scenario {
         Some(scenario) => Ok(Loaded {
             scenario: Arc::new(scenario),
@@ -302,6 +321,7 @@ fn compile_options() -> CompileOptions<'static> {
         prelude: Some(prelude),
         scripts: Some(&EngineScripts),
         cast: &[],
+        plans_suffice: false,
     }
 }
 

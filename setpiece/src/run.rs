@@ -83,6 +83,7 @@ pub fn run(
         options.seed,
         options.episodes.clone(),
         options.threads.min(options.episodes.clone().count().max(1)),
+        |_| None,
         players,
         |episode: &Result<EpisodeSummary, EpisodeError>| {
             progress(episode.as_ref().map_or(0, |episode| episode.length));

@@ -544,7 +544,8 @@ fn a_crowd_of_behaviors_repeats_itself_on_any_number_of_threads_and_through_a_fi
         let environment =
             Environment::new(scenario.clone(), EnvironmentOptions::default()).unwrap();
         let policy = || ReadyMade::new(Agent::Idle);
-        let episodes = run_episodes(&environment, 9, 0..4, threads, policy, |_| ()).unwrap();
+        let episodes =
+            run_episodes(&environment, 9, 0..4, threads, |_| None, policy, |_| ()).unwrap();
         episodes.into_iter().map(|episode| episode.unwrap().digest).collect::<Vec<u64>>()
     };
     let one = run(&scenario, 1);

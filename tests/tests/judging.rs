@@ -138,7 +138,7 @@ fn an_edited_copy_pays_what_it_says() {
     let environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
     assert_eq!(environment.term_names(), ["my_scoring/goal", "my_scoring/conceded"]);
     let policy = || ReadyMade::new(Agent::RunAndShoot);
-    let episodes = run_episodes(&environment, 1, 0..10, 1, policy, |_| ()).unwrap();
+    let episodes = run_episodes(&environment, 1, 0..10, 1, |_| None, policy, |_| ()).unwrap();
     let summaries: Vec<EpisodeSummary> = episodes.into_iter().map(Result::unwrap).collect();
     assert!(summaries.iter().any(|summary| summary.score[0] == 1));
     for summary in summaries {
@@ -151,7 +151,8 @@ fn bots(text: &str, n: u64) -> (Vec<EpisodeSummary>, Vec<String>) {
     let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
     let environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
     let episodes =
-        run_episodes(&environment, 1, 0..n, 1, || ReadyMade::new(Agent::Bot), |_| ()).unwrap();
+        run_episodes(&environment, 1, 0..n, 1, |_| None, || ReadyMade::new(Agent::Bot), |_| ())
+            .unwrap();
     (episodes.into_iter().map(Result::unwrap).collect(), environment.term_names().to_vec())
 }
 
@@ -238,7 +239,8 @@ fn threads_change_nothing() {
         let environment = environment(stdlib(name), &["scoring", "checkpoints"]);
         let run = |threads| {
             let policy = || ReadyMade::new(Agent::Random);
-            let episodes = run_episodes(&environment, 3, 0..n, threads, policy, |_| ()).unwrap();
+            let episodes =
+                run_episodes(&environment, 3, 0..n, threads, |_| None, policy, |_| ()).unwrap();
             episodes.into_iter().map(Result::unwrap).collect::<Vec<_>>()
         };
         let one = run(1);
@@ -255,7 +257,7 @@ fn threads_change_nothing() {
 fn a_match_is_counted() {
     let environment = environment(stdlib("benchmark/11_vs_11_stochastic"), &["scoring"]);
     let policy = || ReadyMade::new(Agent::Bot);
-    let mut episodes = run_episodes(&environment, 1, 0..1, 1, policy, |_| ()).unwrap();
+    let mut episodes = run_episodes(&environment, 1, 0..1, 1, |_| None, policy, |_| ()).unwrap();
     let summary = episodes.pop().unwrap().unwrap();
     assert_eq!((summary.length, summary.truncated), (3000, true));
     let statistics = &summary.statistics;

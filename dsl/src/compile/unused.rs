@@ -72,7 +72,11 @@ impl Unused {
                     }
                     continue;
                 }
-                ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => continue,
+                ItemKind::Suite(_)
+                | ItemKind::Check(_)
+                | ItemKind::Curriculum(_)
+                | ItemKind::Import { .. }
+                | ItemKind::Broken => continue,
             };
             if self.check(what, name, problems) {
                 self.inner(&item.kind, problems);

@@ -121,7 +121,9 @@ fn spaced(last: &SourcePiece<'_>, piece: &SourcePiece<'_>) -> bool {
         | Rule::colon
         | Rule::dot
         | Rule::range_dots => true,
-        Rule::paren_open => matches!(piece.within, Rule::args | Rule::params),
+        Rule::paren_open => {
+            matches!(piece.within, Rule::args | Rule::params | Rule::measure_args)
+        }
         Rule::brace_close => before == Rule::brace_open,
         _ => false,
     };

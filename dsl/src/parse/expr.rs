@@ -297,7 +297,7 @@ impl Reader<'_> {
         let mut nodes = CstNodes::of(node);
         let Some(number) = nodes.want(Rule::number) else { return broken(span) };
         let text = number.as_str();
-        let value = text.parse::<f64>().unwrap_or(f64::INFINITY);
+        let value = text.replace('_', "").parse::<f64>().unwrap_or(f64::INFINITY);
         if !value.is_finite() {
             let digits = text.bytes().filter(u8::is_ascii_digit).count();
             self.push(Problem::new(span, Types::TooManyDigits { digits }));
@@ -308,7 +308,7 @@ impl Reader<'_> {
             "episode" => Some(Unit::Episode),
             unit => Unit::from_name(unit),
         });
-        let is_int = text.bytes().all(|byte| byte.is_ascii_digit());
+        let is_int = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_');
         Expr { span, kind: ExprKind::Number { value, is_int, unit } }
     }
 

@@ -3,8 +3,8 @@
 use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
-    BehaviorBody, BehaviorItem, Binding, Domain, FnItem, FormationItem, Ident, Item, ItemKind,
-    ParamDecl, Ref, RewardItem, ScenarioItem,
+    BehaviorBody, BehaviorItem, Binding, CheckItem, CurriculumItem, Domain, FnItem, FormationItem,
+    Ident, Item, ItemKind, ParamDecl, Ref, RewardItem, ScenarioItem, SuiteItem,
 };
 use crate::source::Span;
 use pest::iterators::Pairs;
@@ -92,7 +92,22 @@ impl Reader<'_> {
                 };
                 ItemKind::Behavior(BehaviorItem { name, params, body })
             }
-            _ => ItemKind::Reserved { keyword: nodes.next().map(|keyword| self.ident(&keyword))? },
+            Rule::suite => {
+                let name = nodes.seek(Rule::ident).map(|name| self.ident(&name))?;
+                let body = nodes.want(Rule::suite_body)?;
+                ItemKind::Suite(SuiteItem { name, body: self.suite_body(body) })
+            }
+            Rule::check => {
+                let name = nodes.seek(Rule::string).map(|name| self.string(&name))?;
+                let body = nodes.want(Rule::check_body)?;
+                ItemKind::Check(CheckItem { name, body: self.check_body(body) })
+            }
+            Rule::curriculum => {
+                let name = nodes.seek(Rule::ident).map(|name| self.ident(&name))?;
+                let body = nodes.want(Rule::curriculum_body)?;
+                ItemKind::Curriculum(CurriculumItem { name, body: self.curriculum_body(body) })
+            }
+            _ => return None,
         })
     }
 
@@ -179,6 +194,13 @@ impl Reader<'_> {
         }
         let mut parts = parts.into_iter();
         Some(Domain::Range(parts.next()?, parts.next()?))
+    }
+
+    /// `LOW..HIGH`
+    pub(super) fn range_of(&mut self, node: CstNode<'_>) -> Option<Domain> {
+        let mut nodes = CstNodes::of(node);
+        let low = nodes.seek(Rule::sum).map(|low| self.expr(low))?;
+        Some(Domain::Range(low, nodes.seek(Rule::sum).map(|high| self.expr(high))?))
     }
 
     /// A name with arguments.

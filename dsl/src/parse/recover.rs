@@ -205,6 +205,9 @@ impl Reader<'_> {
             Rule::team_body => drop(self.team_body(node)),
             Rule::reward_body => drop(self.reward_body(node)),
             Rule::behavior_body => drop(self.behavior_body(node)),
+            Rule::suite_body => drop(self.suite_body(node)),
+            Rule::check_body => drop(self.check_body(node)),
+            Rule::curriculum_body => drop(self.curriculum_body(node)),
             _ => drop(self.fields(node)),
         }
         self.base = base;

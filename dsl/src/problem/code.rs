@@ -58,6 +58,8 @@ codes! {
     CompiledCast = 15 Error "a compiled scenario keeps who plays its players";
     FileNotRegular = 17 Error "a pipe or device stands for a file";
     NoStudio = 18 Error "the studio can't be served";
+    OtherLevel = 19 Error "a level is of another scenario";
+    NoPlans = 20 Error "a file has no suite or check to play";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

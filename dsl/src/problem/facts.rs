@@ -20,6 +20,7 @@ mod dry_run;
 mod files;
 mod implied;
 mod names;
+mod plans;
 mod players;
 mod rewards;
 mod scenario;
@@ -37,6 +38,7 @@ pub use dry_run::{Cure, DryRun};
 pub(crate) use files::{Files, ImportLimit, ScriptLimit};
 pub(crate) use implied::Implied;
 pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction, Outside};
+pub(crate) use plans::Plans;
 pub(crate) use players::{AskedFor, Players};
 pub(crate) use rewards::{Because, Never, Rewards};
 pub(crate) use scenario::{Declared, Whole};
@@ -134,6 +136,8 @@ subjects! {
     Rewards,
     /// Behaviors.
     Behaviors,
+    /// Suites, checks and curricula.
+    Plans,
     /// Imports and scripts.
     Files,
     /// Syntax.

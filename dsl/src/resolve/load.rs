@@ -1,6 +1,9 @@
 //! Loads the files a root needs and says which names each of them sees.
 
-use crate::ast::{File, FileId, Ident, Item, ItemKind, ParamDecl, Span};
+use crate::ast::{
+    CheckStmtKind, CurriculumStmtKind, File, FileId, Ident, Item, ItemKind, ParamDecl, Ref, Span,
+    SuiteStmt, SuiteStmtKind,
+};
 use crate::parse::parse;
 use crate::problem::Problem;
 use crate::problem::facts::{Files, ImportLimit, Names};
@@ -131,14 +134,15 @@ impl<'a> Loading<'a> {
 }
 
 impl Loading<'_> {
-    /// Loads the library's scenarios that some file extends and no file declares.
+    /// Loads the library's scenarios that some file extends or plays and no file declares.
     fn extended_scenarios(&mut self) {
         let mut next = 0;
         while let Some(file) = self.library.files.get(next) {
             next += 1;
-            let parents: Vec<String> =
-                file.items.iter().filter_map(parent).map(str::to_owned).collect();
-            for name in parents {
+            let mut wanted: Vec<&str> = Vec::new();
+            file.items.iter().for_each(|item| scenarios_of(item, &mut wanted));
+            let wanted: Vec<String> = wanted.into_iter().map(str::to_owned).collect();
+            for name in wanted {
                 let of_library = self.library.scenarios.iter().find(|(known, _)| *known == name);
                 let Some(path) = of_library.map(|(_, path)| path.clone()) else { continue };
                 if self.known(&path).is_some() {
@@ -431,13 +435,34 @@ fn own_names(file: &File, problems: &mut Vec<Problem>) -> BTreeMap<String, Vec<I
     names
 }
 
-/// The name of the scenario that an item extends.
-fn parent(item: &Item) -> Option<&str> {
+/// The names of the scenarios that an item extends or plays.
+fn scenarios_of<'a>(item: &'a Item, names: &mut Vec<&'a str>) {
+    let mut add = |scenario: &'a Ref| names.push(scenario.name.node.as_str());
     match &item.kind {
-        ItemKind::Scenario(scenario) => {
-            scenario.extends.as_ref().map(|parent| parent.name.node.as_str())
+        ItemKind::Scenario(scenario) => scenario.extends.iter().for_each(add),
+        ItemKind::Suite(suite) => played(&suite.body, &mut add),
+        ItemKind::Check(check) => check.body.iter().for_each(|stmt| {
+            if let CheckStmtKind::Play { episodes, .. } = &stmt.kind {
+                add(&episodes.scenario);
+            }
+        }),
+        ItemKind::Curriculum(curriculum) => curriculum.body.iter().for_each(|stmt| {
+            if let CurriculumStmtKind::Stage { scenario, .. } = &stmt.kind {
+                add(scenario);
+            }
+        }),
+        _ => {}
+    }
+}
+
+/// The scenarios that the entries of a suite play.
+fn played<'a>(body: &'a [SuiteStmt], add: &mut impl FnMut(&'a Ref)) {
+    for stmt in body {
+        match &stmt.kind {
+            SuiteStmtKind::Sweep { body, .. } => played(body, add),
+            SuiteStmtKind::Entry(episodes) => add(&episodes.scenario),
+            SuiteStmtKind::Broken => {}
         }
-        _ => None,
     }
 }
 
@@ -450,7 +475,10 @@ fn item_name(item: &Item) -> Option<&Ident> {
         ItemKind::Const(binding) => Some(&binding.name),
         ItemKind::Fn(f) | ItemKind::Region(f) | ItemKind::Ending(f) => Some(&f.name),
         ItemKind::Behavior(behavior) => Some(&behavior.name),
-        ItemKind::Import { .. } | ItemKind::Reserved { .. } | ItemKind::Broken => None,
+        ItemKind::Suite(suite) => Some(&suite.name),
+        ItemKind::Curriculum(curriculum) => Some(&curriculum.name),
+        // Its name is a sentence, which nothing refers to.
+        ItemKind::Check(_) | ItemKind::Import { .. } | ItemKind::Broken => None,
     }
 }
 

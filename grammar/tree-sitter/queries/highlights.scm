@@ -23,6 +23,9 @@
 (constant name: (_) @constant)
 (record name: (_) @property)
 (parameter name: (_) @variable.parameter)
+(suite name: (_) @constant)
+(curriculum name: (_) @constant)
+(stage name: (_) @constant)
 (player name: (_) @variable)
 (field key: (_) @property)
 (argument name: (_) @property)
@@ -34,10 +37,10 @@
 ] @keyword
 
 [
-  "absent" "agents" "ahead" "all" "along" "as" "at" "away" "ball" "behind" "between" "beyond" "by"
-  "choose" "do" "each" "else" "end" "extends" "facing" "failure" "finish" "for" "from" "give" "if" "interrupt"
-  "jitter" "kickoff" "left" "limit" "mirror" "observe" "of" "off" "offset" "on" "once" "outfield"
-  "own" "per" "place" "remove" "repeat" "require" "rhai" "right" "rules" "script" "second" "sprinting" "start" "success"
+  "absent" "adapt" "agents" "ahead" "all" "along" "as" "at" "away" "ball" "behind" "between" "beyond" "by"
+  "choose" "current" "do" "each" "earlier" "else" "end" "episodes" "expect" "extends" "facing" "failure" "finish" "for" "from" "give" "if" "interrupt"
+  "jitter" "keeping" "kickoff" "left" "limit" "mirror" "mix" "never" "observe" "of" "off" "offset" "on" "once" "outfield"
+  "over" "own" "params" "per" "place" "play" "remove" "repeat" "require" "rhai" "right" "rules" "script" "second" "seed" "sprinting" "stage" "start" "success"
   "team" "then" "times" "to" "until" "vector" "when" "where" "with"
 ] @keyword.control
 

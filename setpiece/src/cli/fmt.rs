@@ -4,8 +4,8 @@ use super::{FAULT, FINE, out::Out};
 use crate::Error;
 use crate::dsl::format::format;
 use crate::dsl::source::{Source, Sources};
-use crate::error::{Failure, FileFault};
-use crate::files::{SOURCE_MAX_BYTES, read, read_text, write};
+use crate::error::Failure;
+use crate::files::{SOURCE_MAX_BYTES, pitch_files, read, read_text, write};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -75,25 +75,4 @@ fn one(path: &Path, check: bool, out: &Out) -> Result<bool, Error> {
         _ => {}
     }
     Ok(changes)
-}
-
-/// Every `.pitch` file below a folder, except in hidden folders, sorted.
-fn pitch_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    let fault = |why: std::io::Error| Error::File {
-        path: folder.to_owned(),
-        why: FileFault::Io(why.to_string()),
-    };
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(fault)? {
-        let entry = entry.map_err(fault)?;
-        let (path, kind) = (entry.path(), entry.file_type().map_err(fault)?);
-        let hidden = entry.file_name().to_string_lossy().starts_with('.');
-        if kind.is_dir() && !hidden {
-            files.append(&mut pitch_files(&path)?);
-        } else if !kind.is_dir() && path.extension().is_some_and(|ending| ending == "pitch") {
-            files.push(path);
-        }
-    }
-    files.sort();
-    Ok(files)
 }

@@ -2,44 +2,45 @@
 
 use super::live::live;
 use super::out::{Out, StyledText};
-use super::{FAULT, FINE, playing::Playing, summary};
+use super::suite::run_suite;
+use super::{FAULT, FINE, TICK, playing, playing::Playing, summary};
 #[cfg(feature = "render")]
 use crate::curves::curves;
-#[cfg(feature = "render")]
 use crate::dsl::problem::Code;
+use crate::engine::control::agents::Agent;
 use crate::engine::environment::EnvironmentOptions;
 #[cfg(feature = "render")]
 use crate::error::FileFault;
 #[cfg(feature = "render")]
 use crate::files::{refuse_overwriting, write};
 use crate::live::Live;
+use crate::plans::{library_suite, load_plans};
 #[cfg(feature = "render")]
 use crate::plot;
 use crate::run::{RunOptions, Summary, first_error, run};
-use crate::scenario::Scenario;
+use crate::scenario::plan::{PlannedEpisodes, Played, Suite};
+use crate::scenario::{Bindings, Scenario};
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
-use indicatif::{ProgressBar, ProgressStyle};
-#[cfg(feature = "render")]
 use std::ffi::OsStr;
-use std::io::IsTerminal;
+use std::path::Path;
 #[cfg(feature = "render")]
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+/// Episodes, unless others are asked for.
+const EPISODES: u64 = 20;
 /// Time that a reload may spend on the dry run.
 const PROBE: Duration = Duration::from_millis(10);
-/// How often a progress bar and a watcher update.
-const TICK: Duration = Duration::from_millis(200);
 
 #[derive(Args, Debug)]
 pub(crate) struct RunArgs {
     #[command(flatten)]
     playing: Playing,
-    /// The number of episodes
-    #[arg(short = 'n', long, value_name = "N", default_value_t = 20, value_parser = RangedU64ValueParser::<u64>::new().range(1..=1_000_000_000))]
-    episodes: u64,
+    /// The number of episodes [default: 20]
+    #[arg(short = 'n', long, value_name = "N", value_parser = RangedU64ValueParser::<u64>::new().range(1..=1_000_000_000))]
+    episodes: Option<u64>,
     /// Pay this reward instead of the scenario's own; may be repeated or separated by commas
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     reward: Vec<String>,
@@ -48,7 +49,10 @@ pub(crate) struct RunArgs {
     threads: Option<u16>,
     /// The output format
     #[arg(long, value_enum, default_value_t = RunFormat::Text)]
-    format: RunFormat,
+    pub(crate) format: RunFormat,
+    /// A second agent that plays the same episodes, for a table of both
+    #[arg(long, value_enum, value_name = "AGENT", conflicts_with_all = ["watch", "live"])]
+    beside: Option<playing::AgentName>,
     /// Show the episodes in the terminal, ten steps a second, instead of a summary
     #[arg(long, conflicts_with_all = ["format", "watch", "threads"])]
     live: bool,
@@ -67,6 +71,56 @@ pub(crate) enum RunFormat {
     Text,
     /// One JSON object
     Json,
+    /// A table: comma-separated values, one line per entry and agent
+    Csv,
+    /// A table in Markdown
+    Md,
+}
+
+impl RunArgs {
+    /// The agents of a table, by name.
+    pub(crate) fn agents(&self) -> Vec<(&'static str, Agent)> {
+        let beside = self.beside.map(playing::AgentName::agent);
+        let agents = [Some(self.playing.agent()), beside].into_iter().flatten();
+        agents.map(|agent| (super::agent_name(agent), agent)).collect()
+    }
+
+    /// How many threads play.
+    pub(crate) fn threads(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        self.threads.map_or(cores, usize::from)
+    }
+
+    /// The rewards that are paid instead of the scenarios' own.
+    pub(crate) fn rewards(&self) -> Option<Vec<String>> {
+        (!self.reward.is_empty()).then(|| self.reward.clone())
+    }
+
+    fn episodes(&self) -> u64 {
+        self.episodes.unwrap_or(EPISODES)
+    }
+
+    /// The option that a suite has no use for, if one is given.
+    fn foreign_to_suites(&self) -> Option<&'static str> {
+        let is_plotted = {
+            #[cfg(feature = "render")]
+            {
+                self.plot.is_some()
+            }
+            #[cfg(not(feature = "render"))]
+            {
+                false
+            }
+        };
+        let given = [
+            (self.episodes.is_some(), "--episodes"),
+            (self.watch, "--watch"),
+            (self.live, "--live"),
+            (is_plotted, "--plot"),
+        ];
+        let own = given.into_iter().find(|(given, _)| *given).map(|(_, name)| name);
+        own.or_else(|| self.playing.foreign_to_suites())
+    }
 }
 
 /// Runs the command.
@@ -74,9 +128,20 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     if args.watch {
         return watch(args, out);
     }
-    let loaded = crate::load_with(&args.playing.scenario, &out.loading())?;
+    let loaded = match crate::load_with(&args.playing.scenario, &out.loading()) {
+        Ok(loaded) => loaded,
+        Err(error) => {
+            return match suites_of(&args.playing.scenario, &error, out)? {
+                suites if suites.is_empty() => Err(error),
+                suites => run_suites(&suites, args, out),
+            };
+        }
+    };
     out.warnings(&loaded);
     let options = options(args, &loaded)?;
+    if args.beside.is_some() || matches!(args.format, RunFormat::Csv | RunFormat::Md) {
+        return table(&loaded, &options, args, out);
+    }
     if args.live {
         return live(&loaded, &options, out);
     }
@@ -94,13 +159,66 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     }
     match args.format {
         RunFormat::Json => out.line(summary::json(&loaded.scenario, &options, &summary)),
-        RunFormat::Text => summary::print(&loaded.scenario, &options, &summary, out)?,
+        _ => summary::print(&loaded.scenario, &options, &summary, out)?,
     }
     if let Some(error) = first_error(&summary) {
         out.error(&error);
         return Ok(FAULT);
     }
     Ok(FINE)
+}
+
+/// The suites that a name stands for, where it stands for no scenario.
+fn suites_of(name: &OsStr, error: &Error, out: &Out) -> Result<Vec<Suite>, Error> {
+    let is_open = match error {
+        Error::Unknown { .. } => true,
+        Error::Compile(failure) => failure.is_without_scenario(),
+        _ => false,
+    };
+    if !is_open {
+        return Ok(Vec::new());
+    }
+    if let Some(suite) = name.to_str().map(library_suite).transpose()?.flatten() {
+        return Ok(vec![suite]);
+    }
+    // What stands for a scenario of the library is no path.
+    let loaded = load_plans(Path::new(name), &out.loading());
+    Ok(loaded.map_or_else(|_| Vec::new(), |loaded| loaded.plans.suites))
+}
+
+fn run_suites(suites: &[Suite], args: &RunArgs, out: &Out) -> Result<u8, Error> {
+    if let Some(option) = args.foreign_to_suites() {
+        let message =
+            format!("`{option}` has no effect on a suite: its entries say what is played");
+        out.fault(&Code::NoPlans.to_string(), &message, Some("leave it out, or run a scenario"));
+        return Ok(FAULT);
+    }
+    let environment = EnvironmentOptions {
+        rewards: args.rewards(),
+        physics: args.playing.physics(),
+        ..EnvironmentOptions::default()
+    };
+    for suite in suites {
+        run_suite(suite, &environment, args, out)?;
+    }
+    Ok(FINE)
+}
+
+/// Plays a scenario as the one entry of a table.
+fn table(loaded: &Loaded, options: &RunOptions, args: &RunArgs, out: &Out) -> Result<u8, Error> {
+    let scenario = loaded.scenario.clone();
+    let bindings = options.environment.bindings.clone();
+    let bindings = bindings.unwrap_or_else(|| Bindings::defaults(&scenario.params));
+    let suite = Suite {
+        name: scenario.name.clone(),
+        doc: scenario.doc.clone(),
+        entries: vec![PlannedEpisodes {
+            played: Played { scenario, bindings },
+            count: args.episodes(),
+            seed: options.seed,
+        }],
+    };
+    run_suite(&suite, &options.environment, args, out)
 }
 
 /// Writes the curves; false, with a report, if the file's name asks for something else.
@@ -129,28 +247,21 @@ fn plot(path: &Path, loaded: &Loaded, options: &RunOptions, out: &Out) -> Result
 }
 
 fn options(args: &RunArgs, loaded: &Loaded) -> Result<RunOptions, Error> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
     Ok(RunOptions {
-        episodes: 0..args.episodes,
+        episodes: 0..args.episodes(),
         seed: args.playing.seed,
         agent: args.playing.agent(),
-        threads: args.threads.map_or(cores, usize::from),
+        threads: args.threads(),
         environment: EnvironmentOptions {
-            rewards: (!args.reward.is_empty()).then(|| args.reward.clone()),
+            rewards: args.rewards(),
             ..args.playing.environment(loaded)?
         },
     })
 }
 
 fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error> {
-    if !std::io::stderr().is_terminal() {
-        return run(&loaded.scenario, options, |_| {});
-    }
-    let style =
-        ProgressStyle::with_template("{bar:40} {pos}/{len} episodes  {msg} steps  {eta} left");
-    let bar = ProgressBar::new(options.episodes.end - options.episodes.start);
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(TICK);
+    let episodes = options.episodes.end - options.episodes.start;
+    let bar = super::bar(episodes, "{bar:40} {pos}/{len} episodes  {msg} steps  {eta} left");
     let steps = std::sync::atomic::AtomicU64::new(0);
     let summary = run(&loaded.scenario, options, |length| {
         let total = steps.fetch_add(length.into(), std::sync::atomic::Ordering::Relaxed)
@@ -176,7 +287,7 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let mut scenario = live.loaded().scenario.clone();
     loop {
         out.line(StyledText::default().bold(&scenario.name));
-        for index in 0..args.episodes {
+        for index in 0..args.episodes() {
             let one = RunOptions { episodes: index..index + 1, threads: 1, ..options.clone() };
             let summary = run(&scenario, &one, |_| {})?;
             for episode in summary.episodes.iter().flatten() {

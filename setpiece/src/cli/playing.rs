@@ -80,6 +80,24 @@ impl Playing {
         self.agent.agent()
     }
 
+    /// How the ball's contacts are found, if it is said.
+    pub(crate) fn physics(&self) -> Option<Physics> {
+        self.physics.map(|physics| match physics {
+            PhysicsName::Gated => Physics::Gated,
+            PhysicsName::Full => Physics::Full,
+        })
+    }
+
+    /// The option that a suite has no use for, if one is given.
+    pub(crate) fn foreign_to_suites(&self) -> Option<&'static str> {
+        let given = [
+            (self.seed != 0, "--seed"),
+            (!self.set.is_empty(), "--set"),
+            (self.from.is_some(), "--from"),
+        ];
+        given.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
+    }
+
     /// The parameters, the physics and the snapshot to begin from, with the scenario's own rewards.
     ///
     /// # Errors
@@ -90,10 +108,7 @@ impl Playing {
         Ok(EnvironmentOptions {
             bindings: Some(crate::bind(&loaded.scenario, pairs)?),
             rewards: None,
-            physics: self.physics.map(|physics| match physics {
-                PhysicsName::Gated => Physics::Gated,
-                PhysicsName::Full => Physics::Full,
-            }),
+            physics: self.physics(),
             agents: None,
             from: self
                 .from

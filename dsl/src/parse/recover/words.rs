@@ -16,18 +16,27 @@ pub(in crate::parse) enum Context {
     Reward,
     /// A behaviour or a block in it.
     Behavior,
+    /// A suite or an `each` in it.
+    Suite,
+    /// A check.
+    Check,
+    /// A curriculum.
+    Curriculum,
     /// Options.
     Fields,
 }
 
 impl Context {
     /// Every list.
-    pub(in crate::parse) const ALL: [Context; 6] = [
+    pub(in crate::parse) const ALL: [Context; 9] = [
         Context::File,
         Context::Scenario,
         Context::Team,
         Context::Reward,
         Context::Behavior,
+        Context::Suite,
+        Context::Check,
+        Context::Curriculum,
         Context::Fields,
     ];
 
@@ -39,6 +48,9 @@ impl Context {
             Context::Team => Rule::team_stmt,
             Context::Reward => Rule::reward_stmt,
             Context::Behavior => Rule::beh_stmt,
+            Context::Suite => Rule::suite_stmt,
+            Context::Check => Rule::check_stmt,
+            Context::Curriculum => Rule::curriculum_stmt,
             Context::Fields => Rule::field,
         }
     }
@@ -51,6 +63,9 @@ impl Context {
             Context::Team => Rule::team_probe,
             Context::Reward => Rule::reward_probe,
             Context::Behavior => Rule::behavior_probe,
+            Context::Suite => Rule::suite_probe,
+            Context::Check => Rule::check_probe,
+            Context::Curriculum => Rule::curriculum_probe,
             Context::Fields => Rule::fields_probe,
         }
     }
@@ -63,6 +78,7 @@ impl Context {
             Context::Team => HabitPlace::Team,
             Context::Reward => HabitPlace::Reward,
             Context::Behavior => HabitPlace::Behavior,
+            Context::Suite | Context::Check | Context::Curriculum => HabitPlace::Level,
             Context::Fields => HabitPlace::Fields,
         }
     }
@@ -72,7 +88,8 @@ impl Context {
         match self {
             Context::File => "items",
             Context::Fields => "options",
-            Context::Scenario | Context::Team | Context::Reward | Context::Behavior => "statements",
+            Context::Suite => "entries",
+            _ => "statements",
         }
     }
 
@@ -84,6 +101,9 @@ impl Context {
             Context::Team => "a team",
             Context::Reward => "a reward",
             Context::Behavior => "a behavior",
+            Context::Suite => "a suite",
+            Context::Check => "a check",
+            Context::Curriculum => "a curriculum",
             Context::Fields => "options",
         }
     }
@@ -115,6 +135,9 @@ impl Context {
             Context::Behavior => {
                 &["do", "interrupt", "repeat", "choose", "if", "state", "let", "finish"]
             }
+            Context::Suite => &["each"],
+            Context::Check => &["play", "expect"],
+            Context::Curriculum => &["stage", "mix"],
             Context::Fields => &[],
         }
     }
@@ -126,6 +149,9 @@ impl Context {
             Context::Team => super::expect::AFTER_ROLE,
             Context::Reward => &["per", "once", "on", "when", "as", "else"],
             Context::Behavior => &["sprinting", "until", "for", "else", "times"],
+            Context::Suite => &["for", "seed"],
+            Context::Check => &["with", "for", "seed", "over"],
+            Context::Curriculum => &["until", "or", "adapt", "from", "to", "keeping", "in"],
             Context::File | Context::Fields => &[],
         }
     }
@@ -141,6 +167,18 @@ impl Context {
             (Context::File, "fn") => "fn twice(x: number) = x * 2",
             (Context::File, "ending") => "ending late = elapsed > 20s",
             (Context::File, "behavior") => "behavior waits { do hold }",
+            (Context::File, "suite") => "suite mine { academy_corner for 100 episodes }",
+            (Context::File, "check") => {
+                "check \"it can be scored\" { play my_drill with bot for 50 episodes expect success_rate > 50% }"
+            }
+            (Context::File, "curriculum") => "curriculum mine { stage first = academy_corner }",
+            (Context::Suite, "each") => "each level in [0.2, 0.8] { … }",
+            (Context::Check, "play") => "play academy_corner with bot for 50 episodes",
+            (Context::Check, "expect") => "expect success_rate > 50%",
+            (Context::Curriculum, "stage") => {
+                "stage first = academy_corner until success_rate(last: 200) > 80%"
+            }
+            (Context::Curriculum, "mix") => "mix current: 80%, earlier: 20%",
             (Context::File | Context::Scenario, "const") => "const far = 12m",
             (Context::File | Context::Scenario, "region") => "region strip = right.box",
             (Context::Scenario, "param") => "param reach = 12m in 5m..20m",
@@ -183,6 +221,9 @@ impl Context {
                 Rule::behavior_body
             }
             (Context::File, "formation") | (Context::Scenario, "team") => Rule::team_body,
+            (Context::File, "suite") | (Context::Suite, "each") => Rule::suite_body,
+            (Context::File, "check") => Rule::check_body,
+            (Context::File, "curriculum") => Rule::curriculum_body,
             (Context::Scenario, "rules" | "agents" | "ball" | "start" | "kickoff") => Rule::fields,
             _ => return None,
         })

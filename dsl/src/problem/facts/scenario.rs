@@ -18,9 +18,6 @@ facts! {
         /// The file has no scenario.
         NoScenario { file: String } = Code::NoScenario =>
             say(format!("`{file}` has no scenario"), "").help("write `scenario NAME { … }`"),
-        /// A word that is reserved for later.
-        NotYet { keyword: String } = Code::NotYet =>
-            say(format!("`{keyword}` is not supported yet"), "").help("leave it out"),
         /// The scenarios up to this one are more than a compilation may lower.
         TooManyExpressions { scenario: String, most: usize } = Code::TooMuch =>
             say(format!("up to `{scenario}` more than {most} expressions are used"), "too much")

@@ -1,0 +1,232 @@
+//! Measures and their bounds.
+
+use super::{Planner, scope};
+use crate::ast::{Expr, ExprKind, GoalExpr, Ident, MeasureArg, MeasureRef};
+use crate::check::types::Ty;
+use crate::lower::Lower;
+use crate::lower::value::Repr;
+use crate::problem::Guess;
+use crate::problem::facts::{Instead, Plans as Facts};
+use setpiece_scenario::plan::{self, Comparison, Measure, Quantity};
+use setpiece_scenario::{LIMIT, Reward, Scenario};
+
+/// What can be measured.
+const MEASURES: [&str; 8] =
+    ["success_rate", "rate", "mean", "min", "max", "quantile", "steps", "episodes"];
+/// The numbers of an episode.
+const QUANTITIES: [&str; 5] = ["length", "return", "score", "record", "term"];
+/// The most episodes that a curriculum looks back on.
+const LAST_MAX: u64 = 1_000_000;
+
+/// What a bound is written in.
+#[derive(Clone, Copy)]
+pub(super) enum BoundUnit {
+    /// This type.
+    Of(Ty),
+    /// A number with any unit: records and terms have their own.
+    Any,
+}
+
+impl<'w> Planner<'_, 'w> {
+    /// A measure and its bound.
+    pub(super) fn goal(
+        &mut self,
+        written: &'w GoalExpr,
+        scenario: &Scenario,
+        in_curriculum: bool,
+    ) -> Option<plan::MeasureGoal> {
+        let (measure, last, unit) = self.measure(&written.measure, scenario, in_curriculum)?;
+        let comparison = Comparison::from_sign(&written.comparison.node)?;
+        Some(plan::MeasureGoal {
+            measure,
+            last,
+            comparison,
+            bound: self.bound(&written.bound, unit)?,
+        })
+    }
+
+    /// `never OUTCOME`
+    pub(super) fn never(&mut self, name: &Ident, scenario: &Scenario) -> Option<plan::MeasureGoal> {
+        let outcome = self.outcome(&name.node, name, scenario)?;
+        Some(plan::MeasureGoal {
+            measure: Measure::Rate(outcome),
+            last: None,
+            comparison: Comparison::Equal,
+            bound: 0.0,
+        })
+    }
+
+    /// The bound of a measure, in SI units.
+    pub(super) fn bound(&mut self, expr: &'w Expr, unit: BoundUnit) -> Option<f64> {
+        let BoundUnit::Of(ty) = unit else {
+            let mut lower = Lower::constant(self.world, scope());
+            let value = lower.expr(expr);
+            if value.is_error() {
+                return None;
+            }
+            let Repr::One(reg) = value.repr else {
+                self.not_constant(expr);
+                return None;
+            };
+            if value.ty.dim().is_none() {
+                let (found, at) = (value.ty, expr.span);
+                let mismatch = lower.mismatch_with(found, Ty::Number, at, Instead::Usual);
+                self.world.report(mismatch);
+                return None;
+            }
+            let found = lower.code.constant_of(reg);
+            if found.is_none() {
+                self.not_constant(expr);
+            }
+            return found;
+        };
+        self.constant(expr, &scope(), ty)
+    }
+
+    /// What is measured, over how many of the latest episodes, and what its bound is written in.
+    pub(super) fn measure(
+        &mut self,
+        written: &'w MeasureRef,
+        scenario: &Scenario,
+        in_curriculum: bool,
+    ) -> Option<(Measure, Option<u32>, BoundUnit)> {
+        let name = &written.name;
+        let mut args: Vec<&'w MeasureArg> = Vec::new();
+        let mut last = None;
+        for arg in &written.args {
+            match arg {
+                MeasureArg::Named(key, value) if key.node == "last" => {
+                    let count = self.whole(value, &scope(), "`last`", 1, LAST_MAX)?;
+                    if !in_curriculum {
+                        let text = self.world.text(key.span.to(value.span));
+                        self.report(key.span.to(value.span), Facts::OnlyInCurricula { text });
+                        return None;
+                    }
+                    last = Some(count as u32);
+                }
+                arg => args.push(arg),
+            }
+        }
+        let (measure, unit) = match (name.node.as_str(), args.as_slice()) {
+            ("success_rate", []) => (Measure::SuccessRate, BoundUnit::Of(Ty::Percent)),
+            ("rate", [MeasureArg::Of(kind, of)]) if kind.node == "outcome" => {
+                let outcome = self.outcome(&of.node, of, scenario)?;
+                (Measure::Rate(outcome), BoundUnit::Of(Ty::Percent))
+            }
+            ("mean" | "min" | "max", [of]) => {
+                let (quantity, unit) = self.quantity(of, scenario)?;
+                let measure = match name.node.as_str() {
+                    "mean" => Measure::Mean(quantity),
+                    "min" => Measure::Min(quantity),
+                    _ => Measure::Max(quantity),
+                };
+                (measure, unit)
+            }
+            ("quantile", [of, MeasureArg::Value(share)]) => {
+                let (quantity, unit) = self.quantity(of, scenario)?;
+                (Measure::Quantile(quantity, self.share(share, "the quantile")?), unit)
+            }
+            ("steps", []) if in_curriculum => (Measure::Steps, BoundUnit::Of(Ty::Int)),
+            ("episodes", []) if in_curriculum => (Measure::Episodes, BoundUnit::Of(Ty::Int)),
+            ("steps" | "episodes", []) => {
+                self.report(name.span, Facts::OnlyInCurricula { text: name.node.clone() });
+                return None;
+            }
+            (known, _) if MEASURES.contains(&known) => {
+                let form = form(known);
+                self.report(written.span, Facts::MeasureForm { name: known.to_owned(), form });
+                return None;
+            }
+            (other, _) => {
+                let guess = Guess::similar_or_all(other, &MEASURES);
+                self.report(name.span, Facts::NoMeasure { name: other.to_owned(), guess });
+                return None;
+            }
+        };
+        Some((measure, last, unit))
+    }
+
+    fn quantity(
+        &mut self,
+        arg: &'w MeasureArg,
+        scenario: &Scenario,
+    ) -> Option<(Quantity, BoundUnit)> {
+        let (span, text) = match arg {
+            MeasureArg::Of(kind, of) if kind.node == "record" => {
+                let known: Vec<&str> =
+                    scenario.records.iter().map(|record| record.name.as_str()).collect();
+                self.known("record", of, &known, scenario)?;
+                return Some((Quantity::Record(of.node.clone()), BoundUnit::Any));
+            }
+            MeasureArg::Of(kind, of) if kind.node == "term" => {
+                let terms: Vec<String> =
+                    scenario.rewards.iter().flat_map(Reward::term_names).collect();
+                let known: Vec<&str> = terms.iter().map(String::as_str).collect();
+                self.known("term", of, &known, scenario)?;
+                return Some((Quantity::Term(of.node.clone()), BoundUnit::Any));
+            }
+            MeasureArg::Value(Expr { kind: ExprKind::Name(name), span }) => {
+                match name.as_str() {
+                    "length" => return Some((Quantity::Length, BoundUnit::Of(Ty::DURATION))),
+                    "return" => return Some((Quantity::Return, BoundUnit::Of(Ty::Number))),
+                    "score" => return Some((Quantity::Score, BoundUnit::Of(Ty::Number))),
+                    _ => {}
+                }
+                (*span, name.clone())
+            }
+            MeasureArg::Value(expr) => (expr.span, self.world.text(expr.span)),
+            MeasureArg::Of(word, of) => {
+                let span = word.span.to(of.span);
+                (span, self.world.text(span))
+            }
+            MeasureArg::Named(word, value) => {
+                let span = word.span.to(value.span);
+                (span, self.world.text(span))
+            }
+        };
+        let guess = Guess::similar_or_all(&text, &QUANTITIES);
+        self.report(span, Facts::NoQuantity { text, guess });
+        None
+    }
+
+    /// An outcome that the scenario can have.
+    fn outcome(&mut self, outcome: &str, at: &Ident, scenario: &Scenario) -> Option<String> {
+        let mut known: Vec<&str> =
+            scenario.endings.list.iter().map(|ending| ending.label.as_str()).collect();
+        if scenario.start.limit.is_some() {
+            known.push(LIMIT);
+        }
+        self.known("outcome", at, &known, scenario)?;
+        Some(outcome.to_owned())
+    }
+
+    fn known(
+        &mut self,
+        what: &'static str,
+        name: &Ident,
+        known: &[&str],
+        scenario: &Scenario,
+    ) -> Option<()> {
+        if known.contains(&name.node.as_str()) {
+            return Some(());
+        }
+        let guess = Guess::similar_or_all(&name.node, known);
+        let scenario = scenario.name.clone();
+        self.report(name.span, Facts::NoSuch { scenario, what, name: name.node.clone(), guess });
+        None
+    }
+}
+
+/// How a measure is written.
+fn form(measure: &str) -> &'static str {
+    match measure {
+        "success_rate" => "success_rate",
+        "rate" => "rate(outcome NAME)",
+        "mean" => "mean(length)",
+        "min" => "min(return)",
+        "max" => "max(record NAME)",
+        "quantile" => "quantile(length, 90%)",
+        "steps" => "steps",
+        _ => "episodes",
+    }
+}

@@ -1,0 +1,95 @@
+//! Suites, checks and curricula.
+
+use super::facts;
+use crate::problem::said::say;
+use crate::problem::{Code, Guess};
+use crate::source::Span;
+
+facts! {
+    /// Facts about suites, checks and curricula.
+    pub(crate) Plans {
+        /// No scenario has the name of what is played; `other`: what else has it.
+        NoScenario { name: String, other: Option<&'static str>, guess: Guess } = Code::UnknownName => {
+            let said = say(format!("no scenario is called `{name}`"), "played here");
+            match other {
+                Some(noun) => said.help(format!("`{name}` is {noun}")),
+                None => said.guess(guess, ""),
+            }
+        },
+        /// What is played is abstract.
+        Abstract { name: String } = Code::NoScenario =>
+            say(format!("`{name}` is abstract: it can't be played"), "")
+                .help(format!("play a scenario that extends it: `scenario mine extends {name} {{ … }}`")),
+        /// A value of a plan reads what is known later.
+        NotConstant { text: String } = Code::NotConstant =>
+            say(format!("`{text}` is not known before anything is played"), "")
+                .help("write a number, a `const`, or the name of the `each` around"),
+        /// A number of episodes, or a seed, that is out of range.
+        Count { what: &'static str, text: String, least: u64, most: u64 } = Code::OutOfRange =>
+            say(format!("{what} is `{text}`, outside {least}..{most}"), "")
+                .help(format!("write a whole number in {least}..{most}")),
+        /// Two or more lines say what is played.
+        PlayTwice { first: Span } = Code::DuplicateOption =>
+            say("a check plays one scenario", "played again here")
+                .at(first, "first played here")
+                .help("write a check of its own"),
+        /// A check without `play`.
+        NothingPlayed { name: String } = Code::WrongArguments =>
+            say(format!("the check `{name}` plays nothing"), "")
+                .help("write `play SCENARIO with bot for 50 episodes`"),
+        /// A check without `expect`.
+        NothingExpected { name: String } = Code::WrongArguments =>
+            say(format!("the check `{name}` expects nothing"), "").help("write `expect success_rate > 50%`"),
+        /// A suite without entries.
+        EmptySuite { name: String } = Code::WrongArguments =>
+            say(format!("suite `{name}` has no entry"), "").help("write `SCENARIO for 100 episodes`"),
+        /// A curriculum without stages.
+        NoStage { name: String } = Code::WrongArguments =>
+            say(format!("curriculum `{name}` has no stage"), "").help("write `stage first = SCENARIO`"),
+        /// A stage that is never reached.
+        NeverReached { name: String, before: String } = Code::WrongArguments =>
+            say(format!("stage `{name}` is never reached"), "")
+                .help(format!("say what ends `{before}`: `until success_rate(last: 200) > 80%`")),
+        /// No agent has the name of who plays.
+        NoAgent { name: String, guess: Guess } = Code::UnknownName =>
+            say(format!("no agent is called `{name}`"), "plays every slot").guess(guess, "it can be"),
+        /// Nothing that is measured has this name.
+        NoMeasure { name: String, guess: Guess } = Code::UnknownName =>
+            say(format!("nothing that is measured is called `{name}`"), "not known").guess(guess, "it can be"),
+        /// No number of an episode has this name.
+        NoQuantity { text: String, guess: Guess } = Code::UnknownName =>
+            say(format!("no number of an episode is called `{text}`"), "not known").guess(guess, "it can be"),
+        /// A scenario has no such record, term or outcome; `what`: which of these.
+        NoSuch { scenario: String, what: &'static str, name: String, guess: Guess } = Code::UnknownName =>
+            say(format!("`{scenario}` has no {what} `{name}`"), "not known").guess(guess, "it has"),
+        /// The brackets of a measure hold something else.
+        MeasureForm { name: String, form: &'static str } = Code::WrongArguments =>
+            say(format!("`{name}` is not measured like this"), "").help(format!("write `{form}`")),
+        /// A measure of a check looks at the latest episodes, or counts steps.
+        OnlyInCurricula { text: String } = Code::WrongScope =>
+            say(format!("`{text}` belongs to curricula"), "a check measures all of its episodes")
+                .help("leave it out"),
+        /// A share outside of 0 to 1.
+        Share { what: &'static str, text: String } = Code::OutOfRange =>
+            say(format!("{what} is `{text}`, outside 0%..100%"), "").help("write a share in 0%..100%"),
+        /// The shares of a mix don't add up.
+        Mix { sum: f64 } = Code::OutOfRange =>
+            say(format!("the shares of `mix` add up to {}%", (sum * 100.0 * 1e6).round() / 1e6), "")
+                .help("write shares that add up to 100%, such as `mix current: 80%, earlier: 20%`"),
+        /// A curriculum mixes twice.
+        MixTwice { first: Span } = Code::DuplicateOption =>
+            say("`mix` is given twice", "given again here").at(first, "first given here").help("leave one of them out"),
+        /// The adapted name is no argument of the stage.
+        AdaptsNothing { name: String, scenario: String } = Code::WrongArguments =>
+            say(format!("`{name}` adapts nothing"), "")
+                .help(format!("hand it in: `{scenario}(difficulty: {name})`")),
+        /// The adapted name is a part of an argument.
+        AdaptsPart { name: String } = Code::WrongArguments =>
+            say(format!("`{name}` must be the whole argument"), "computed with it")
+                .help(format!("write `PARAMETER: {name}`, and the range that it needs behind `from`")),
+        /// The entries of a file are too many.
+        TooMany { most: usize } = Code::TooMuch =>
+            say(format!("suites of one file have more than {most} entries"), "too much")
+                .help("use fewer values in `each`, or put suites into files of their own"),
+    }
+}

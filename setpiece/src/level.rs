@@ -1,0 +1,142 @@
+//! Levels: what decides an episode's start and chance.
+
+use crate::Error;
+use serde::{Deserialize, Serialize};
+use setpiece_scenario::{Bindings, Scenario};
+use std::collections::BTreeMap;
+
+/// A level: a scenario's name, the parameters that differ from their defaults, a seed and an index
+/// under it.
+///
+/// As text `academy_corner{difficulty=0.8}#1234`, with `:5` behind it for the index 5.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Level {
+    /// The scenario: a name of the library, or a file.
+    pub scenario: String,
+    /// The fingerprint of the compiled scenario, if it is known: 16 hexadecimal digits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub digest: Option<String>,
+    /// Values as the language writes them, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub params: BTreeMap<String, String>,
+    /// The seed.
+    pub seed: u64,
+    /// The episode's index under the seed.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub episode: u64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it like this")]
+fn is_zero(index: &u64) -> bool {
+    *index == 0
+}
+
+impl Level {
+    /// The level of an episode.
+    pub fn of(scenario: &Scenario, bindings: &Bindings, seed: u64, episode: u64) -> Level {
+        let values = scenario.params.iter().zip(&bindings.0);
+        let changed = values.filter(|(param, value)| **value != param.default);
+        Level {
+            scenario: scenario.name.clone(),
+            digest: setpiece_scenario::file::digest(scenario)
+                .ok()
+                .map(|digest| format!("{digest:016x}")),
+            params: changed
+                .map(|(param, value)| (param.name.clone(), param.write(*value)))
+                .collect(),
+            seed,
+            episode,
+        }
+    }
+
+    /// Reads `NAME{param=value,…}#SEED[:INDEX]`; `None` if a text is no level.
+    pub fn parse(text: &str) -> Option<Level> {
+        let (head, key) = text.rsplit_once('#')?;
+        let (seed, episode) = key.split_once(':').unwrap_or((key, "0"));
+        let (scenario, params) = match head.strip_suffix('}') {
+            Some(head) => head.split_once('{')?,
+            None => (head, ""),
+        };
+        if scenario.is_empty() || scenario.contains(['{', '}']) {
+            return None;
+        }
+        let pairs = params.split(',').map(str::trim).filter(|pair| !pair.is_empty());
+        let pairs = pairs.map(|pair| {
+            let (name, value) = pair.split_once('=')?;
+            Some((name.trim().to_owned(), value.trim().to_owned()))
+        });
+        Some(Level {
+            scenario: scenario.to_owned(),
+            digest: None,
+            params: pairs.collect::<Option<_>>()?,
+            seed: seed.parse().ok()?,
+            episode: episode.parse().ok()?,
+        })
+    }
+
+    /// The values of a scenario's parameters in this level.
+    ///
+    /// # Errors
+    /// [`Error::Param`] if the scenario has no such parameter or a value isn't allowed,
+    /// [`Error::Level`] if the scenario isn't the one that the level was taken of.
+    pub fn bind(&self, scenario: &Scenario) -> Result<Bindings, Error> {
+        let digest = setpiece_scenario::file::digest(scenario).ok();
+        let found = digest.map(|digest| format!("{digest:016x}"));
+        if self.digest.is_some() && self.digest != found {
+            return Err(Error::Level { level: self.to_string() });
+        }
+        let pairs = self.params.iter().map(|(name, value)| (name.as_str(), value.as_str()));
+        crate::bind(scenario, pairs)
+    }
+}
+
+impl std::fmt::Display for Level {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.scenario)?;
+        if !self.params.is_empty() {
+            let pairs: Vec<String> =
+                self.params.iter().map(|(name, value)| format!("{name}={value}")).collect();
+            write!(f, "{{{}}}", pairs.join(","))?;
+        }
+        write!(f, "#{}", self.seed)?;
+        if self.episode > 0 {
+            write!(f, ":{}", self.episode)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_level_is_what_its_text_says() {
+        for text in [
+            "academy_corner#0",
+            "academy_corner{difficulty=0.8}#1234",
+            "drills/corner.pitch{gap=12m,side=left}#7:3",
+        ] {
+            let level = Level::parse(text).unwrap();
+            assert_eq!(level.to_string(), text);
+            let line = serde_json::to_string(&level).unwrap();
+            assert_eq!(serde_json::from_str::<Level>(&line).unwrap(), level);
+        }
+        for text in ["academy_corner", "a{b}#1", "a{b=1#1", "a#", "a#1:x", "a#-1"] {
+            assert_eq!(Level::parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_level_of_an_episode_binds_what_was_bound() {
+        let scenario = crate::load("academy_corner").unwrap().scenario;
+        let mut bindings = Bindings::defaults(&scenario.params);
+        bindings.set_text(&scenario.params, "difficulty", "0.25").unwrap();
+        let level = Level::of(&scenario, &bindings, 9, 2);
+        assert_eq!(level.to_string(), "academy_corner{difficulty=0.25}#9:2");
+        assert_eq!(level.bind(&scenario).unwrap(), bindings);
+        let other = crate::load("academy_empty_goal").unwrap().scenario;
+        assert!(matches!(level.bind(&other), Err(Error::Level { .. })));
+    }
+}

@@ -1,0 +1,83 @@
+//! Loads the suites, checks and curricula of a file, or a suite of the library by its name.
+
+use crate::error::{Error, Failure};
+use crate::load::{self, LoadOptions};
+use crate::stdlib;
+use setpiece_dsl::problem::{Problem, Severity};
+use setpiece_dsl::source::{Source, Sources};
+use setpiece_scenario::plan::{Plans, Suite};
+use std::path::{Path, PathBuf};
+
+/// The file of the library's suites.
+const SUITES: &str = "suites.pitch";
+/// The file of the library's checks.
+const CHECKS: &str = "checks.pitch";
+
+/// What a file says about many episodes.
+#[derive(Clone, Debug)]
+pub struct LoadedPlans {
+    /// The suites, checks and curricula.
+    pub plans: Plans,
+    /// Warnings of its compilation.
+    pub warnings: Vec<Problem>,
+    /// The files they point into.
+    pub sources: Sources,
+    /// The files on disk that it was loaded from.
+    pub inputs: Vec<PathBuf>,
+}
+
+/// Loads the plans of a `.pitch` file.
+///
+/// # Errors
+/// [`Error::File`] if it can't be read, [`Error::Compile`] if it has errors.
+pub fn load_plans(path: &Path, options: &LoadOptions<'_>) -> Result<LoadedPlans, Error> {
+    of_source(load::source_of(path)?, options)
+}
+
+/// Compiles the plans of a text; `name` is its name in reports.
+///
+/// # Errors
+/// [`Error::Compile`] if it has errors.
+pub fn compile_plans(text: &str, name: &str) -> Result<LoadedPlans, Error> {
+    let source = Source { name: name.to_owned(), text: text.into() };
+    of_source(source, &LoadOptions::default())
+}
+
+/// The plans of the library: its suites and its checks.
+///
+/// # Errors
+/// [`Error::Compile`] if the library has errors.
+pub fn library_plans() -> Result<Plans, Error> {
+    let mut plans = Plans::default();
+    for source in [SUITES, CHECKS].into_iter().filter_map(stdlib::file) {
+        let loaded = of_source(source, &LoadOptions::default())?.plans;
+        plans.suites.extend(loaded.suites);
+        plans.checks.extend(loaded.checks);
+        plans.curricula.extend(loaded.curricula);
+    }
+    Ok(plans)
+}
+
+/// A suite of the library by its name.
+///
+/// # Errors
+/// [`Error::Compile`] if the library has errors.
+pub fn library_suite(name: &str) -> Result<Option<Suite>, Error> {
+    let Some(source) = stdlib::file(SUITES) else { return Ok(None) };
+    let suites = of_source(source, &LoadOptions::default())?.plans.suites;
+    Ok(suites.into_iter().find(|suite| suite.name == name))
+}
+
+fn of_source(source: Source, options: &LoadOptions<'_>) -> Result<LoadedPlans, Error> {
+    let outcome = load::compiled(source, options, true);
+    let inputs = load::on_disk(&outcome.inputs);
+    let (problems, sources) = (outcome.problems, outcome.sources);
+    match outcome.plans {
+        Some(plans) => {
+            let is_warning = |problem: &Problem| problem.severity() == Severity::Warning;
+            let warnings = problems.into_iter().filter(is_warning).collect();
+            Ok(LoadedPlans { plans, warnings, sources, inputs })
+        }
+        None => Err(Error::Compile(Box::new(Failure { problems, sources, inputs }))),
+    }
+}

@@ -1,0 +1,117 @@
+//! Suites, checks and levels, by the real binary.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use setpiece::level::Level;
+use setpiece_scenario::Bindings;
+use std::path::Path;
+use std::process::Command;
+
+const DRILL: &str = r#"
+scenario drill extends academy {
+    param gap = 2m in 1m..20m
+    ball at (50m, 0m)
+    team left { CF at (50m - gap, 0m) }
+    end missed when elapsed > 10s
+}
+check "the empty goal is scored" {
+    play drill with run_and_shoot for 20 episodes over params
+    expect success_rate > 90%
+}
+check "nobody scores by standing" {
+    play drill with idle for 10 episodes
+    expect success_rate > 50%
+}
+suite near_and_far {
+    each d in [1m, 15m] { drill(gap: d) for 10 episodes }
+}
+"#;
+
+/// The exit code and both outputs of a command in a folder with the drill.
+fn setpiece(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
+    std::fs::write(folder.join("drill.pitch"), DRILL).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_setpiece"))
+        .args(args)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn a_failed_check_leaves_its_worst_episode_and_the_command_that_shows_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let (code, out, err) = setpiece(dir.path(), &["test"]);
+    assert_eq!(code, Some(1), "{out}{err}");
+    assert!(out.contains("2 checks, 1 failed"), "{out}");
+    let files: Vec<_> = std::fs::read_dir(dir.path().join("failed-checks"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    let replay = files.iter().find(|name| name.ends_with(".pitchr")).unwrap();
+    let shown = out.lines().find(|line| line.contains("see it: setpiece")).unwrap();
+    assert!(shown.contains(replay.as_str()), "{shown}");
+    let (code, _, err) = setpiece(dir.path(), &["replay", &format!("failed-checks/{replay}")]);
+    assert_eq!(code, Some(0), "{err}");
+}
+
+#[test]
+fn checks_are_the_same_with_any_number_of_threads() {
+    let dir = tempfile::tempdir().unwrap();
+    let args = |threads| ["test", "--format", "json", "--threads", threads];
+    let without_time = |text: String| -> Vec<serde_json::Value> {
+        let lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
+        let mut checks: Vec<serde_json::Value> = lines.collect();
+        for check in &mut checks {
+            check.as_object_mut().unwrap().remove("seconds");
+        }
+        checks
+    };
+    let [one, three] = ["1", "3"].map(|n| without_time(setpiece(dir.path(), &args(n)).1));
+    assert_eq!(one.len(), 2);
+    assert_eq!(one, three);
+}
+
+#[test]
+fn a_filter_that_leaves_no_check_is_an_error() {
+    let dir = tempfile::tempdir().unwrap();
+    let (code, _, err) = setpiece(dir.path(), &["test", "--filter", "keeper"]);
+    assert_eq!(code, Some(1));
+    assert!(err.contains("SP0020") && err.contains("no check here has `keeper`"), "{err}");
+    let (code, out, _) = setpiece(dir.path(), &["test", "--filter", "empty goal"]);
+    assert_eq!(code, Some(0));
+    assert!(out.contains("1 check, 0 failed"), "{out}");
+}
+
+#[test]
+fn a_suite_is_a_table_with_a_row_for_each_entry() {
+    let dir = tempfile::tempdir().unwrap();
+    let (code, out, err) =
+        setpiece(dir.path(), &["run", "academy", "--agent", "run_and_shoot", "--format", "csv"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert_eq!(out.lines().count(), 12, "a heading and the Academy's 11:\n{out}");
+
+    let suite = DRILL.find("suite").unwrap();
+    let suite = DRILL[suite..].replace("drill(gap: d)", "academy_corner(difficulty: 0.5)");
+    std::fs::write(dir.path().join("alone.pitch"), suite).unwrap();
+    let args = ["run", "alone.pitch", "--beside", "random", "--format", "csv"];
+    let (code, out, err) = setpiece(dir.path(), &args);
+    assert_eq!(code, Some(0), "{err}");
+    assert_eq!(out.lines().count(), 5, "{out}");
+}
+
+#[test]
+fn a_level_is_of_its_scenario() {
+    let scenario = setpiece::compile_text(DRILL, "drill.pitch").unwrap().scenario;
+    let level = Level::of(&scenario, &Bindings::defaults(&scenario.params), 7, 0);
+    assert_eq!(level.to_string(), "drill#7");
+    let changed = DRILL.replace("10s", "11s");
+    let changed = setpiece::compile_text(&changed, "drill.pitch").unwrap().scenario;
+    let error = level.bind(&changed).unwrap_err();
+    assert_eq!(error.code().to_string(), "SP0019");
+}

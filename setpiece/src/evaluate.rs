@@ -35,7 +35,7 @@ pub struct JudgedExpectation<'a> {
 /// Plays some episodes.
 ///
 /// - `options`: rewards, physics, agents; the parameters are those of what is played.
-/// - `over_params`: draws the parameters anew in every episode.
+/// - `over_params`: every episode draws the parameters.
 /// - `after`: called with every episode as it ends, from any thread.
 ///
 /// # Errors

@@ -9,7 +9,11 @@ facts! {
     /// Facts about suites, checks and curricula.
     pub(crate) Plans {
         /// No scenario has the name of what is played; `other`: what else has it.
-        NoScenario { name: String, other: Option<&'static str>, guess: Guess } = Code::UnknownName => {
+        NoScenario {
+            name: String,
+            other: Option<&'static str>,
+            guess: Guess,
+        } = Code::UnknownName => {
             let said = say(format!("no scenario is called `{name}`"), "played here");
             match other {
                 Some(noun) => said.help(format!("`{name}` is {noun}")),
@@ -60,7 +64,12 @@ facts! {
         NoQuantity { text: String, guess: Guess } = Code::UnknownName =>
             say(format!("no number of an episode is called `{text}`"), "not known").guess(guess, "it can be"),
         /// A scenario has no such record, term or outcome; `what`: which of these.
-        NoSuch { scenario: String, what: &'static str, name: String, guess: Guess } = Code::UnknownName =>
+        NoSuch {
+            scenario: String,
+            what: &'static str,
+            name: String,
+            guess: Guess,
+        } = Code::UnknownName =>
             say(format!("`{scenario}` has no {what} `{name}`"), "not known").guess(guess, "it has"),
         /// The brackets of a measure hold something else.
         MeasureForm { name: String, form: &'static str } = Code::WrongArguments =>

@@ -139,6 +139,11 @@ impl Failure {
             self.problems.iter().filter(|problem| problem.severity() == Severity::Error);
         errors.all(|problem| problem.code() == Code::NoScenario)
     }
+
+    /// Whether one of the problems is that there is no scenario.
+    pub(crate) fn lacks_scenario(&self) -> bool {
+        self.problems.iter().any(|problem| problem.code() == Code::NoScenario)
+    }
 }
 
 impl Error {

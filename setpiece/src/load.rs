@@ -242,6 +242,16 @@ pub fn check_with(
     };
     let errors = || failure.problems.iter().filter(|problem| problem.severity() == Severity::Error);
     let root = failure.sources.iter().next().map(|(_, source)| source.clone());
+    if let Some(root) = root.clone().filter(|_| failure.lacks_scenario()) {
+        let outcome = compiled(root, options, true);
+        if !outcome.problems.iter().any(|problem| problem.code() == Code::NoScenario) {
+            return Ok(Checked {
+                problems: outcome.problems,
+                sources: outcome.sources,
+                inputs: failure.inputs,
+            });
+        }
+    }
     let only_parts = errors().all(|problem| problem.code() == Code::NoScenario)
         && !root.as_ref().is_some_and(|root| root.name.contains('"'));
     let parts = root.as_ref().and_then(|root| setpiece_dsl::parts(&root.text));

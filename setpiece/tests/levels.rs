@@ -106,6 +106,28 @@ fn a_suite_is_a_table_with_a_row_for_each_entry() {
 }
 
 #[test]
+fn a_file_of_suites_alone_needs_no_scenario() {
+    let dir = tempfile::tempdir().unwrap();
+    for (suite, problems) in [
+        ("suite a { academy_corner for 5 episodes }", "no problems"),
+        ("suite a { academy_cornr for 5 episodes }", "1 error and 0 warnings"),
+    ] {
+        std::fs::write(dir.path().join("alone.pitch"), suite).unwrap();
+        let (_, out, err) = setpiece(dir.path(), &["check", "alone.pitch"]);
+        assert!(out.contains(problems), "{out}{err}");
+    }
+}
+
+#[test]
+fn the_librarys_checks_hold() {
+    let checks = concat!(env!("CARGO_MANIFEST_DIR"), "/../stdlib-scenarios");
+    let dir = tempfile::tempdir().unwrap();
+    let (code, out, err) = setpiece(dir.path(), &["test", checks]);
+    assert_eq!(code, Some(0), "{out}{err}");
+    assert!(out.lines().count() > 8, "{out}");
+}
+
+#[test]
 fn a_level_is_of_its_scenario() {
     let scenario = setpiece::compile_text(DRILL, "drill.pitch").unwrap().scenario;
     let level = Level::of(&scenario, &Bindings::defaults(&scenario.params), 7, 0);

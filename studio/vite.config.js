@@ -5,6 +5,8 @@ export default {
     emptyOutDir: true,
     modulePreload: false,
     target: "es2022",
+    // Read from this machine, not over a network.
+    chunkSizeWarningLimit: 2000,
     rollupOptions: {
       output: {
         entryFileNames: "studio.js",

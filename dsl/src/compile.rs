@@ -17,7 +17,7 @@ use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::facts::{Chance, Whole};
 use crate::problem::{Code, Guess, Problem, ScriptApi, has_errors, triage};
-use crate::resolve::{Library, Prelude, flatten, load};
+use crate::resolve::{Library, NamedItem, Prelude, flatten, load};
 use crate::source::{FileId, Source, SourceLoader, Sources};
 use setpiece_scenario::Scenario;
 use setpiece_scenario::bounds::{self, Excess, Part};
@@ -39,6 +39,8 @@ pub struct CompileOptions<'a> {
     pub cast: &'a [Cast],
     /// Whether a file may have suites, checks and curricula alone, and no scenario.
     pub plans_suffice: bool,
+    /// Whether the start program also computes the regions, for [`Origins::regions`].
+    pub regions: bool,
 }
 
 /// What came out.
@@ -56,6 +58,8 @@ pub struct CompileOutcome {
     pub inputs: Vec<String>,
     /// Where the parts of the scenario stand.
     pub origins: Origins,
+    /// The behaviours that the root file sees and that need no argument, by name.
+    pub behaviors: Vec<String>,
 }
 
 /// The formations of a text that need no argument; `None` if it declares nothing at all.
@@ -115,6 +119,7 @@ pub fn compile(
         library: &library,
         scripts: &scripts,
         effort: &effort,
+        regions: options.regions,
         lowered: BTreeMap::new(),
         played: wanted.iter().map(|item| item.name.span).collect(),
         problems,
@@ -139,7 +144,14 @@ pub fn compile(
         Some((scenario, origins)) => ((!failed).then(|| Arc::unwrap_or_clone(scenario)), origins),
         None => (None, Origins::default()),
     };
+    let plays_alone = |found: &NamedItem<'_>| match &found.item.kind {
+        ItemKind::Behavior(behavior) => behavior.params.iter().all(|param| param.default.is_some()),
+        _ => false,
+    };
+    let seen = library.visible(FileId(0)).filter(|(_, found)| plays_alone(found));
+    let behaviors = seen.map(|(name, _)| name.to_owned()).collect();
     CompileOutcome {
+        behaviors,
         scenario,
         plans: (!failed).then_some(plans),
         problems,
@@ -154,6 +166,8 @@ struct Compilation<'a> {
     library: &'a Library,
     scripts: &'a LoadedScripts<'a>,
     effort: &'a Effort,
+    /// Whether regions are computed.
+    regions: bool,
     /// The scenarios that are compiled so far, by the place of their name.
     lowered: BTreeMap<Span, (Arc<Scenario>, Origins)>,
     /// Those that are wanted, or played by a plan.
@@ -228,8 +242,8 @@ impl<'a> Compilation<'a> {
             flat.teams.swap(0, 1);
         }
         let world = World::new(self.library, &flat, mirror, casting, self.scripts, self.effort);
-        let start::LoweredStart { start, mut players, agents, step, behaviors, origins: requires } =
-            start::lower_start(&world);
+        let start::LoweredStart { start, mut players, agents, step, behaviors, requires, regions } =
+            start::lower_start(&world, self.regions);
         hidden::check_scenario(&world);
         let mut rewards = Vec::new();
         let mut reward_spans = Vec::new();
@@ -255,6 +269,7 @@ impl<'a> Compilation<'a> {
             records: flat.records.iter().map(|record| record.name.span).collect(),
             observation: flat.observed.map(|(_, span)| span),
             requires,
+            regions,
         };
         let scenario = Scenario {
             name: item.name.node.clone(),

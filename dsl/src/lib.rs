@@ -11,6 +11,7 @@ pub mod format;
 mod habit;
 mod lower;
 mod origins;
+mod outline;
 pub mod parse;
 pub mod problem;
 pub mod report;
@@ -19,5 +20,6 @@ pub mod source;
 
 pub use cast::{CAST_NAME, Cast, CastTarget};
 pub use compile::{CompileOptions, CompileOutcome, compile, parts};
-pub use origins::{Origins, RequireOrigin};
+pub use origins::{Origins, RegionOrigin, RequireOrigin};
+pub use outline::Outline;
 pub use resolve::Prelude;

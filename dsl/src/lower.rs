@@ -52,7 +52,7 @@ pub(crate) enum ProgramStage<'w> {
     /// Nothing but constants.
     Constant,
     /// The draw of a start; with its places and `let`s.
-    Start(StartState<'w>),
+    Start(Box<StartState<'w>>),
     /// The first values of a reward's states.
     Init,
     /// A reward, at every step.
@@ -137,7 +137,7 @@ impl<'c, 'w> Lower<'c, 'w> {
         scope: Scope<'w>,
         state: StartState<'w>,
     ) -> Lower<'c, 'w> {
-        Lower::new(world, None, ProgramStage::Start(state), scope)
+        Lower::new(world, None, ProgramStage::Start(Box::new(state)), scope)
     }
 
     /// What is known of the start; `None` in any other program.

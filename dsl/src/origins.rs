@@ -1,6 +1,8 @@
 //! Where the parts of a compiled scenario come from.
 
+use crate::outline::Outline;
 use crate::source::Span;
+use setpiece_scenario::Reg;
 
 /// Where the parts of a compiled scenario stand in the sources.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -21,6 +23,18 @@ pub struct Origins {
     pub observation: Option<Span>,
     /// Its requirements, in order: the written ones, then the implied.
     pub requires: Vec<RequireOrigin>,
+    /// Its regions: the named ones, then those that something is drawn in. Only if they are asked
+    /// for.
+    pub regions: Vec<RegionOrigin>,
+}
+
+/// A region, with the registers of the start program that give its shape.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RegionOrigin {
+    /// Its name, or the expression.
+    pub span: Span,
+    /// Its shape.
+    pub shape: Outline<Reg>,
 }
 
 /// Where a requirement of the draw comes from.

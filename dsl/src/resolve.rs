@@ -9,5 +9,5 @@ mod parts;
 
 pub(crate) use flatten::{Flat, FlatEnding, FlatParam, FlatTeam, Named, arg_name, flatten};
 pub use load::Prelude;
-pub(crate) use load::{Library, MAX_FILES, MAX_IMPORTED_BYTES, load};
+pub(crate) use load::{Library, MAX_FILES, MAX_IMPORTED_BYTES, NamedItem, load};
 pub(crate) use parts::{formation_chain, reward_chain};

@@ -44,6 +44,9 @@ pub struct Acceptance {
     pub met: u32,
     /// The requirement that failed most often, if one did, in the author's words or the pitch's.
     pub hardest: Option<String>,
+    /// Attempts that each of the author's requirements refused, in order. Each attempt counts for
+    /// the first that it fails.
+    pub refused: Vec<u32>,
 }
 
 impl Acceptance {
@@ -163,7 +166,7 @@ impl Drawer {
     ) -> Acceptance {
         self.failures.fill(0);
         let attempts = attempts.min(self.attempts_max);
-        let mut found = Acceptance { attempts: 0, met: 0, hardest: None };
+        let mut found = Acceptance { attempts: 0, met: 0, hardest: None, refused: Vec::new() };
         while found.attempts < attempts && found.met < enough {
             let index = u64::from(found.attempts);
             let draws = DrawKey { seed: 0, index, attempt: 0 };
@@ -178,6 +181,7 @@ impl Drawer {
         if found.met < found.attempts {
             found.hardest = Some(self.error(scenario, 0, 0, found.attempts).requirement);
         }
+        found.refused = self.failures[..scenario.start.requires.len()].to_vec();
         found
     }
 
@@ -272,6 +276,11 @@ impl Drawer {
         own.or_else(|| {
             self.misplaced(scenario, roster).map(|fault| requires.len() + fault as usize)
         })
+    }
+
+    /// What a register of the start program held in the last draw, if it has that register.
+    pub fn register(&self, reg: Reg) -> Option<f64> {
+        (reg.index() < self.random.len()).then(|| self.value(reg))
     }
 
     fn value(&self, reg: Reg) -> f64 {

@@ -48,6 +48,7 @@ from setpiece._reload import Reload
 from setpiece._replay import Moment, Replay
 from setpiece._scenario_dict import ScenarioDict, pitch_text
 from setpiece._source import load
+from setpiece._studio import Studio, studio
 from setpiece._vector import FootballVectorEnv, make_vec
 from setpiece._vocabulary import Action, GameMode, Role
 
@@ -86,6 +87,7 @@ __all__ = [
     "SetpieceError",
     "SnapshotError",
     "Step",
+    "Studio",
     "UnavailableError",
     "UnknownScenarioError",
     "__version__",
@@ -100,6 +102,7 @@ __all__ = [
     "play",
     "register_envs",
     "register_pettingzoo",
+    "studio",
 ]
 
 register_envs()

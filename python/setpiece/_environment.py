@@ -51,6 +51,9 @@ from setpiece._words import check_word
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+Mirror = Callable[[Callable[[], bytes]], object]
+"""Takes an episode that has ended: a function that returns its replay."""
+
 COPIED = ("spec", "_np_random", "_np_random_seed", "_playing", "_same_agents")
 """Attributes that a copy or pickle keeps unchanged."""
 
@@ -101,6 +104,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     """The scenario, with the parameters it was made with."""
     agents: tuple[str, ...]
     """The caller's agents in order: a player's name, `left_CM_1`, or `left_0` if it can switch."""
+    source: Source
+    """What it was made of; for a copy its scenario."""
+    mirrors: list[Mirror]
+    """Called with a way to the replay of each episode that ends: see `setpiece.studio`."""
 
     def __init__(
         self,
@@ -121,6 +128,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 "a watched file says itself who plays: write it there", name="watch"
             )
         self._record = read_record(record, record_when, record_quality)
+        self.source = scenario
         self._watcher = (
             Watcher(scenario, watch, on_reload, allow_outside=options.allow_outside)
             if watch
@@ -135,6 +143,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def _set_up(self, scenario: Scenario, options: EnvOptions) -> None:
         """Sets up everything except files, before the first episode."""
+        self.mirrors = []
         self._options, self.render_mode = options, options.render_mode
         self._callbacks = options.callbacks()
         self._window: Window | None = None
@@ -309,6 +318,11 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         return self._options.observation
 
     @property
+    def sight(self) -> tuple[str, bool]:
+        """The kind of observation of the caller's agents, and whether it is scaled."""
+        return self._options.observation, self._options.scale
+
+    @property
     def observation_layout(self) -> Layout:
         """The layout of one agent's observation: an array's blocks, or a dict's keys.
 
@@ -383,6 +397,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         """Restores the environment of a copy or pickle."""
         self._record, self._watcher = None, None
         self._set_up(state["scenario"], state["options"])
+        self.source = state["scenario"]
         if state["snapshot"] is not None:
             self.restore(state["snapshot"])
             self._native.set_frames(state["frames"])
@@ -521,6 +536,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             summary["replay"] = self._record.end(self._native, self.scenario.name, info["score"])
             if self._record.quality is not None:
                 summary["video"] = self._record.video
+        for mirror in self.mirrors:
+            mirror(self._native.replay)
 
     def action_masks(self) -> NDArray[np.int8]:
         """Returns the current `info["action_mask"]`: 1 for actions with an effect, else 0."""

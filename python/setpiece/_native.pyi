@@ -1,9 +1,9 @@
 """The compiled module, as far as the package uses it; `setpiece` re-exports the public part."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from types import MappingProxyType
-from typing import Any, Final, Protocol, final
+from typing import Any, Final, Protocol, TypedDict, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,7 @@ __all__ = [
     "RecordedSteer",
     "Replay",
     "Scenario",
+    "Studio",
     "__version__",
     "agents",
     "compile",
@@ -77,6 +78,19 @@ class _Options(Protocol):
     def right(self) -> int | str | Sequence[str] | None: ...
     @property
     def switching(self) -> str | None: ...
+
+class _Opened(TypedDict):
+    path: str
+    text: str | None
+    scenario: Scenario | None
+    bound: Scenario | None
+    allow_outside: bool
+
+class _NativePolicy(TypedDict):
+    name: str
+    observation: str
+    scale: bool
+    play: Callable[[Any, Sequence[str]], list[int]]
 
 # The attributes read from `setpiece._casting.Casting`.
 class _Casting(Protocol):
@@ -308,6 +322,16 @@ class Batch:
     def summary(self, at: int) -> dict[str, Any] | None: ...
     def drawing(self, at: int) -> str: ...
     def frame(self, at: int, size: tuple[int, int], camera: str) -> NDArray[np.uint8]: ...
+
+@final
+class Studio:
+    address: str
+    port: int
+    def __new__(
+        cls, opened: _Opened, policies: Sequence[_NativePolicy], *, port: int
+    ) -> Studio: ...
+    def watch(self, replay: bytes) -> bool: ...
+    def close(self) -> None: ...
 
 @final
 class Live:

@@ -109,12 +109,12 @@ class Table:
             at = [slot for slot, key in owner.items() if key == who]
             if not at or is_word(opponent):
                 continue
-            policy = _policy(who, opponent)
+            policy = policy_of(who, opponent)
             ids = tuple(agents[slot].id for slot in at)
             teams = {agents[slot].team for slot in at}
             side = SIDES[teams.pop()] if len(teams) == 1 else None
             self.seats.append(
-                Seat(ids, at, Picker(self.n_agents, at), policy, _function(policy), side)
+                Seat(ids, at, Picker(self.n_agents, at), policy, function_of(policy), side)
             )
         self.seen = None
 
@@ -271,7 +271,8 @@ def no_agent(who: str, ids: Sequence[str]) -> ParameterError:
     )
 
 
-def _policy(who: str, opponent: Opponent) -> Policy:
+def policy_of(who: str, opponent: Opponent) -> Policy:
+    """Returns an opponent as a policy, or raises `ParameterError`."""
     if isinstance(opponent, Policy):
         if opponent.observation is not None:
             kind = check_observation(opponent.observation)
@@ -294,8 +295,8 @@ def _policy(who: str, opponent: Opponent) -> Policy:
     )
 
 
-def _function(policy: Policy) -> Callable[[Any], Any]:
-    """The function that is called with observations."""
+def function_of(policy: Policy) -> Callable[[Any], Any]:
+    """Returns the function that is called with observations."""
     if is_onnx(policy.play):
         return onnx_policy(policy.play)
     predict = getattr(policy.play, "predict", None)

@@ -21,8 +21,8 @@ from setpiece._casting import scripted_scenario
 from setpiece._crowd import Crowd
 from setpiece._endings import endings
 from setpiece._env_options import RENDER_MODES, EnvOptions, VectorArguments
-from setpiece._environment import FootballEnv
-from setpiece._errors import ActionError, ParameterError, UnavailableError
+from setpiece._environment import FootballEnv, Mirror
+from setpiece._errors import ActionError, ParameterError, ReplayError, UnavailableError
 from setpiece._opponents import Opponent, Table
 from setpiece._options import ParamValue, check_keys, check_number, check_params
 from setpiece._rows import Picker
@@ -87,6 +87,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     ) -> None:
         """Makes the environments; the arguments are those of `setpiece.make_vec`."""
         options = EnvOptions.read(arguments, VectorArguments)
+        self.source = scenario
+        self.mirrors: list[Mirror] = []
+        self._acts: list[Any] | None = None
+        self._bound: dict[str, ParamValue] = {}
         refuse_functions(options.reward_functions)
         if record is not None:
             raise UnavailableError(
@@ -175,11 +179,14 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             with one_thread:
                 if params is not None:
                     self._batch.bind(params)
+                    self._bound = params
                 self._batch.reset(
                     self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False
                 )
             self._begun = True
             self._over &= ~mask
+            if mask[0]:
+                self._acts = []
             begun = self._shown(), self._infos()
         if self.render_mode == "human":
             self.render()
@@ -207,6 +214,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             actions = self._read(actions)
             with one_thread:
                 self._batch.step(self._arrays, actions)
+            if self.mirrors:
+                self._keep(actions)
             over = self._arrays.terminated | self._arrays.truncated
             infos = self._infos()
             if over.any():
@@ -226,6 +235,11 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         if self._window is not None:
             self._window.close()
         super().close_extras(**kwargs)
+
+    @property
+    def sight(self) -> tuple[str, bool]:
+        """The kind of observation of the caller's agents, and whether it is scaled."""
+        return self._options.observation, self._options.scale
 
     @property
     def observation_layout(self) -> Layout:
@@ -307,6 +321,33 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         ended["setpiece"]["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
         for key, value in ended.items():
             infos[key], infos[f"_{key}"] = value, over.copy()
+        if over[0] and self.mirrors:
+            acts, self._acts = self._acts, []
+            seed, index = ended["setpiece"]["seed"][0], ended["setpiece"]["index"][0]
+            for mirror in self.mirrors:
+                mirror(lambda: self._replay(acts, seed, index))
+
+    def _keep(self, actions: Any) -> None:
+        """Keeps the actions of the first environment while somebody watches it."""
+        if self._over[0]:
+            # This step has begun the next episode.
+            self._acts = []
+        elif self._acts is not None:
+            self._acts.append(np.asarray(actions)[0].copy())
+
+    def _replay(self, acts: list[Any] | None, seed: int, index: int) -> bytes:
+        """Plays an episode of the first environment again; returns its replay.
+
+        Raises `ReplayError` if its beginning has not been seen.
+        """
+        if acts is None:
+            raise ReplayError("the episode began before it was watched")
+        native = _native.Environment(self.scenario, self._options)
+        with one_thread:
+            native.reset(int(seed), int(index), self._bound, None)
+            for action in acts:
+                native.step(action)
+            return native.replay()
 
     def _infos(self) -> dict[str, Any]:
         marks = self._marks

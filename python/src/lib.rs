@@ -11,10 +11,12 @@ mod live;
 mod observation;
 mod options;
 mod params;
+mod patience;
 mod picture;
 mod replay;
 mod scenario;
 mod seats;
+mod studio;
 mod video;
 mod write;
 
@@ -44,6 +46,8 @@ mod _native {
     use crate::scenario::{
         LibraryEntry, Scenario, compile, compile_cast, library, load, load_cast, restore,
     };
+    #[pymodule_export]
+    use crate::studio::Studio;
     #[pymodule_export]
     use crate::video::{Moment, moments_video, replay_video};
     #[pymodule_export]

@@ -1,6 +1,7 @@
 //! Scenarios: loading, compiling, binding, saving.
 
 use crate::params::{Param, bind};
+use crate::patience::interruptible;
 use crate::{diagnostics, errors, given};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyMappingProxy};
@@ -163,7 +164,7 @@ pub(crate) fn load(
 ) -> PyResult<Scenario> {
     let name_or_path = given::path("scenario", name_or_path)?;
     let options = LoadOptions { allow_outside, ..LoadOptions::default() };
-    let loaded = py.detach(|| setpiece::load_with(&name_or_path, &options));
+    let loaded = interruptible(py, move || setpiece::load_with(&name_or_path, &options))?;
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
@@ -185,7 +186,7 @@ pub(crate) fn compile(
     let py = text.py();
     let (text, name) = (given::text("text", text)?, text_name(name)?);
     let options = LoadOptions { allow_outside, ..LoadOptions::default() };
-    let loaded = py.detach(|| setpiece::compile_text_with(&text, &name, &options));
+    let loaded = interruptible(py, move || setpiece::compile_text_with(&text, &name, &options))?;
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
@@ -224,8 +225,10 @@ pub(crate) fn load_cast(
     allow_outside: bool,
 ) -> PyResult<Scenario> {
     let (name_or_path, cast) = (given::path("scenario", name_or_path)?, cast_of(casting)?);
-    let loaded = py
-        .detach(|| setpiece::load_with(&name_or_path, &LoadOptions { cast: &cast, allow_outside }));
+    let loaded = interruptible(py, move || {
+        let options = LoadOptions { cast: &cast, allow_outside, ..LoadOptions::default() };
+        setpiece::load_with(&name_or_path, &options)
+    })?;
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
@@ -241,8 +244,10 @@ pub(crate) fn compile_cast(
     let py = text.py();
     let (text, name, cast) =
         (given::text("text", text)?, given::text("name", name)?, cast_of(casting)?);
-    let options = LoadOptions { cast: &cast, allow_outside };
-    let loaded = py.detach(|| setpiece::compile_text_with(&text, &name, &options));
+    let loaded = interruptible(py, move || {
+        let options = LoadOptions { cast: &cast, allow_outside, ..LoadOptions::default() };
+        setpiece::compile_text_with(&text, &name, &options)
+    })?;
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 

@@ -34,6 +34,9 @@ pub const NODES_MAX: u64 = 250_000;
 pub const SERIES_MAX: u64 = 1_000;
 /// The most bytes of all scripts.
 pub const SCRIPTS_MAX_BYTES: u64 = 1 << 20;
+/// The most bytes of a script. The time that Rhai takes to read one grows with the square of its
+/// length.
+pub const SCRIPT_MAX_BYTES: usize = 32 << 10;
 /// Longest name of a scenario, bytes, because files are named after it.
 pub const NAME_MAX_BYTES: usize = 128;
 
@@ -100,6 +103,9 @@ pub fn check(scenario: &Scenario) -> Result<(), Excess> {
     let bytes = scenario.scripts.iter().map(|script| script.source.len() as u64).sum();
     Total::count("bytes of scripts", Part::Scenario, bytes)
         .within(SCRIPTS_MAX_BYTES, "make the scripts shorter")?;
+    let longest = scenario.scripts.iter().map(|script| script.source.len()).max();
+    Total::count("bytes in one script", Part::Scenario, longest.unwrap_or_default() as u64)
+        .within(SCRIPT_MAX_BYTES as u64, "divide the script")?;
 
     let (mut code, mut cells, mut terms) =
         (Total::new("instructions"), Total::new("memory cells"), Total::new("terms of rewards"));

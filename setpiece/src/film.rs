@@ -7,7 +7,7 @@ use crate::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use crate::engine::judge::Outcome;
 use crate::engine::state::event::Event;
 use crate::engine::state::{Match, PlayerId};
-use crate::replay::Replay;
+use crate::replay::{Recorder, Replay};
 use crate::scenario::pitch::PLAYERS_MAX;
 use crate::scenario::vocabulary::{Action, EventKind, Role};
 use crate::scenario::{Scenario, Team};
@@ -77,6 +77,22 @@ impl Film {
 /// [`Error::Environment`] if the options don't fit the scenario; [`Error::Episode`] if it has no
 /// start, a script fails, or nothing ends it.
 pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Error> {
+    let named = Agent::NAMED.iter().find(|(_, agent)| *agent == options.agent);
+    let who = named.map(|(name, _)| *name);
+    Ok(film_of(scenario, options, &mut ReadyMade::new(options.agent), who)?.0)
+}
+
+/// Like [`film`], with any policy instead of the agent of the options, and its name. Returns what
+/// was played as a recording too, unless it is longer than one may be.
+///
+/// # Errors
+/// Like [`film`].
+pub fn film_of(
+    scenario: &Arc<Scenario>,
+    options: &FilmOptions,
+    policy: &mut impl Policy,
+    who: Option<&str>,
+) -> Result<(Film, Option<Replay>), Error> {
     let fault = |why| Error::Episode(Box::new(why));
     if options.until_step.is_none()
         && scenario.endings.list.is_empty()
@@ -89,9 +105,10 @@ pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Err
     environment
         .reset(Some(options.seed), Some(options.episode))
         .map_err(|why| fault(EpisodeError::Draw(why)))?;
-    let mut policy = ReadyMade::new(options.agent);
     policy.begin(&environment);
-    let mut film = Film::begun(&environment, origin(&environment, Some(options.agent)));
+    let mut film = Film::begun(&environment, origin(&environment, who));
+    let mut recorder = Recorder::default();
+    recorder.begin(options.environment.from.as_deref());
     let mut scratch = Scratch::default();
     let mut actions = vec![Action::Idle; environment.n_agents()];
     while environment.is_running()
@@ -99,6 +116,7 @@ pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Err
     {
         for (agent, action) in actions.iter_mut().enumerate() {
             *action = policy.act(&environment, agent);
+            recorder.note(*action, None);
         }
         environment.step(&actions, &mut scratch).map_err(|why| fault(EpisodeError::Step(why)))?;
         film.take(&environment);
@@ -107,7 +125,9 @@ pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Err
         }
     }
     film.outcome = environment.outcome().cloned();
-    Ok(film)
+    // An episode that is longer than a replay may be isn't kept.
+    let replay = Replay::of(&environment, &recorder).ok();
+    Ok((film, replay))
 }
 
 /// Plays a recorded episode again and keeps every moment.
@@ -178,12 +198,12 @@ fn is_award(kind: EventKind) -> bool {
 
 /// The seed, the episode's index, the agent that played every slot, if one did, and the parameters
 /// that differ from their defaults.
-fn origin(environment: &Environment, agent: Option<Agent>) -> String {
+fn origin(environment: &Environment, who: Option<&str>) -> String {
     let mut origin = format!("seed {}", environment.seed());
     if environment.index() > 0 {
         origin += &format!(" · episode {}", environment.index());
     }
-    if let Some((name, _)) = Agent::NAMED.iter().find(|(_, named)| Some(*named) == agent) {
+    if let Some(name) = who {
         origin += &format!(" · agent {name}");
     }
     for (param, &value) in environment.scenario().params.iter().zip(&environment.bindings().0) {

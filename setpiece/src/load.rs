@@ -31,6 +31,8 @@ pub struct Loaded {
     pub origins: Origins,
     /// The files on disk that it was loaded from, for a watcher.
     pub inputs: Vec<PathBuf>,
+    /// The behaviours that its file sees and that need no argument; none for a compiled file.
+    pub behaviors: Vec<String>,
 }
 
 /// A scenario of the standard library.
@@ -68,6 +70,8 @@ pub struct LoadOptions<'a> {
     /// Whether imports and scripts may be outside the root file's folder (for a text from memory:
     /// outside the working directory). The library may always be imported.
     pub allow_outside: bool,
+    /// Whether the start program also computes the regions, for `origins.regions`.
+    pub regions: bool,
 }
 
 /// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
@@ -158,14 +162,15 @@ fn of_file(scenario: Scenario, path: &Path, cast: &[Cast]) -> Result<Loaded, Err
 
 impl Loaded {
     /// A compiled scenario, whose text is unknown.
-    pub fn without_text(scenario: Scenario) -> Loaded {
+    pub fn without_text(scenario: impl Into<Arc<Scenario>>) -> Loaded {
         Loaded {
-            scenario: Arc::new(scenario),
+            scenario: scenario.into(),
             warnings: Vec::new(),
             sources: Sources::default(),
             origin: None,
             origins: Origins::default(),
             inputs: Vec::new(),
+            behaviors: Vec::new(),
         }
     }
 }
@@ -287,7 +292,12 @@ pub(crate) fn compiled(
     plans_suffice: bool,
 ) -> CompileOutcome {
     let loader = loader(&source.name, options);
-    let options = CompileOptions { cast: options.cast, plans_suffice, ..compile_options() };
+    let options = CompileOptions {
+        cast: options.cast,
+        regions: options.regions,
+        plans_suffice,
+        ..compile_options()
+    };
     compile(source, &loader, &options)
 }
 
@@ -317,6 +327,7 @@ fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, E
             origin: outcome.origins.scenario,
             origins: outcome.origins,
             inputs,
+            behaviors: outcome.behaviors,
         }),
         None => Err(Error::Compile(Box::new(Failure { problems, sources, inputs }))),
     }
@@ -332,6 +343,7 @@ fn compile_options() -> CompileOptions<'static> {
         scripts: Some(&EngineScripts),
         cast: &[],
         plans_suffice: false,
+        regions: false,
     }
 }
 

@@ -1,4 +1,4 @@
-//! Loads the suites, checks and curricula of a file, or a suite of the library by its name.
+//! Loads the suites, checks and curricula of a file, and the suites of the library.
 
 use crate::error::{Error, Failure};
 use crate::load::{self, LoadOptions};
@@ -10,8 +10,6 @@ use std::path::{Path, PathBuf};
 
 /// The file of the library's suites.
 const SUITES: &str = "suites.pitch";
-/// The file of the library's checks.
-const CHECKS: &str = "checks.pitch";
 
 /// What a file says about many episodes.
 #[derive(Clone, Debug)]
@@ -34,38 +32,13 @@ pub fn load_plans(path: &Path, options: &LoadOptions<'_>) -> Result<LoadedPlans,
     of_source(load::source_of(path)?, options)
 }
 
-/// Compiles the plans of a text; `name` is its name in reports.
-///
-/// # Errors
-/// [`Error::Compile`] if it has errors.
-pub fn compile_plans(text: &str, name: &str) -> Result<LoadedPlans, Error> {
-    let source = Source { name: name.to_owned(), text: text.into() };
-    of_source(source, &LoadOptions::default())
-}
-
-/// The plans of the library: its suites and its checks.
+/// The suites of the library.
 ///
 /// # Errors
 /// [`Error::Compile`] if the library has errors.
-pub fn library_plans() -> Result<Plans, Error> {
-    let mut plans = Plans::default();
-    for source in [SUITES, CHECKS].into_iter().filter_map(stdlib::file) {
-        let loaded = of_source(source, &LoadOptions::default())?.plans;
-        plans.suites.extend(loaded.suites);
-        plans.checks.extend(loaded.checks);
-        plans.curricula.extend(loaded.curricula);
-    }
-    Ok(plans)
-}
-
-/// A suite of the library by its name.
-///
-/// # Errors
-/// [`Error::Compile`] if the library has errors.
-pub fn library_suite(name: &str) -> Result<Option<Suite>, Error> {
-    let Some(source) = stdlib::file(SUITES) else { return Ok(None) };
-    let suites = of_source(source, &LoadOptions::default())?.plans.suites;
-    Ok(suites.into_iter().find(|suite| suite.name == name))
+pub fn library_suites() -> Result<Vec<Suite>, Error> {
+    let Some(source) = stdlib::file(SUITES) else { return Ok(Vec::new()) };
+    Ok(of_source(source, &LoadOptions::default())?.plans.suites)
 }
 
 fn of_source(source: Source, options: &LoadOptions<'_>) -> Result<LoadedPlans, Error> {

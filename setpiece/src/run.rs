@@ -93,7 +93,8 @@ pub fn run(
     Ok(summarise(episodes, environment.term_names(), begin.elapsed().as_secs_f64()))
 }
 
-fn summarise(
+/// Summarises episodes; `names` are those of the terms.
+pub(crate) fn summarise(
     episodes: Vec<Result<EpisodeSummary, EpisodeError>>,
     names: &[String],
     seconds: f64,

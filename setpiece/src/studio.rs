@@ -13,8 +13,11 @@ pub mod hands;
 mod live;
 pub mod message;
 mod page;
+mod players;
 mod server;
 mod session;
+mod stage;
 
-pub use server::{Ready, serve};
-pub use session::Session;
+pub use players::{Guest, Guests};
+pub use server::{Ready, Running, ServeOptions, serve, start};
+pub use session::{OpenOptions, Session};

@@ -116,6 +116,11 @@ fn a_file_of_suites_alone_needs_no_scenario() {
         let (_, out, err) = setpiece(dir.path(), &["check", "alone.pitch"]);
         assert!(out.contains(problems), "{out}{err}");
     }
+    let (code, _, err) = setpiece(dir.path(), &["run", "alone.pitch"]);
+    assert_eq!(code, Some(1));
+    assert!(err.contains("SP0201") && !err.contains("SP0214"), "{err}");
+    let (_, _, err) = setpiece(dir.path(), &["run", "academi"]);
+    assert!(err.contains("did you mean `academy`?"), "{err}");
 }
 
 #[test]

@@ -48,10 +48,16 @@ impl Studio {
     }
 
     fn of(scenario: &str) -> Studio {
+        Studio::with(&[scenario], SCENARIO)
+    }
+
+    /// Opens sources beside a file `two.pitch` with this text.
+    fn with(sources: &[&str], text: &str) -> Studio {
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("two.pitch"), SCENARIO).unwrap();
+        std::fs::write(folder.path().join("two.pitch"), text).unwrap();
         let mut child = Command::new(env!("CARGO_BIN_EXE_setpiece"))
-            .args(["studio", scenario])
+            .arg("studio")
+            .args(sources)
             .current_dir(folder.path())
             .stdout(Stdio::piped())
             .spawn()
@@ -193,7 +199,91 @@ fn parameters_seeds_clouds_and_summaries_follow_the_page() {
     assert_eq!(summary["outcomes"], json!([["limit", 9]]));
     assert!((summary["mean_return"].as_f64().unwrap() - 2.0).abs() < 1e-6, "{summary}");
     tab.ask(&json!({"type": "play", "seed": 7, "episode": 3, "agent": "genius"}));
-    assert!(tab.hear("refused")["message"].as_str().unwrap().contains("no agent `genius`"));
+    let refused = tab.hear("refused");
+    assert!(refused["message"].as_str().unwrap().contains("nobody is called `genius`"));
+}
+
+const ZONES: &str = "
+region danger = rect((30m, -12m), (44m, 12m)) | circle((25m, 0m), reach)
+const reach = 6m
+behavior waits { do hold }
+scenario zones {
+    param near: length = 25m in 1m..60m
+    ball at (20m, 20m)
+    team left { striker: CF in danger  RM at (19m, 20m) }
+    team right { GK at own (-1, 0)  CB in right.box - right.six_yard }
+    agents { left: [striker], right: 1 }
+    require distance(striker, ball) < near
+    end limit 20 steps
+}
+";
+
+#[test]
+fn regions_and_requirements_are_drawn_and_what_fails_is_marked() {
+    let studio = Studio::with(&["two.pitch"], ZONES);
+    let mut tab = studio.tab();
+    let sketch = tab.hear("sketch");
+    let regions = sketch["regions"].as_array().unwrap();
+    let names: Vec<&str> = regions.iter().map(|one| one["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["danger", "right.box - right.six_yard"]);
+    let circle = json!({"circle": [[25.0, 0.0], 6.0]});
+    assert_eq!(regions[0]["shape"]["union"][1], circle, "{sketch}");
+    let written = sketch["requires"][0].clone();
+    assert_eq!((&written["line"], &written["fails"]), (&json!(11), &json!(false)));
+    let refused = written["refused"].as_f64().unwrap();
+    assert!((0.2..0.9).contains(&refused), "{written}");
+    // A parameter that no start can meet: the page says what fails, and keeps the last episode.
+    tab.ask(&json!({"type": "bind", "params": {"near": 1.0}}));
+    let sketch = tab.hear("sketch");
+    assert_eq!(sketch["requires"][0]["fails"], true, "{sketch}");
+    assert!(tab.hear("refused")["message"].as_str().unwrap().contains("distance(striker, ball)"));
+}
+
+#[test]
+fn behaviours_play_and_two_policies_stand_side_by_side() {
+    let studio = Studio::with(&["two.pitch"], ZONES);
+    let mut tab = studio.tab();
+    let checked = tab.hear("checked");
+    let players = checked["players"].as_array().unwrap();
+    assert!(players.contains(&json!("waits")) && players.contains(&json!("bot")), "{players:?}");
+    assert_eq!(checked["agents"][0], json!({"id": "striker", "team": "left"}));
+    tab.ask(&json!({
+        "type": "play", "seed": 4, "episode": 1, "agent": "waits", "beside": "run_and_shoot"
+    }));
+    let first = tab.hear("episode");
+    let first = if first["agent"] == "waits" { first } else { tab.hear("episode") };
+    let second = tab.hear("episode");
+    assert_eq!((&first["beside"], &second["beside"]), (&json!(false), &json!(true)));
+    assert_eq!(second["agent"], "run_and_shoot");
+    let place = |episode: &Value, step: usize| episode["scenes"][step]["players"][0]["pos"].clone();
+    assert_eq!(place(&first, 0), place(&second, 0));
+    // Who waits stays where they are.
+    assert_eq!(place(&first, 0), place(&first, 20));
+    assert_ne!(place(&first, 20), place(&second, 20));
+}
+
+#[test]
+fn an_episode_is_handed_over_as_a_file_that_plays_it_again() {
+    let studio = Studio::open();
+    let mut tab = studio.tab();
+    tab.ask(&json!({"type": "play", "seed": 9, "episode": 2, "agent": "random"}));
+    let first = tab.hear("episode");
+    let episode = if first["seed"] == 9 { first } else { tab.hear("episode") };
+    tab.ask(&json!({"type": "record"}));
+    let recording = tab.hear("recording");
+    assert_eq!(recording["name"], "two_9_2.pitchr");
+    let hex = recording["hex"].as_str().unwrap();
+    let bytes: Vec<u8> = (0..hex.len() / 2)
+        .map(|at| u8::from_str_radix(&hex[2 * at..2 * at + 2], 16).unwrap())
+        .collect();
+    std::fs::write(studio.folder.path().join("one.pitchr"), &bytes).unwrap();
+    let path = studio.folder.path().join("one.pitchr");
+    let path = path.to_str().unwrap();
+    let both = Studio::with(&[path, path], SCENARIO);
+    let mut tab = both.tab();
+    let (again, beside) = (tab.hear("episode"), tab.hear("episode"));
+    assert_eq!(again["scenes"], episode["scenes"]);
+    assert_eq!((&beside["beside"], &beside["scenes"]), (&json!(true), &episode["scenes"]));
 }
 
 #[test]
@@ -226,12 +316,18 @@ fn a_person_plays_a_goal_by_hand() {
     let (mut tab, mut other) = (studio.tab(), studio.tab());
     tab.hear("episode");
     other.hear("episode");
-    tab.ask(&json!({"type": "begin", "side": "right"}));
-    assert!(tab.hear("refused")["message"].as_str().unwrap().contains("no agent plays"));
-    tab.ask(&json!({"type": "begin", "side": "left"}));
+    for (seats, why) in [
+        (json!([]), "1 to 4 people"),
+        (json!(["right_0"]), "no agent `right_0`"),
+        (json!(["left_0", "left_0"]), "two people"),
+    ] {
+        tab.ask(&json!({"type": "begin", "seats": seats}));
+        assert!(tab.hear("refused")["message"].as_str().unwrap().contains(why));
+    }
+    tab.ask(&json!({"type": "begin", "seats": ["left_0"]}));
     assert_eq!(tab.hear("step")["scenes"][0]["step"], 0);
     let begin = Instant::now();
-    tab.ask(&json!({"type": "hold", "keys": {"way": [1, 0], "held": ["sprint"]}}));
+    tab.ask(&json!({"type": "hold", "seat": 0, "keys": {"way": [1, 0], "held": ["sprint"]}}));
     let step = tab.hear("step");
     assert_eq!(step["scenes"][0]["step"], 1);
     for page in [&mut tab, &mut other] {
@@ -243,7 +339,7 @@ fn a_person_plays_a_goal_by_hand() {
     // At the pace of the match.
     assert!(begin.elapsed() > Duration::from_secs(1), "{:?}", begin.elapsed());
     // Whoever stops can watch what they have played.
-    tab.ask(&json!({"type": "begin", "side": "left"}));
+    tab.ask(&json!({"type": "begin", "seats": ["left_0"]}));
     tab.hear("step");
     tab.ask(&json!({"type": "stop"}));
     assert_eq!(tab.hear("episode")["outcome"], Value::Null);

@@ -1,7 +1,7 @@
 // Dragging a player or the ball at the start: the text changes, and with it everything else.
 
 import type { Id, Scene } from "./messages";
-import type { Pitch } from "./pitch";
+import type { View } from "./view";
 
 const REACH_M = 1.8;
 
@@ -9,26 +9,29 @@ export class Drag {
   private held: { player: Id | null; place: [number, number] } | null = null;
 
   constructor(
-    canvas: HTMLCanvasElement,
-    private readonly pitch: Pitch,
+    element: HTMLElement,
+    private readonly view: View,
     private readonly start: () => Scene | undefined,
     private readonly move: (player: Id | null, to: [number, number]) => void,
   ) {
-    canvas.addEventListener("pointerdown", (event) => {
-      this.held = this.find(this.pitch.place(event.clientX, event.clientY));
-      if (this.held) canvas.setPointerCapture(event.pointerId);
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      const place = this.pitch.place(event.clientX, event.clientY);
+    element.addEventListener("pointerdown", (event) => {
+      this.held = this.find(this.view.place(event.clientX, event.clientY));
+      if (!this.held) return;
+      element.setPointerCapture(event.pointerId);
+      // The camera stays.
+      event.stopPropagation();
+    }, true);
+    element.addEventListener("pointermove", (event) => {
+      const place = this.view.place(event.clientX, event.clientY);
       if (this.held) this.held.place = place;
-      canvas.style.cursor = this.held || this.find(place) ? "grab" : "default";
+      element.style.cursor = this.held || this.find(place) ? "grab" : "default";
     });
-    canvas.addEventListener("pointerup", () => {
+    element.addEventListener("pointerup", () => {
       const held = this.held;
       this.held = null;
       if (held) this.move(held.player, held.place);
     });
-    canvas.addEventListener("pointercancel", () => (this.held = null));
+    element.addEventListener("pointercancel", () => (this.held = null));
   }
 
   /** The start with what is held at the pointer. */

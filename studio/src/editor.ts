@@ -103,6 +103,13 @@ export class Editor {
     this.quiet = false;
   }
 
+  /** Puts the cursor on a line. */
+  go(line: number): void {
+    const at = this.view.state.doc.line(Math.min(Math.max(line, 1), this.view.state.doc.lines));
+    this.view.dispatch({ selection: { anchor: at.from, head: at.to }, scrollIntoView: true });
+    this.view.focus();
+  }
+
   report(problems: Problem[]): void {
     const shown = problems.map((problem): Diagnostic => {
       const [from, to] = this.range(problem.labels[0]);

@@ -3,18 +3,24 @@
 import "./style.css";
 import { Drag } from "./drag";
 import { Editor } from "./editor";
-import type { Episode, Reply, Scene, Side } from "./messages";
+import type { Episode, Reply, Scene } from "./messages";
 import { Hands } from "./hands";
+import { arrows, offside } from "./overlay";
 import { Params } from "./params";
-import { Pitch } from "./pitch";
 import { Clock } from "./player";
 import { Plot } from "./plot";
+import { painted } from "./regions";
+import { showEvents, showRequires, showSummary } from "./results";
+import type { Seen } from "./screen";
+import { Screen } from "./screen";
 import { Socket } from "./socket";
+import type { Frame } from "./view";
 
 const CHECK_MS = 60;
 const STEP_MS = 100;
 const CLOUD = 150;
 const EPISODES = 100;
+const NOBODY = "nobody";
 
 function element<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -22,15 +28,27 @@ function element<T extends HTMLElement>(id: string): T {
   return found as T;
 }
 
-const canvas = element<HTMLCanvasElement>("pitch");
 const [scrub, seed, index] = ["scrub", "seed", "episode"].map((id) => element<HTMLInputElement>(id)) as
   [HTMLInputElement, HTMLInputElement, HTMLInputElement];
-const [agent, speed] = [element<HTMLSelectElement>("agent"), element<HTMLSelectElement>("speed")];
-const [trails, cloud] = [element<HTMLInputElement>("trails"), element<HTMLInputElement>("cloud")];
+const [agent, beside, speed, view] = ["agent", "beside", "speed", "view"].map((id) =>
+  element<HTMLSelectElement>(id)) as
+  [HTMLSelectElement, HTMLSelectElement, HTMLSelectElement, HTMLSelectElement];
+const [trails, lines, zones, cloud, follow] = ["trails", "lines", "zones", "cloud", "follow"].map((id) =>
+  element<HTMLInputElement>(id)) as
+  [HTMLInputElement, HTMLInputElement, HTMLInputElement, HTMLInputElement, HTMLInputElement];
 
 const clock = new Clock();
-const pitch = new Pitch(canvas);
+const screens = element("screens");
+const say = (words: string) => (element("state").textContent = words);
+const screen = new Screen(screens, "pitch", say);
+let second: Screen | null = null;
 let episode: Episode | null = null;
+/** The same episode played by somebody else, or another recording. */
+let other: Episode | null = null;
+/** An episode of another program that waits until the last one has been seen. */
+let waits: Episode | null = null;
+let starts: [number, number][][] = [];
+let regions: HTMLCanvasElement | null = null;
 /** The scenes of a match that somebody plays now, and when the last one came. */
 let live: Scene[] = [];
 let arrived = 0;
@@ -39,16 +57,16 @@ let dirty = false;
 let moved = false;
 let waiting = 0;
 
-const hands = new Hands((keys) => socket.ask({ type: "hold", keys }));
+const hands = new Hands(element("seats"), (seat, keys) => socket.ask({ type: "hold", seat, keys }));
 const socket = new Socket(hear, (connected) => {
-  element("state").textContent = connected ? "" : "The studio has ended. Start it again.";
+  say(connected ? "" : "The studio has ended. Start it again.");
 });
 const editor = new Editor(element("editor"), edited, save);
 // Only the start can be dragged.
 const drag = new Drag(
-  canvas,
-  pitch,
-  () => (clock.now.at === 0 && !clock.playing ? episode?.scenes[0] : undefined),
+  screen.element,
+  screen,
+  () => (clock.now.at === 0 && !clock.playing && live.length === 0 ? episode?.scenes[0] : undefined),
   (player, to) => {
     moved = true;
     socket.ask({ type: "move", player, to });
@@ -76,7 +94,10 @@ function save(): void {
 
 function play(): void {
   const whole = (input: HTMLInputElement) => Math.max(0, Math.floor(Number(input.value) || 0));
-  socket.ask({ type: "play", seed: whole(seed), episode: whole(index), agent: agent.value });
+  const also = beside.value === NOBODY ? null : beside.value;
+  // What somebody has chosen stays until they follow the program again.
+  follow.checked = false;
+  socket.ask({ type: "play", seed: whole(seed), episode: whole(index), agent: agent.value, beside: also });
 }
 
 function refreshCloud(): void {
@@ -95,9 +116,6 @@ function hear(reply: Reply): void {
       moved = false;
       dirty = false;
       element<HTMLButtonElement>("save").hidden = !reply.is_file;
-      if (agent.options.length === 0) {
-        for (const name of reply.agents) agent.add(new Option(name, name, false, name === "bot"));
-      }
       break;
     case "checked": {
       editor.report(reply.problems);
@@ -115,121 +133,160 @@ function hear(reply: Reply): void {
       element("title").textContent = reply.title;
       document.title = `${reply.name} · Setpiece studio`;
       params.show(reply.params);
+      hands.list(reply.agents);
+      choices(agent, reply.players, "bot");
+      choices(beside, [NOBODY, ...reply.players], NOBODY);
       break;
     }
-    case "episode": {
-      const first = episode === null;
-      const played = live.length > 0;
-      episode = reply;
-      clock.load(reply, first || (clock.playing && !played));
-      if (played) clock.go(clock.last);
-      [live, hands.active] = [[], false];
-      scrub.max = String(clock.last);
-      [seed.value, index.value] = [String(reply.seed), String(reply.episode)];
-      if (reply.agent) agent.value = reply.agent;
-      plot.show(reply);
-      events(reply);
+    case "episode":
+      if (reply.watched) element("follow").closest("label")?.removeAttribute("hidden");
+      if (reply.watched && !follow.checked) break;
+      if (reply.watched && episode?.watched && clock.playing) waits = reply;
+      else show(reply);
       break;
-    }
     case "step":
       if (reply.scenes[0]?.step === 0) live = [];
       live.push(...reply.scenes);
       arrived = performance.now();
       break;
     case "cloud":
-      pitch.lay(cloud.checked ? reply.starts : []);
+      starts = cloud.checked ? reply.starts : [];
+      break;
+    case "sketch":
+      regions = painted(reply.regions);
+      element("zones").closest("label")?.toggleAttribute("hidden", regions === null);
+      showRequires(element("requires"), reply.requires, (line) => editor.go(line));
       break;
     case "summary":
-      results(reply);
+      showSummary(element("results"), reply);
+      break;
+    case "recording":
+      download(reply.name, reply.hex);
       break;
     case "saved":
       dirty = false;
-      element("state").textContent = "saved";
+      say("saved");
       break;
     case "refused":
       if (live.length === 0) hands.active = false;
       moved = false;
-      element("state").textContent = reply.message;
+      say(reply.message);
       break;
   }
 }
 
-function events(played: Episode): void {
-  const list = element("events");
-  list.replaceChildren(
-    ...played.events
-      .filter((event) => !/^(touch|ball_won|ball_lost|end)/.test(event.name))
-      .map((event) => {
-        const mark = document.createElement("button");
-        mark.className = `event ${event.team ?? ""}`;
-        mark.style.left = `${(100 * event.at) / Math.max(1, clock.last)}%`;
-        const words = `${event.name.replaceAll("_", " ")}${event.by ? `, ${event.by}` : ""}`;
-        mark.title = words;
-        mark.setAttribute("aria-label", words);
-        mark.onclick = () => go(event.at);
-        return mark;
-      }),
-  );
+/** Fills a choice; what was chosen stays if it is still there. */
+function choices(select: HTMLSelectElement, names: string[], first: string): void {
+  const now = [...select.options].map((option) => option.value);
+  if (now.join("\n") === names.join("\n")) return;
+  const chosen = names.includes(select.value) ? select.value : first;
+  select.replaceChildren(...names.map((name) => new Option(name, name)));
+  select.value = chosen;
 }
 
-function results(reply: Extract<Reply, { type: "summary" }>): void {
-  const table = document.createElement("table");
-  const row = (name: string, value: string, share?: number) => {
-    const line = table.insertRow();
-    line.insertCell().textContent = name;
-    line.insertCell().textContent = value;
-    const bar = line.insertCell();
-    if (share !== undefined) {
-      const fill = document.createElement("i");
-      fill.style.width = `${100 * share}%`;
-      bar.append(fill);
-    }
-  };
-  for (const [name, count] of reply.outcomes) {
-    row(name, `${((100 * count) / reply.episodes).toFixed(0)} %`, count / reply.episodes);
+/** Shows an episode, in the second picture if it is there to be compared. */
+function show(reply: Episode): void {
+  if (reply.beside) {
+    other = reply;
+    second ??= new Screen(screens, "pitch-beside", say);
+    second.see(view.value as Seen);
+    caption();
+    return;
   }
-  row("mean score", reply.score.map((goals) => goals.toFixed(2)).join(" : "));
-  row("mean return", reply.mean_return.toFixed(3));
-  for (const [name, value] of reply.terms) row(`  ${name}`, value.toFixed(3));
-  for (const [name, value] of reply.records) row(`  ${name}`, value.toFixed(3));
-  element("results").replaceChildren(table);
+  const first = episode === null;
+  const played = live.length > 0;
+  if (reply.watched) say("as another program has played it");
+  else if (episode?.watched) say("");
+  [episode, other] = [reply, null];
+  second?.element.remove();
+  second = null;
+  clock.load(reply, first || reply.watched || (clock.playing && !played));
+  if (played) clock.go(clock.last);
+  [live, hands.active, waits] = [[], false, null];
+  scrub.max = String(clock.last);
+  [seed.value, index.value] = [String(reply.seed), String(reply.episode)];
+  if ([...agent.options].some((option) => option.value === reply.agent)) agent.value = reply.agent;
+  plot.show(reply);
+  showEvents(element("events"), reply, go);
+  caption();
+}
+
+/** Says which picture is whose, where there are two. */
+function caption(): void {
+  const words = (of: Episode) => [of.agent || of.name, `seed ${of.seed}`, `episode ${of.episode}`].join(" · ");
+  screen.say(other && episode ? words(episode) : "");
+  if (other) second?.say(words(other));
+}
+
+function download(name: string, hex: string): void {
+  const bytes = new Uint8Array((hex.match(/../g) ?? []).map((digits) => parseInt(digits, 16)));
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes]));
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+function frameOf(scenes: Scene[], at: number, share: number, of: Episode | null): Frame {
+  const scene = scenes[at];
+  return {
+    scenes,
+    at,
+    share,
+    trails: trails.checked,
+    arrows: lines.checked && of ? arrows(scenes, of.events, at) : [],
+    offside: lines.checked && scene ? offside(scene) : null,
+    regions: zones.checked && at === 0 ? regions : null,
+    cloud: starts,
+  };
 }
 
 /** Shows the match that somebody plays, one step late, so that it moves smoothly. */
 function hand(now: number): void {
   const last = live[live.length - 1];
   if (!last) return;
-  const side = element<HTMLSelectElement>("side").value;
-  hands.send(last.ball.owner?.team === side);
+  hands.send(last);
   const at = Math.max(0, live.length - 2);
-  pitch.draw(live, at, Math.min(1, (now - arrived) / STEP_MS), trails.checked);
+  screen.draw(frameOf(live, at, Math.min(1, (now - arrived) / STEP_MS), null));
   element("score").textContent = `${last.score[0]} : ${last.score[1]} · by hand`;
   element("moment").textContent = `${(last.step / 10).toFixed(1)} s`;
 }
 
 function byHand(): void {
+  const seats = hands.begin();
+  if (seats.length === 0) {
+    say("choose who the keyboard or a gamepad plays");
+    return;
+  }
   clock.playing = false;
-  hands.begin();
-  canvas.focus();
-  socket.ask({ type: "begin", side: element<HTMLSelectElement>("side").value as Side });
+  screen.focus();
+  socket.ask({ type: "begin", seats });
+}
+
+/** The score, what play waits for, and how it ended. */
+function standing(of: Episode, scene: Scene, ended: boolean): string {
+  const verdict = of.success === null ? "" : of.success ? " (success)" : " (failure)";
+  const end = ended && of.outcome ? ` · ${of.outcome}${verdict}` : "";
+  const mode = scene.mode === "normal" ? "" : ` · ${scene.mode.replaceAll("_", " ")}`;
+  return `${scene.score[0]} : ${scene.score[1]}${mode}${end}`;
 }
 
 function frame(now: number): void {
   clock.pass(Math.min(0.25, (now - before) / 1000));
   before = now;
+  hands.refresh();
+  if (waits && !clock.playing) show(waits);
   const { at, share } = clock.now;
   const scene = episode?.scenes[at];
   if (live.length > 0) {
     hand(now);
   } else if (episode && scene) {
     const scenes = at === 0 ? [drag.shown(scene), ...episode.scenes.slice(1, 2)] : episode.scenes;
-    pitch.draw(scenes, at, share, trails.checked);
+    screen.draw(frameOf(scenes, at, share, episode));
     scrub.value = String(at);
     element("moment").textContent = `${(scene.step / 10).toFixed(1)} s`;
     element("toggle").textContent = clock.playing ? "Pause" : "Play";
-    const end = at >= clock.last && episode.outcome ? ` · ${episode.outcome}` : "";
-    const mode = scene.mode === "normal" ? "" : ` · ${scene.mode.replaceAll("_", " ")}`;
-    element("score").textContent = `${scene.score[0]} : ${scene.score[1]}${mode}${end}`;
+    element("score").textContent = standing(episode, scene, at >= clock.last) + compare(at, share);
     plot.mark(at);
   }
   element("save").classList.toggle("dirty", dirty);
@@ -237,26 +294,56 @@ function frame(now: number): void {
 }
 let before = performance.now();
 
+/** Draws the second picture at the same step; what it says of the score. */
+function compare(at: number, share: number): string {
+  if (!other || !second || !episode) return "";
+  const step = episode.scenes[at]?.step ?? 0;
+  const last = other.scenes.length - 1;
+  const found = other.scenes.findIndex((scene) => scene.step >= step);
+  const there = found < 0 ? last : found;
+  const scene = other.scenes[there];
+  if (!scene) return "";
+  // The longer one goes on while the shorter one stands at its end.
+  second.draw(frameOf(other.scenes, there, there < last ? share : 0, other));
+  return ` | ${standing(other, scene, there >= last)}`;
+}
+
 element("toggle").onclick = () => clock.toggle();
 element("back").onclick = () => go(clock.now.at - 1);
 element("forth").onclick = () => go(clock.now.at + 1);
 element("next").onclick = next;
 element("save").onclick = save;
 element("hand").onclick = byHand;
+element("record").onclick = () => socket.ask({ type: "record" });
 element("summarise").onclick = () => {
   element("results").textContent = "playing…";
   socket.ask({ type: "summary", episodes: EPISODES });
 };
 scrub.oninput = () => go(Number(scrub.value));
 speed.onchange = () => (clock.speed = Number(speed.value));
-seed.onchange = play;
-index.onchange = play;
-agent.onchange = play;
-cloud.onchange = () => (cloud.checked ? refreshCloud() : pitch.lay([]));
+view.onchange = () => {
+  view.value = screen.see(view.value as Seen);
+  second?.see(view.value as Seen);
+};
+screens.ondblclick = (event) => {
+  const scene = live[live.length - 1] ?? episode?.scenes[clock.now.at];
+  const followed = screen.follow(event.clientX, event.clientY, scene);
+  if (view.value !== "above") say(followed ? "the camera follows this player" : "the camera follows the ball");
+};
+for (const choice of [seed, index, agent, beside]) choice.onchange = play;
+cloud.onchange = () => {
+  starts = [];
+  refreshCloud();
+};
 
 function next(): void {
   index.value = String(Number(index.value) + 1);
   play();
+}
+
+function otherView(): void {
+  view.selectedIndex = (view.selectedIndex + 1) % view.options.length;
+  view.dispatchEvent(new Event("change"));
 }
 
 // Keys for everything, but not while somebody writes.
@@ -272,6 +359,7 @@ document.addEventListener("keydown", (event) => {
     End: () => go(clock.last),
     n: next,
     h: byHand,
+    v: otherView,
     Escape: () => socket.ask({ type: "stop" }),
   };
   const act = keys[event.key];

@@ -23,6 +23,7 @@ export interface Scene {
   score: [number, number];
   clock_s: number;
   mode: string;
+  possession: Side | null;
   rewards: { name: string; value: number }[];
   placed: boolean;
 }
@@ -37,35 +38,55 @@ export interface Param {
   name: string; doc: string; value: number; shown: string; range: [number, number] | null;
   choices: string[]; values: number[]; kind: "bool" | "integer" | "number";
 }
-export interface Happened { at: number; name: string; by: string | null; team: Side | null }
+export interface Happened {
+  at: number; name: string; by: string | null; team: Side | null; place: [number, number];
+}
+
+type Point = [number, number];
+export type Shape =
+  | { rect: [Point, Point] }
+  | { circle: [Point, number] }
+  | { sector: { centre: Point; radius: number; from: number; width: number } }
+  | { polygon: Point[] }
+  | { union: [Shape, Shape] }
+  | { intersection: [Shape, Shape] }
+  | { difference: [Shape, Shape] };
+export interface Region { name: string; shape: Shape }
+export interface Require {
+  label: string; implied: boolean; line: number | null; refused: number; fails: boolean;
+}
+export interface Seat { id: string; team: Side }
 
 export type HeldKey =
   | "long_pass" | "high_pass" | "short_pass" | "shot" | "sliding" | "sprint" | "dribble";
 export interface Keys { way: [number, number]; held: HeldKey[] }
 
 export type Reply =
-  | { type: "opened"; source: string; is_file: boolean; text: string; agents: string[] }
+  | { type: "opened"; source: string; is_file: boolean; text: string }
   | { type: "checked"; problems: Problem[]; fault: string | null; name: string; title: string;
-      params: Param[] }
-  | { type: "episode"; seed: number; episode: number; agent: string; scenes: Scene[];
-      names: string[]; events: Happened[]; outcome: string | null; success: boolean | null }
+      params: Param[]; agents: Seat[]; players: string[] }
+  | { type: "episode"; seed: number; episode: number; agent: string; beside: boolean;
+      watched: boolean; name: string; scenes: Scene[]; names: string[]; events: Happened[]; outcome: string | null; success: boolean | null }
   | { type: "step"; scenes: Scene[] }
   | { type: "cloud"; starts: [number, number][][] }
   | { type: "summary"; episodes: number; outcomes: [string, number][]; mean_return: number;
       score: [number, number]; terms: [string, number][]; records: [string, number][] }
+  | { type: "sketch"; regions: Region[]; requires: Require[] }
+  | { type: "recording"; name: string; hex: string }
   | { type: "saved" }
   | { type: "refused"; message: string };
 
 export type Request =
   | { type: "text"; text: string }
   | { type: "save" }
-  | { type: "play"; seed: number; episode: number; agent: string }
+  | { type: "play"; seed: number; episode: number; agent: string; beside: string | null }
   | { type: "bind"; params: Record<string, number> }
-  | { type: "begin"; side: Side }
-  | { type: "hold"; keys: Keys }
+  | { type: "begin"; seats: string[] }
+  | { type: "hold"; seat: number; keys: Keys }
   | { type: "stop" }
   | { type: "move"; player: Id | null; to: [number, number] }
   | { type: "cloud"; count: number }
-  | { type: "summary"; episodes: number };
+  | { type: "summary"; episodes: number }
+  | { type: "record" };
 
 export type Episode = Extract<Reply, { type: "episode" }>;

@@ -1,24 +1,15 @@
 // The pitch from above, in metres, with the left team attacking to the right.
 
 import type { Player, Scene } from "./messages";
+import type { Arrow, Frame, View } from "./view";
+import { HALF_X, HALF_Y, MARGIN, mixed, same, shirt, towards } from "./view";
 
-const HALF_X = 55;
-const HALF_Y = 36;
-const MARGIN = 4;
 const TRAIL = 12;
 
-interface Colours { grass: string; stripe: string; line: string; ink: string }
+interface Colours { grass: string; stripe: string; line: string }
 
-/** Shirts and numbers, by team and whether it is the keeper's: the same as in pictures. */
-const SHIRTS = {
-  left: [["#ffaa14", "#281808"], ["#ce3428", "#ffffff"]],
-  right: [["#2660e4", "#ffffff"], ["#60dee8", "#002832"]],
-} as const;
-
-export class Pitch {
+export class Pitch implements View {
   private readonly context: CanvasRenderingContext2D;
-  private cloud: [number, number][][] = [];
-
   constructor(private readonly canvas: HTMLCanvasElement) {
     const context = canvas.getContext("2d");
     if (!context) throw new Error("no canvas");
@@ -32,13 +23,9 @@ export class Pitch {
     return [(x - box.left - box.width / 2) * scale, (y - box.top - box.height / 2) * scale];
   }
 
-  /** Lays many starts over the pitch; none takes them away. */
-  lay(starts: [number, number][][]): void {
-    this.cloud = starts;
-  }
-
-  /** Draws the moment at a share of the way from one scene to the next. */
-  draw(scenes: Scene[], at: number, share: number, trails: boolean): void {
+  /** Draws a moment. */
+  draw(frame: Frame): void {
+    const { scenes, at, share } = frame;
     const scene = scenes[at];
     const width = this.canvas.clientWidth;
     const height = (width * (HALF_Y + MARGIN)) / (HALF_X + MARGIN);
@@ -51,8 +38,12 @@ export class Pitch {
     const c = this.context;
     const scale = (width * ratio) / (2 * (HALF_X + MARGIN));
     c.setTransform(scale, 0, 0, scale, this.canvas.width / 2, this.canvas.height / 2);
-    this.field();
-    for (const start of this.cloud) {
+    field(c, this.colours());
+    if (frame.regions) {
+      const [x, y] = [HALF_X + MARGIN, HALF_Y + MARGIN];
+      c.drawImage(frame.regions, -x, -y, 2 * x, 2 * y);
+    }
+    for (const start of frame.cloud) {
       start.forEach(([x, y], index) => {
         c.fillStyle = index === 0 ? "#ffffff40" : "#00000022";
         c.beginPath();
@@ -61,46 +52,19 @@ export class Pitch {
       });
     }
     if (!scene) return;
-    const next = scenes[at + 1];
-    const to = next && !next.placed ? next : scene;
-    if (trails) this.trails(scenes, at);
+    const to = towards(frame) ?? scene;
+    if (frame.offside !== null) this.offside(frame.offside);
+    if (frame.trails) this.trails(scenes, at);
+    for (const arrow of frame.arrows) this.arrow(arrow);
     for (const player of scene.players) {
       if (!player.present) continue;
-      const then = to.players.find((it) => same(it, player)) ?? player;
+      const then = to.players.find((it) => same(it.id, player.id)) ?? player;
       this.player(player, mixed(player.pos, then.pos, share), scene);
     }
     const from = scene.ball.pos;
     const end = to.ball.pos;
     const [x, y] = mixed([from[0], from[1]], [end[0], end[1]], share);
     this.ball(x, y, from[2] + (end[2] - from[2]) * share);
-  }
-
-  private field(): void {
-    const c = this.context;
-    const { grass, stripe, line } = this.colours();
-    c.fillStyle = grass;
-    c.fillRect(-HALF_X - MARGIN, -HALF_Y - MARGIN, 2 * (HALF_X + MARGIN), 2 * (HALF_Y + MARGIN));
-    c.fillStyle = stripe;
-    for (let k = 0; k < 10; k += 2) c.fillRect(-HALF_X + k * 11, -HALF_Y, 11, 2 * HALF_Y);
-    c.strokeStyle = line;
-    c.lineWidth = 0.2;
-    c.beginPath();
-    c.rect(-HALF_X, -HALF_Y, 2 * HALF_X, 2 * HALF_Y);
-    c.moveTo(0, -HALF_Y);
-    c.lineTo(0, HALF_Y);
-    c.moveTo(9.15, 0);
-    c.arc(0, 0, 9.15, 0, 2 * Math.PI);
-    for (const side of [-1, 1]) {
-      c.rect(side * HALF_X, -20.15, -side * 16.5, 40.3);
-      c.rect(side * HALF_X, -9.16, -side * 5.5, 18.32);
-      c.rect(side * HALF_X, -3.7, side * 2.55, 7.4);
-      const spot = side * (HALF_X - 11);
-      const angle = Math.acos(5.5 / 9.15);
-      const middle = side > 0 ? Math.PI : 0;
-      c.moveTo(spot + 9.15 * Math.cos(middle - angle), 9.15 * Math.sin(middle - angle));
-      c.arc(spot, 0, 9.15, middle - angle, middle + angle);
-    }
-    c.stroke();
   }
 
   private trails(scenes: Scene[], at: number): void {
@@ -113,9 +77,9 @@ export class Pitch {
       const fade = 1 - (at - k) / TRAIL;
       c.globalAlpha = 0.5 * fade;
       for (const player of now.players) {
-        const was = before.players.find((it) => same(it, player));
+        const was = before.players.find((it) => same(it.id, player.id));
         if (!was) continue;
-        c.strokeStyle = SHIRTS[player.id.team][player.role === "GK" ? 1 : 0][0];
+        c.strokeStyle = shirt(player)[0];
         c.lineWidth = 0.9 * fade;
         stroke(c, was.pos, player.pos);
       }
@@ -128,10 +92,8 @@ export class Pitch {
 
   private player(player: Player, [x, y]: [number, number], scene: Scene): void {
     const c = this.context;
-    const [cloth, ink] = SHIRTS[player.id.team][player.role === "GK" ? 1 : 0];
-    const owner = scene.ball.owner;
-    const has = owner !== null && owner.team === player.id.team && owner.slot === player.id.slot;
-    if (has) {
+    const [cloth, ink] = shirt(player);
+    if (same(scene.ball.owner, player.id)) {
       c.fillStyle = "#ffffff4d";
       disc(c, x, y, 1.9);
     }
@@ -168,6 +130,35 @@ export class Pitch {
     }
   }
 
+  private offside(x: number): void {
+    const c = this.context;
+    c.strokeStyle = "#ff8278";
+    c.lineWidth = 0.25;
+    c.setLineDash([1.2, 1]);
+    stroke(c, [x, -HALF_Y], [x, HALF_Y]);
+    c.setLineDash([]);
+  }
+
+  private arrow({ from, to, fade, shot }: Arrow): void {
+    const c = this.context;
+    const [x, y] = [to[0] - from[0], to[1] - from[1]];
+    const length = Math.hypot(x, y);
+    if (length < 2) return;
+    c.save();
+    c.globalAlpha = 0.85 * fade;
+    c.strokeStyle = c.fillStyle = shot ? "#ff8278" : "#ffffff";
+    c.lineWidth = 0.35;
+    c.translate(from[0], from[1]);
+    c.rotate(Math.atan2(y, x));
+    stroke(c, [0, 0], [length - 1.6, 0]);
+    c.beginPath();
+    c.moveTo(length - 0.4, 0);
+    c.lineTo(length - 2, 0.8);
+    c.lineTo(length - 2, -0.8);
+    c.fill();
+    c.restore();
+  }
+
   private ball(x: number, y: number, z: number): void {
     const c = this.context;
     const high = Math.max(0, z - 0.11);
@@ -183,16 +174,35 @@ export class Pitch {
   private colours(): Colours {
     const style = getComputedStyle(document.documentElement);
     const read = (name: string) => style.getPropertyValue(name).trim();
-    return { grass: read("--grass"), stripe: read("--stripe"), line: read("--line"), ink: read("--ink") };
+    return { grass: read("--grass"), stripe: read("--stripe"), line: read("--line") };
   }
 }
 
-function same(a: Player, b: Player): boolean {
-  return a.id.team === b.id.team && a.id.slot === b.id.slot;
-}
-
-function mixed(a: [number, number], b: [number, number], share: number): [number, number] {
-  return [a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share];
+/** Draws grass and lines; metres. */
+export function field(c: CanvasRenderingContext2D, { grass, stripe, line }: Colours): void {
+  c.fillStyle = grass;
+  c.fillRect(-HALF_X - MARGIN, -HALF_Y - MARGIN, 2 * (HALF_X + MARGIN), 2 * (HALF_Y + MARGIN));
+  c.fillStyle = stripe;
+  for (let k = 0; k < 10; k += 2) c.fillRect(-HALF_X + k * 11, -HALF_Y, 11, 2 * HALF_Y);
+  c.strokeStyle = line;
+  c.lineWidth = 0.2;
+  c.beginPath();
+  c.rect(-HALF_X, -HALF_Y, 2 * HALF_X, 2 * HALF_Y);
+  c.moveTo(0, -HALF_Y);
+  c.lineTo(0, HALF_Y);
+  c.moveTo(9.15, 0);
+  c.arc(0, 0, 9.15, 0, 2 * Math.PI);
+  for (const side of [-1, 1]) {
+    c.rect(side * HALF_X, -20.15, -side * 16.5, 40.3);
+    c.rect(side * HALF_X, -9.16, -side * 5.5, 18.32);
+    c.rect(side * HALF_X, -3.7, side * 2.55, 7.4);
+    const spot = side * (HALF_X - 11);
+    const angle = Math.acos(5.5 / 9.15);
+    const middle = side > 0 ? Math.PI : 0;
+    c.moveTo(spot + 9.15 * Math.cos(middle - angle), 9.15 * Math.sin(middle - angle));
+    c.arc(spot, 0, 9.15, middle - angle, middle + angle);
+  }
+  c.stroke();
 }
 
 function disc(c: CanvasRenderingContext2D, x: number, y: number, radius: number): void {

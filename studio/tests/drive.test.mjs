@@ -10,6 +10,7 @@ import { chromium } from "playwright-core";
 
 const COMMAND = process.env.SETPIECE ?? "setpiece";
 const BROWSER = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const PYTHON = process.env.SETPIECE_PYTHON;
 const PATIENCE = { timeout: 20_000 };
 const DRILL = `/// A striker and a winger against one defender.
 scenario drill extends academy {
@@ -30,19 +31,27 @@ scenario drill extends academy {
 let browser;
 const children = [];
 
+/** No graphics card: what is drawn in space is drawn by software. */
+const SPACE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync"];
+
 before(async () => {
-  const args = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-  browser = await chromium.launch({ executablePath: BROWSER, args });
+  browser = await chromium.launch({ executablePath: BROWSER, args: [...FLAGS, ...SPACE] });
 });
 after(async () => {
   await browser?.close();
   for (const child of children) child.kill("SIGINT");
 });
 
-/** Opens a studio and a page of it; every error of the page fails the test. */
-async function open(scenario, folder, options = {}) {
-  const child = spawn(COMMAND, ["studio", scenario], { cwd: folder });
+/** Opens a studio and a page of it; `prepare` runs in the page first. Its errors fail the test. */
+async function open(scenario, folder, options = {}, prepare = () => {}, where = browser) {
+  const child = spawn(COMMAND, ["studio", ...[scenario].flat()], { cwd: folder });
+  return visit(child, options, prepare, where);
+}
+
+/** A page of a studio that a process has started and whose address it prints. */
+async function visit(child, options = {}, prepare = () => {}, where = browser) {
   children.push(child);
   const address = await new Promise((resolve) => {
     child.stdout.on("data", (text) => {
@@ -50,7 +59,7 @@ async function open(scenario, folder, options = {}) {
       if (found) resolve(found[1]);
     });
   });
-  const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, colorScheme: "dark", ...options });
+  const page = await where.newPage({ viewport: { width: 1440, height: 900 }, colorScheme: "dark", ...options });
   page.on("pageerror", (error) => assert.fail(error.message));
   page.on("console", (message) => {
     if (message.type() === "error") assert.fail(message.text());
@@ -59,8 +68,9 @@ async function open(scenario, folder, options = {}) {
     window.pad = null;
     Navigator.prototype.getGamepads = () => [window.pad];
   });
+  await page.addInitScript(prepare);
   await page.goto(address);
-  await page.waitForSelector(".cm-line", PATIENCE);
+  await page.waitForSelector(".cm-content", PATIENCE);
   return page;
 }
 
@@ -74,6 +84,11 @@ const text = (page, selector) => page.textContent(selector);
 const waits = (page, selector, words) =>
   page.waitForFunction(([s, w]) => new RegExp(w).test(document.querySelector(s).textContent),
     [selector, words], PATIENCE);
+
+/** Keeps a picture of the page, where pictures are wanted. */
+async function shoot(page, name) {
+  if (process.env.SHOTS) await page.screenshot({ path: join(process.env.SHOTS, `${name}.png`) });
+}
 
 async function rewind(page) {
   if ((await text(page, "#toggle")) === "Pause") await page.click("#toggle");
@@ -92,7 +107,7 @@ test("it opens, plays and scrubs", async () => {
   await waits(page, "#moment", "^0.1 s");
   await page.keyboard.press("End");
   await waits(page, "#score", "·");
-  await page.screenshot({ path: process.env.SHOTS ? join(process.env.SHOTS, "studio.png") : undefined });
+  await shoot(page, "studio");
 });
 
 test("a mistake is shown at its line and goes", async () => {
@@ -155,6 +170,133 @@ test("a slider binds, and the plots and results fill", async () => {
   assert.ok((await page.locator("#plot canvas").count()) > 0);
 });
 
+test("the match is seen in space, from the stand and from anywhere", async () => {
+  const { folder } = drill();
+  const page = await open("drill.pitch", folder);
+  await rewind(page);
+  await page.selectOption("#view", "stand");
+  await page.waitForTimeout(500);
+  assert.ok((await page.locator("#pitch").isHidden()) && (await page.locator("#pitch-deep").isVisible()));
+  const shot = async () => (await page.locator("#pitch-deep").screenshot()).toString("base64");
+  const before = await shot();
+  await shoot(page, "studio-stand");
+  await page.selectOption("#view", "free");
+  const box = await page.locator("#pitch-deep").boundingBox();
+  await page.mouse.move(box.x + 30, box.y + 30);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 200, box.y + 60, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForTimeout(300);
+  assert.notEqual(await shot(), before);
+  await page.dblclick("#pitch-deep", { position: { x: 8, y: 8 } });
+  await waits(page, "#state", "follows the ball");
+  await page.selectOption("#view", "above");
+  assert.ok(await page.locator("#pitch").isVisible());
+});
+
+const ZONES = `region finishing = rect((30m, -12m), (44m, 12m)) | circle((25m, 0m), 6m)
+behavior waits { do hold }
+scenario zones extends academy {
+    param near: length = 25m in 1m..60m
+    ball at (20m, 20m)
+    team left {
+        GK at (-1, 0)
+        striker: CF in finishing
+        RM at (19m, 20m)
+    }
+    team right {
+        GK at own (-1, 0)
+        CB in right.box - right.six_yard
+    }
+    agents { left: [striker], right: 1 }
+    require distance(striker, ball) < near
+}
+`;
+
+function zones() {
+  const folder = mkdtempSync(join(tmpdir(), "studio-"));
+  writeFileSync(join(folder, "zones.pitch"), ZONES);
+  return folder;
+}
+
+/** The colour of a place on the pitch, metres. */
+const colour = (page, [x, y]) =>
+  page.evaluate(([mx, my]) => new Promise((resolve) => requestAnimationFrame(() => {
+    const canvas = document.getElementById("pitch");
+    const scale = canvas.width / 118;
+    const [px, py] = [canvas.width / 2 + mx * scale, canvas.height / 2 + my * scale];
+    resolve([...canvas.getContext("2d").getImageData(px, py, 1, 1).data].join());
+  })), [x, y]);
+
+test("regions and requirements are drawn, and what fails is red", async () => {
+  const page = await open("zones.pitch", zones());
+  await waits(page, "#requires", "✓ distance\\(striker, ball\\) < near");
+  await rewind(page);
+  await shoot(page, "studio-regions");
+  const inside = await colour(page, [25, -4]);
+  assert.notEqual(inside, await colour(page, [25, 40 - 8]));
+  await page.click("#zones");
+  assert.notEqual(await colour(page, [25, -4]), inside);
+  await page.click(".require");
+  assert.match(await page.evaluate(() => getSelection().toString()), /require distance/);
+  await page.locator(".param", { hasText: "near" }).locator("input").focus();
+  await page.keyboard.press("Home");
+  await page.waitForSelector(".require.fails", PATIENCE);
+  await waits(page, "#state", "distance\\(striker, ball\\) < near");
+});
+
+test("a behaviour plays, beside another player, and the episode is kept as a file", async () => {
+  const page = await open("zones.pitch", zones());
+  await waits(page, "#agent", "waits");
+  await page.selectOption("#agent", "waits");
+  await page.selectOption("#beside", "run_and_shoot");
+  await page.waitForSelector("#pitch-beside", PATIENCE);
+  const captions = await page.locator(".screen p").allTextContents();
+  assert.match(captions[0], /^waits · seed 0/);
+  assert.match(captions[1], /^run_and_shoot · seed 0/);
+  await page.selectOption("#beside", "nobody");
+  await page.waitForSelector("#pitch-beside", { state: "detached", ...PATIENCE });
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#record")]);
+  assert.equal(download.suggestedFilename(), "zones_0_0.pitchr");
+  const folder = mkdtempSync(join(tmpdir(), "studio-"));
+  await download.saveAs(join(folder, "a.pitchr"));
+  const both = await open(["a.pitchr", "a.pitchr"], folder);
+  await both.waitForSelector("#pitch-beside", PATIENCE);
+  await waits(both, "#score", " \\| ");
+});
+
+test("a policy of a Python program plays, and its environment is watched", async (t) => {
+  if (!PYTHON) return t.skip("SETPIECE_PYTHON names no Python that has the package");
+  const program = `
+import time, setpiece
+env = setpiece.make("academy_empty_goal_close")
+page = setpiece.studio(env, policies={"right": lambda observation: 5}, every_s=0)
+print("open", page.address, flush=True)
+seed = 100
+while True:
+    env.reset(seed=seed)
+    while not env.step(setpiece.Action.RIGHT)[2]:
+        time.sleep(0.02)
+    seed += 1
+`;
+  const page = await visit(spawn(PYTHON, ["-c", program]));
+  await waits(page, "#state", "another program has played");
+  assert.ok(Number(await page.inputValue("#seed")) >= 100);
+  await page.selectOption("#agent", "right");
+  await waits(page, "#state", "^$");
+  await page.fill("#seed", "3");
+  await page.keyboard.press("Enter");
+  await page.evaluate(() => document.querySelector("#seed").blur());
+  await page.waitForTimeout(1000);
+  await page.keyboard.press("End");
+  await waits(page, "#score", "^1 : 0.* · scored");
+  // What was chosen stays, though the program goes on.
+  await page.waitForTimeout(1500);
+  assert.equal(await page.inputValue("#seed"), "3");
+  await page.click("#follow");
+  await waits(page, "#state", "another program has played");
+});
+
 test("a goal is played by keyboard and by gamepad", async () => {
   const page = await open("academy_empty_goal_close", tmpdir());
   for (const device of ["keyboard", "gamepad"]) {
@@ -173,22 +315,66 @@ test("a goal is played by keyboard and by gamepad", async () => {
   }
 });
 
-test("the page needs no more memory the longer it is open", async () => {
+test("ten thousand frames need no more memory than the first", async (t) => {
   const { folder } = drill();
-  const page = await open("drill.pitch", folder);
+  // Without drawing in space, software draws faster.
+  const flat = await chromium.launch({ executablePath: BROWSER, args: [...FLAGS, "--disable-gpu"] });
+  t.after(() => flat.close());
+  // Frames follow each other at once, not at the pace of a display.
+  const page = await open("drill.pitch", folder, {}, () => {
+    const { port1, port2 } = new MessageChannel();
+    const waiting = [];
+    port1.onmessage = () => waiting.shift()?.(performance.now());
+    window.requestAnimationFrame = (callback) => {
+      waiting.push(callback);
+      port2.postMessage(0);
+      return 0;
+    };
+  }, flat);
   const session = await page.context().newCDPSession(page);
   const heap = async () => {
     await session.send("HeapProfiler.collectGarbage");
     return (await session.send("Runtime.getHeapUsage")).usedSize;
   };
-  await page.waitForTimeout(500);
-  await page.click("#pitch", { position: { x: 4, y: 4 } });
+  const frames = (n) => page.evaluate((n) => new Promise((resolve) => {
+    let left = n;
+    const [toggle, next] = ["toggle", "next"].map((id) => document.getElementById(id));
+    const step = () => {
+      // What has been played begins again; now and then comes another episode.
+      if (toggle.textContent === "Play") toggle.click();
+      if (left % 200 === 0) next.click();
+      if (left-- > 0) requestAnimationFrame(step);
+      else resolve();
+    };
+    step();
+  }), n);
+  await page.selectOption("#speed", "4");
+  await frames(400);
   const first = await heap();
-  for (let n = 0; n < 30; n++) {
-    await page.keyboard.press("n");
-    await page.waitForTimeout(80);
+  await frames(10_000);
+  const last = await heap();
+  assert.ok(last < 1.3 * first + 1e6, `${first} bytes at first, ${last} at last`);
+});
+
+test("ten tabs show the same, and one that closes stops nothing", async () => {
+  const { folder } = drill();
+  const page = await open("drill.pitch", folder);
+  await waits(page, "#problems", "no problems");
+  const tabs = [];
+  for (let n = 0; n < 10; n++) {
+    const tab = await browser.newPage();
+    await tab.goto(page.url());
+    tabs.push(tab);
   }
-  assert.ok((await heap()) < 1.3 * first + 1e6);
+  for (const tab of tabs) await waits(tab, "#name", "drill");
+  await page.fill("#seed", "77");
+  await page.keyboard.press("Enter");
+  await page.evaluate(() => document.querySelector("#seed").blur());
+  await tabs.pop().close();
+  for (const tab of tabs) {
+    await tab.waitForFunction(() => document.querySelector("#seed").value === "77", null, PATIENCE);
+    await tab.close();
+  }
 });
 
 test("it fits small and light screens", async () => {
@@ -198,5 +384,6 @@ test("it fits small and light screens", async () => {
     await waits(page, "#problems", "no problems");
     const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(over <= 0, `${over} pixels too wide at ${width}`);
+    await shoot(page, `studio-${width}`);
   }
 });

@@ -9,7 +9,9 @@
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions};
 use setpiece::replay::{Recorder, Replay};
-use setpiece::scenario::bounds::{CELLS_MAX, CODE_MAX, PARTS_MAX, SCRIPTS_MAX_BYTES, TERMS_MAX};
+use setpiece::scenario::bounds::{
+    CELLS_MAX, CODE_MAX, PARTS_MAX, SCRIPT_MAX_BYTES, SCRIPTS_MAX_BYTES, TERMS_MAX,
+};
 use setpiece::scenario::file::{binary, from_json, to_json};
 use setpiece::scenario::{
     Action, Each, Fold, FoldKind, Instr, Over, Program, Record, Reg, Reward, RewardBody, Scenario,
@@ -72,10 +74,16 @@ fn memory_is_bounded_over_all_parts() {
     });
     assert!(report.contains("terms of rewards"), "{report}");
     let report = refused(|scenario| {
-        let source = " ".repeat(SCRIPTS_MAX_BYTES as usize + 1);
-        scenario.scripts = vec![Script { name: "s".to_owned(), at: (1, 1), source }];
+        let source = " ".repeat(SCRIPT_MAX_BYTES);
+        let script = Script { name: "s".to_owned(), at: (1, 1), source };
+        scenario.scripts = vec![script; SCRIPTS_MAX_BYTES as usize / SCRIPT_MAX_BYTES + 1];
     });
     assert!(report.contains("bytes of scripts"), "{report}");
+    let report = refused(|scenario| {
+        let source = " ".repeat(SCRIPT_MAX_BYTES + 1);
+        scenario.scripts = vec![Script { name: "s".to_owned(), at: (1, 1), source }];
+    });
+    assert!(report.contains("bytes in one script"), "{report}");
     let report = refused(|scenario| {
         scenario.records = vec![Record { series: true, ..record(cells(0)) }; 1_001];
     });
@@ -95,6 +103,25 @@ fn the_work_of_a_step_is_bounded() {
     let mut scenario = corner();
     scenario.records = vec![record(nested(5))];
     from_json(&to_json(&scenario).unwrap()).expect("one is no more than a step may cost");
+}
+
+#[test]
+fn long_scripts_are_refused_where_they_stand() {
+    let script = |statements: usize| {
+        let body: String = (0..statements).map(|n| format!("let a{n} = 1;\n")).collect();
+        format!(
+            "scenario s extends academy_corner {{ reward script rhai \"\"\"
+fn reward(ctx, now, prev, events) {{\n{body}0.0 }}\n\"\"\" as \"r\" }}\n"
+        )
+    };
+    let report = |text: String| match setpiece::compile_text(&text, "s.pitch") {
+        Err(error) => error.to_string(),
+        Ok(_) => String::new(),
+    };
+    let long = report(script(20_000));
+    assert!(long.contains("larger than 32 KiB"), "{long}");
+    let fits = setpiece::compile_text(&script(2_000), "s.pitch");
+    assert!(fits.is_ok(), "{}", fits.unwrap_err());
 }
 
 #[test]

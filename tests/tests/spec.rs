@@ -190,6 +190,7 @@ fn run(case: &Case, probe: bool) -> CompileOutcome {
             origin: outcome.origins.scenario,
             origins: outcome.origins.clone(),
             inputs: Vec::new(),
+            behaviors: outcome.behaviors.clone(),
         };
         outcome.problems = setpiece::probe::probe(&loaded, None);
     }

@@ -39,6 +39,9 @@ enum Command {
         /// Also drive it in Chromium (`CHROMIUM`, else /usr/bin/chromium)
         #[arg(long)]
         drive: bool,
+        /// Drive it, and take the pictures of the documentation
+        #[arg(long)]
+        shots: bool,
     },
     /// Check licences, sources and advisories of the dependencies with cargo-deny
     Deny,
@@ -82,8 +85,8 @@ fn main() -> ExitCode {
         Command::Python { full: false } => ("python", ci::python()),
         Command::Python { full: true } => ("python", ci::python_full()),
         Command::Tidy => ("tidy", tidy::tidy()),
-        Command::Studio { drive: false } => ("studio", studio::build()),
-        Command::Studio { drive: true } => ("studio", studio::drive()),
+        Command::Studio { drive: false, shots: false } => ("studio", studio::build()),
+        Command::Studio { shots, .. } => ("studio", studio::drive(shots)),
         Command::Deny => ("deny", ci::deny()),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),

@@ -1,7 +1,7 @@
 //! The studio's page: built by npm from `studio/`, kept in `studio/dist`, embedded in the command.
 
 use crate::ci::{root, run};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The built files.
@@ -12,10 +12,11 @@ pub(crate) fn build() -> Result<(), String> {
     build_into("dist")
 }
 
-/// Builds the page, and runs its tests in a browser.
-pub(crate) fn drive() -> Result<(), String> {
+/// Builds the page, and runs its tests in a browser; `shots`: they also take the pictures of the
+/// documentation.
+pub(crate) fn drive(shots: bool) -> Result<(), String> {
     build()?;
-    tests()
+    tests(shots)
 }
 
 /// Runs the page's tests where npm and the browser are; elsewhere says that it doesn't.
@@ -26,17 +27,35 @@ pub(crate) fn drive_if_there() -> Result<(), String> {
         );
         return Ok(());
     }
-    tests()
+    tests(false)
 }
 
 /// Builds the command, and runs the page's tests; the page's packages are installed.
-fn tests() -> Result<(), String> {
+fn tests(shots: bool) -> Result<(), String> {
     run(Command::new("cargo").args(["build", "--package", "setpiece"]).current_dir(root()))?;
-    run(Command::new(npm())
+    let mut tests = Command::new(npm());
+    tests
         .args(["test", "--silent"])
         .env("SETPIECE", root().join("target/debug/setpiece"))
         .env("CHROMIUM", browser())
-        .current_dir(root().join("studio")))
+        .current_dir(root().join("studio"));
+    if shots {
+        tests.env("SHOTS", root().join("docs"));
+    }
+    if let Some(python) = python_with_package() {
+        tests.env("SETPIECE_PYTHON", python);
+    } else {
+        println!("studio: no Python with the wheel: `cargo xtask python` makes one");
+        tests.env_remove("SETPIECE_PYTHON");
+    }
+    run(&mut tests)
+}
+
+/// The Python of the tests' environment, if the wheel is installed there.
+fn python_with_package() -> Option<PathBuf> {
+    let python = root().join("target/venv/bin/python");
+    let known = Command::new(&python).args(["-c", "import setpiece"]).output().ok()?;
+    known.status.success().then_some(python)
 }
 
 /// Checks that the committed page is what the sources give. Without npm it can't, and says so.

@@ -8,8 +8,10 @@ use crate::problem::facts::{Files, ScriptLimit, Types};
 use crate::problem::{Problem, ScriptApi};
 use crate::resolve::{MAX_FILES, MAX_IMPORTED_BYTES};
 use crate::source::{FileId, LoadError, Source, SourceLoader};
+use setpiece_scenario::bounds::SCRIPT_MAX_BYTES;
 use setpiece_scenario::vocabulary::Type;
 use setpiece_scenario::{Script, ScriptArg};
+use std::cell::Cell;
 
 /// A script that the loader was asked for.
 pub(crate) struct LoadedScript {
@@ -28,13 +30,15 @@ pub(crate) struct LoadedScripts<'a> {
     loaded: Vec<LoadedScript>,
     /// Bytes of all of them.
     bytes: usize,
+    /// Bytes that were checked, each script as often as it is used.
+    checked: Cell<usize>,
     api: Option<&'a dyn ScriptApi>,
 }
 
 impl<'a> LoadedScripts<'a> {
     /// With the API that scripts are checked against.
     pub(crate) fn new(api: Option<&'a dyn ScriptApi>) -> LoadedScripts<'a> {
-        LoadedScripts { loaded: Vec::new(), bytes: 0, api }
+        LoadedScripts { api, ..LoadedScripts::default() }
     }
 
     /// Why no more scripts may be loaded, if none may.
@@ -44,6 +48,19 @@ impl<'a> LoadedScripts<'a> {
         }
         let larger = self.bytes > MAX_IMPORTED_BYTES;
         larger.then_some(ScriptLimit::Bytes(MAX_IMPORTED_BYTES))
+    }
+
+    /// Takes a script to be checked; says why it can't be.
+    fn take(&self, text: &str) -> Result<(), Files> {
+        if text.len() > SCRIPT_MAX_BYTES {
+            return Err(Files::LongScript { most: SCRIPT_MAX_BYTES });
+        }
+        self.checked.set(self.checked.get() + text.len());
+        if self.checked.get() > MAX_IMPORTED_BYTES {
+            let limit = ScriptLimit::Bytes(MAX_IMPORTED_BYTES);
+            return Err(Files::TooManyScripts { limit });
+        }
+        Ok(())
     }
 
     /// Loads a script that a file names, once; says which file it would be where there is none.
@@ -151,6 +168,10 @@ pub(crate) fn embed(
             (name, source, (text.span.file, text.span.start))
         }
     };
+    if let Err(why) = world.scripts_loaded.take(&source.text) {
+        world.report(Problem::new(script.span, why));
+        return None;
+    }
     check(world, &source, text_at, hook, own);
     // A script reads a parameter by its name, in whatever way.
     let words: Vec<&str> = source.text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();

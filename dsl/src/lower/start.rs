@@ -16,7 +16,7 @@ use super::value::{LiteralFrame, Scope, Value};
 use super::{Lower, ProgramStage, World};
 use crate::ast::{Expr, ScenarioStmtKind, Span};
 use crate::check::types::Ty;
-use crate::origins::RequireOrigin;
+use crate::origins::{RegionOrigin, RequireOrigin};
 use crate::problem::Problem;
 use crate::problem::facts::{Bounds, Chance, Names};
 use crate::resolve::Named;
@@ -48,6 +48,8 @@ pub(crate) struct StartState<'w> {
     pub(crate) ai: Option<BehaviorUse<'w>>,
     /// The behaviours that players use, by the players' ids.
     pub(crate) behaviors: Vec<(u8, BehaviorUse<'w>)>,
+    /// The regions in which something is drawn.
+    pub(crate) drawn_in: Vec<RegionOrigin>,
     lets: BTreeMap<&'w str, Option<Value<'w>>>,
     first: Option<Reg>,
     kind: Option<(StartKind, Option<Reg>)>,
@@ -92,11 +94,16 @@ pub(crate) struct LoweredStart<'c, 'w> {
     /// The behaviours that players use, by the players' ids.
     pub(crate) behaviors: Vec<(u8, BehaviorUse<'w>)>,
     /// Where its requirements come from.
-    pub(crate) origins: Vec<RequireOrigin>,
+    pub(crate) requires: Vec<RequireOrigin>,
+    /// Its regions, if they are wanted.
+    pub(crate) regions: Vec<RegionOrigin>,
 }
 
-/// Lowers the start.
-pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> {
+/// Lowers the start; `with_regions`: whether its program also computes the regions.
+pub(crate) fn lower_start<'c, 'w>(
+    world: &'c World<'w>,
+    with_regions: bool,
+) -> LoweredStart<'c, 'w> {
     let scope = Scope::new(true, LiteralFrame::World);
     let n = world.roster.len();
     let (places, headings, layouts) =
@@ -145,9 +152,12 @@ pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> 
         }
         _ => RequireOrigin::default(),
     });
+    let named = if with_regions { lower.named_regions() } else { Vec::new() };
     let state = lower.start_mut().map(std::mem::take).unwrap_or_default();
+    let drawn_in = state.drawn_in.into_iter().filter(|_| with_regions);
+    let regions: Vec<RegionOrigin> = named.into_iter().chain(drawn_in).collect();
     let (mut implied, of_implied): (Vec<_>, Vec<_>) = state.implied.into_iter().unzip();
-    let origins = written.chain(of_implied).collect();
+    let of_requires = written.chain(of_implied).collect();
     requires.append(&mut implied);
 
     let behaviors = state.behaviors;
@@ -181,6 +191,7 @@ pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> 
         map_slot(slot, &mut collect);
     }
     map_agents(&agents, &mut collect);
+    wanted.extend(regions.iter().flat_map(|region| region.shape.numbers()));
 
     let (program, layout) = lower.code.finish(&wanted);
     let place = |layout: &RegisterLayout, reg: Reg| layout.reg(reg);
@@ -190,7 +201,17 @@ pub(crate) fn lower_start<'c, 'w>(world: &'c World<'w>) -> LoweredStart<'c, 'w> 
         players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
     let agents = map_agents(&agents, &mut |reg| place(&layout, reg));
     let step = StepWorld::new(world, &start, lets, side);
-    LoweredStart { start, players, agents, step, behaviors, origins }
+    let regions = laid_out(&regions, &layout);
+    LoweredStart { start, players, agents, step, behaviors, requires: of_requires, regions }
+}
+
+/// Regions in the registers of the finished program.
+fn laid_out(regions: &[RegionOrigin], layout: &RegisterLayout) -> Vec<RegionOrigin> {
+    let region = |region: &RegionOrigin| RegionOrigin {
+        span: region.span,
+        shape: region.shape.map(&mut |reg| layout.reg(reg)),
+    };
+    regions.iter().map(region).collect()
 }
 
 fn roster_span(world: &World<'_>, index: usize) -> Span {

@@ -2,10 +2,12 @@
 
 use crate::ast::{Expr, FormationItem, Span};
 use crate::check::types::Ty;
+use crate::outline::Outline;
 use setpiece_scenario::Reg;
 use setpiece_scenario::vocabulary::Team;
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// A typed value.
 #[derive(Clone, Debug)]
@@ -34,7 +36,7 @@ pub(crate) enum Repr<'w> {
     /// Players.
     Set(SetValue),
     /// A part of the pitch.
-    Region(Rc<RegionValue>),
+    Region(Arc<RegionValue>),
     /// A list.
     List(Vec<Value<'w>>),
     /// A formation and what its parameters are bound to.
@@ -50,33 +52,8 @@ pub(crate) struct SetValue {
     pub(crate) except: Option<Reg>,
 }
 
-/// A part of the pitch; lengths in metres, world frame.
-#[derive(Clone, Debug)]
-pub(crate) enum RegionValue {
-    /// Between two corners, in any order.
-    Rect((Reg, Reg), (Reg, Reg)),
-    /// A disc: centre and radius.
-    Circle((Reg, Reg), Reg),
-    /// A slice of a disc: from an angle on, as wide as another; radians, world frame.
-    Sector {
-        /// The tip.
-        centre: (Reg, Reg),
-        /// How far it reaches.
-        radius: Reg,
-        /// Where it begins.
-        from: Reg,
-        /// How wide it is, 0 to a full turn.
-        width: Reg,
-    },
-    /// Between corners, in order.
-    Polygon(Vec<(Reg, Reg)>),
-    /// In one or the other.
-    Union(Rc<RegionValue>, Rc<RegionValue>),
-    /// In both.
-    Intersection(Rc<RegionValue>, Rc<RegionValue>),
-    /// In the first but not in the second.
-    Difference(Rc<RegionValue>, Rc<RegionValue>),
-}
+/// A part of the pitch, in registers.
+pub(crate) type RegionValue = Outline<Reg>;
 
 impl<'w> Value<'w> {
     /// Of a broken expression; a problem has been reported.
@@ -122,46 +99,8 @@ impl<'w> Value<'w> {
             Repr::Three(a, b, c) => vec![*a, *b, *c],
             Repr::Set(set) => [Some(set.team), set.except].into_iter().flatten().collect(),
             Repr::List(list) => list.iter().flat_map(Value::regs).collect(),
-            Repr::Region(region) => region.regs(),
+            Repr::Region(region) => region.numbers(),
             Repr::Nothing | Repr::Text(_) | Repr::Formation(_) => Vec::new(),
-        }
-    }
-}
-
-impl RegionValue {
-    fn regs(&self) -> Vec<Reg> {
-        let mut regs = Vec::new();
-        self.map(&mut |reg| {
-            regs.push(reg);
-            reg
-        });
-        regs
-    }
-
-    /// The same shape with other registers.
-    pub(crate) fn map(&self, f: &mut dyn FnMut(Reg) -> Reg) -> RegionValue {
-        let pair = |(x, y): (Reg, Reg), f: &mut dyn FnMut(Reg) -> Reg| (f(x), f(y));
-        match self {
-            RegionValue::Rect(a, b) => RegionValue::Rect(pair(*a, f), pair(*b, f)),
-            RegionValue::Circle(centre, radius) => {
-                RegionValue::Circle(pair(*centre, f), f(*radius))
-            }
-            RegionValue::Sector { centre, radius, from, width } => RegionValue::Sector {
-                centre: pair(*centre, f),
-                radius: f(*radius),
-                from: f(*from),
-                width: f(*width),
-            },
-            RegionValue::Polygon(corners) => {
-                RegionValue::Polygon(corners.iter().map(|&at| pair(at, f)).collect())
-            }
-            RegionValue::Union(a, b) => RegionValue::Union(Rc::new(a.map(f)), Rc::new(b.map(f))),
-            RegionValue::Intersection(a, b) => {
-                RegionValue::Intersection(Rc::new(a.map(f)), Rc::new(b.map(f)))
-            }
-            RegionValue::Difference(a, b) => {
-                RegionValue::Difference(Rc::new(a.map(f)), Rc::new(b.map(f)))
-            }
         }
     }
 }

@@ -4,7 +4,7 @@ use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
     AdaptExpr, CheckStmt, CheckStmtKind, CurriculumStmt, CurriculumStmtKind, EpisodesExpr,
-    GoalExpr, MeasureArg, MeasureRef, StageRule, SuiteStmt, SuiteStmtKind,
+    GoalExpr, MeasureArg, MeasureRef, Ref, StageRule, SuiteStmt, SuiteStmtKind,
 };
 use crate::source::Span;
 use setpiece_grammar::Rule;
@@ -31,7 +31,8 @@ impl Reader<'_> {
         let is_sweep = node.as_rule() == Rule::sweep;
         let mut nodes = CstNodes::of(node);
         if !is_sweep {
-            return self.episodes(&mut nodes).map(SuiteStmtKind::Entry);
+            let scenario = nodes.seek(Rule::reference).and_then(|node| self.reference(node))?;
+            return self.episodes(scenario, &mut nodes).map(SuiteStmtKind::Entry);
         }
         let name = nodes.seek(Rule::ident).map(|name| self.value_name(&name))?;
         let values = nodes.seek(Rule::list)?.into_inner();
@@ -42,9 +43,8 @@ impl Reader<'_> {
         Some(SuiteStmtKind::Sweep { name, values, body })
     }
 
-    /// `SCENARIO(args) … for N episodes [seed S]`
-    fn episodes(&mut self, nodes: &mut CstNodes<'_>) -> Option<EpisodesExpr> {
-        let scenario = nodes.seek(Rule::reference).and_then(|node| self.reference(node))?;
+    /// `for N episodes [seed S]`, of a scenario.
+    fn episodes(&mut self, scenario: Ref, nodes: &mut CstNodes<'_>) -> Option<EpisodesExpr> {
         let count = nodes.seek(Rule::episodes).and_then(|node| self.only_sum(node))?;
         let seed = nodes.want(Rule::seeded).and_then(|node| self.only_sum(node));
         Some(EpisodesExpr { scenario, count, seed })
@@ -75,10 +75,8 @@ impl Reader<'_> {
             let scenario = nodes.seek(Rule::reference).and_then(|node| self.reference(node))?;
             let agent = nodes.eat(Rule::kw_with).then(|| nodes.want(Rule::path)).flatten();
             let agent = agent.map(|agent| self.ident(&agent));
-            let count = nodes.seek(Rule::episodes).and_then(|node| self.only_sum(node))?;
-            let seed = nodes.want(Rule::seeded).and_then(|node| self.only_sum(node));
+            let episodes = self.episodes(scenario, &mut nodes)?;
             let over_params = nodes.eat(Rule::over_params);
-            let episodes = EpisodesExpr { scenario, count, seed };
             return Some(CheckStmtKind::Play { episodes, agent, over_params });
         }
         nodes.eat(Rule::kw_expect);

@@ -64,6 +64,7 @@ fn look(text: &str, file: FileId, by_indent: bool) -> Scanner<'_> {
         line_start: true,
         line_from: 0,
         indent: 0,
+        braces: None,
         skips: Vec::new(),
         chain: Chain::default(),
         chunk: 0,
@@ -140,6 +141,16 @@ struct Skip {
     line: bool,
 }
 
+/// The `}` of a line.
+struct LineBraces {
+    /// From where on they are counted.
+    from: usize,
+    /// Where the line ends.
+    end: usize,
+    /// How many there are.
+    left: usize,
+}
+
 struct Scanner<'t> {
     bytes: &'t [u8],
     file: FileId,
@@ -156,6 +167,8 @@ struct Scanner<'t> {
     /// Where this line begins.
     line_from: usize,
     indent: usize,
+    /// The `}` that are left on this line, if they have been counted.
+    braces: Option<LineBraces>,
     /// Strings and comments, in order.
     skips: Vec<Skip>,
     chain: Chain,

@@ -6,7 +6,7 @@ use super::suite::run_suite;
 use super::{FAULT, FINE, TICK, playing, playing::Playing, summary};
 #[cfg(feature = "render")]
 use crate::curves::curves;
-use crate::dsl::problem::Code;
+use crate::dsl::problem::{Code, nearest};
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::EnvironmentOptions;
 #[cfg(feature = "render")]
@@ -14,7 +14,7 @@ use crate::error::FileFault;
 #[cfg(feature = "render")]
 use crate::files::{refuse_overwriting, write};
 use crate::live::Live;
-use crate::plans::{library_suite, load_plans};
+use crate::plans::{library_suites, load_plans};
 #[cfg(feature = "render")]
 use crate::plot;
 use crate::run::{RunOptions, Summary, first_error, run};
@@ -131,10 +131,7 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let loaded = match crate::load_with(&args.playing.scenario, &out.loading()) {
         Ok(loaded) => loaded,
         Err(error) => {
-            return match suites_of(&args.playing.scenario, &error, out)? {
-                suites if suites.is_empty() => Err(error),
-                suites => run_suites(&suites, args, out),
-            };
+            return run_suites(&suites_of(&args.playing.scenario, error, out)?, args, out);
         }
     };
     out.warnings(&loaded);
@@ -168,22 +165,27 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     Ok(FINE)
 }
 
-/// The suites that a name stands for, where it stands for no scenario.
-fn suites_of(name: &OsStr, error: &Error, out: &Out) -> Result<Vec<Suite>, Error> {
-    let is_open = match error {
-        Error::Unknown { .. } => true,
-        Error::Compile(failure) => failure.is_without_scenario(),
-        _ => false,
-    };
-    if !is_open {
-        return Ok(Vec::new());
+/// The suites that a name stands for; the error is why it stands for no scenario.
+fn suites_of(name: &OsStr, error: Error, out: &Out) -> Result<Vec<Suite>, Error> {
+    let mut library = library_suites()?;
+    if let Some(at) = library.iter().position(|suite| name == suite.name.as_str()) {
+        return Ok(vec![library.swap_remove(at)]);
     }
-    if let Some(suite) = name.to_str().map(library_suite).transpose()?.flatten() {
-        return Ok(vec![suite]);
+    match error {
+        Error::Unknown { name, similar: None } => {
+            let similar = nearest(&name, library.iter().map(|suite| suite.name.as_str()));
+            Err(Error::Unknown { similar: similar.map(str::to_owned), name })
+        }
+        Error::Compile(failure) if failure.lacks_scenario() => {
+            match load_plans(Path::new(name), &out.loading()) {
+                Ok(loaded) if !loaded.plans.suites.is_empty() => Ok(loaded.plans.suites),
+                // With suites no scenario is needed: what is wrong is something else.
+                Err(Error::Compile(wrong)) if !wrong.lacks_scenario() => Err(Error::Compile(wrong)),
+                _ => Err(Error::Compile(failure)),
+            }
+        }
+        error => Err(error),
     }
-    // What stands for a scenario of the library is no path.
-    let loaded = load_plans(Path::new(name), &out.loading());
-    Ok(loaded.map_or_else(|_| Vec::new(), |loaded| loaded.plans.suites))
 }
 
 fn run_suites(suites: &[Suite], args: &RunArgs, out: &Out) -> Result<u8, Error> {

@@ -3,7 +3,7 @@
 use super::{FAULT, FINE, out::Out};
 use crate::Error;
 use crate::dsl::problem::Code;
-use crate::studio::{Session, serve};
+use crate::studio::{OpenOptions, ServeOptions, Session, serve};
 use clap::Args;
 use std::ffi::OsString;
 
@@ -12,6 +12,9 @@ pub(crate) struct StudioArgs {
     /// A scenario of the library, a .pitch file, or a recorded episode (.pitchr)
     #[arg(value_name = "SCENARIO", default_value = "academy_3_vs_1_with_keeper")]
     scenario: OsString,
+    /// A recorded episode (.pitchr) to show beside it
+    #[arg(value_name = "BESIDE")]
+    beside: Option<OsString>,
     /// The port, on this machine alone; 0 takes any that is free
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
@@ -19,17 +22,12 @@ pub(crate) struct StudioArgs {
 
 /// Serves the page until Ctrl-C.
 pub(crate) fn studio(args: &StudioArgs, out: &Out) -> Result<u8, Error> {
-    let session = Session::open(&args.scenario, out.allow_outside)?;
-    let (_running, stop) = tokio::sync::oneshot::channel();
-    let served = serve(
-        session,
-        args.port,
-        |ready| {
-            out.line(format!("open {}", ready.address));
-            out.line("Ctrl-C ends it");
-        },
-        stop,
-    );
+    let options = OpenOptions { allow_outside: out.allow_outside, ..OpenOptions::default() };
+    let session = Session::open(&args.scenario, args.beside.as_deref(), options)?;
+    let served = serve(session, ServeOptions { port: args.port, framed: false }, |ready| {
+        out.line(format!("open {}", ready.address));
+        out.line("Ctrl-C ends it");
+    });
     match served {
         Ok(()) => Ok(FINE),
         Err(why) => {

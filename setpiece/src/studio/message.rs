@@ -1,8 +1,9 @@
 //! What pages and the session say to each other, as JSON.
 
+use crate::dsl::Outline;
 use crate::dsl::report::Diagnostic;
 use crate::render::Scene;
-use crate::render::scene::{Id, Side};
+use crate::render::scene::Id;
 use crate::studio::hands::HeldKeys;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -31,16 +32,20 @@ pub enum Request {
         seed: u64,
         /// The episode's index under it.
         episode: u64,
-        /// Who plays the agents: a name of the command line.
+        /// Who plays the agents: one of [`CheckReply::players`].
         agent: String,
+        /// Who plays the same episode beside it, if anybody does.
+        beside: Option<String>,
     },
     /// Play the episode by hand, at the pace of the match.
     Begin {
-        /// `left` or `right`: whose first agent the person plays. The others play as before.
-        side: Side,
+        /// The agents that people play, by their ids. The others play as before.
+        seats: Vec<String>,
     },
-    /// What the person holds down now.
+    /// What a person holds down now.
     Hold {
+        /// Which of the seats.
+        seat: usize,
         /// The keys.
         keys: HeldKeys,
     },
@@ -68,6 +73,8 @@ pub enum Request {
         /// How many.
         episodes: u32,
     },
+    /// Hand the episode over as a file.
+    Record,
 }
 
 /// What the session says to every page.
@@ -92,6 +99,15 @@ pub enum Reply {
     },
     /// Many episodes.
     Summary(SummaryReply),
+    /// What stands around the start.
+    Sketch(SketchReply),
+    /// The episode as a file.
+    Recording {
+        /// The name of the file.
+        name: String,
+        /// Its bytes, two hexadecimal digits each.
+        hex: String,
+    },
     /// The file was written.
     Saved,
     /// A request could not be met.
@@ -110,8 +126,6 @@ pub struct OpenReply {
     pub is_file: bool,
     /// The text.
     pub text: String,
-    /// Who can play the agents.
-    pub agents: Vec<&'static str>,
 }
 
 /// The result of a check.
@@ -127,6 +141,53 @@ pub struct CheckReply {
     pub title: String,
     /// Its parameters.
     pub params: Vec<ParamControl>,
+    /// Its agents.
+    pub agents: Vec<SeatReply>,
+    /// Who can play them: ready-made agents, behaviours, policies of the program that has started
+    /// the studio.
+    pub players: Vec<String>,
+}
+
+/// An agent that a person can play.
+#[derive(Clone, Debug, Serialize)]
+pub struct SeatReply {
+    /// Its id: a player's name, `left_CM_1`, or `left_0` for one that changes players.
+    pub id: String,
+    /// `left` or `right`.
+    pub team: &'static str,
+}
+
+/// What stands around a start.
+#[derive(Clone, Debug, Serialize)]
+pub struct SketchReply {
+    /// The regions: the named ones, then those that something is drawn in.
+    pub regions: Vec<RegionReply>,
+    /// The requirements on a drawn start.
+    pub requires: Vec<RequireReply>,
+}
+
+/// A region.
+#[derive(Clone, Debug, Serialize)]
+pub struct RegionReply {
+    /// Its name or its text.
+    pub name: String,
+    /// Its shape in this start.
+    pub shape: Outline<f64>,
+}
+
+/// A requirement.
+#[derive(Clone, Debug, Serialize)]
+pub struct RequireReply {
+    /// Its text.
+    pub label: String,
+    /// Whether it follows from another part of the text.
+    pub implied: bool,
+    /// Its line, if it has one.
+    pub line: Option<u32>,
+    /// The share of single attempts at a start that it refuses, 0..1.
+    pub refused: f64,
+    /// Whether it is why this episode has no start.
+    pub fails: bool,
 }
 
 /// A parameter.
@@ -158,7 +219,13 @@ pub struct Episode {
     /// The index under the seed.
     pub episode: u64,
     /// Who played.
-    pub agent: &'static str,
+    pub agent: String,
+    /// Whether it stands beside another one, to be compared.
+    pub beside: bool,
+    /// Whether another program has played it.
+    pub watched: bool,
+    /// The scenario's name.
+    pub name: String,
     /// The moments, in order.
     pub scenes: Vec<Scene>,
     /// Everybody's label, by team and place.
@@ -182,6 +249,8 @@ pub struct Happened {
     pub by: Option<String>,
     /// `left` or `right`.
     pub team: Option<&'static str>,
+    /// Where, metres.
+    pub place: [f32; 2],
 }
 
 /// The results of many episodes.

@@ -4,6 +4,7 @@ use super::guard::{self, Refusal};
 use super::message::{REQUEST_MAX_BYTES, Request};
 use super::page::{ASSETS, Asset};
 use super::session::{Command, Session};
+use crate::replay::Replay;
 use axum::Router;
 use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
 use axum::extract::{Query, State};
@@ -11,32 +12,53 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use serde::Deserialize;
+use std::future::Future;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
+use std::thread::JoinHandle;
 use tokio::net::TcpListener;
 use tokio::sync::broadcast::Receiver;
 use tokio::sync::broadcast::error::RecvError;
-use tokio::sync::{broadcast, mpsc};
+use tokio::sync::{broadcast, mpsc, oneshot};
 
 /// Messages that a page may be behind before it starts over.
 const BEHIND_MAX: usize = 64;
+
+/// What the page may load, and who may show it in a frame.
+const ALONE: &str = "default-src 'self'; img-src 'self' data: blob:; \
+                     style-src 'self' 'unsafe-inline'; frame-ancestors 'self'";
+const FRAMED: &str = "default-src 'self'; img-src 'self' data: blob:; \
+                      style-src 'self' 'unsafe-inline'; \
+                      frame-ancestors 'self' http://localhost:* http://127.0.0.1:* \
+                      vscode-webview:";
 
 /// What every request needs.
 #[derive(Clone)]
 struct Shared {
     port: u16,
     token: Arc<str>,
+    framed: bool,
     commands: mpsc::UnboundedSender<Command>,
     replies: broadcast::Sender<Arc<str>>,
 }
 
+/// How a session is served.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ServeOptions {
+    /// The port; 0 for any that is free.
+    pub port: u16,
+    /// Whether pages of this machine, such as a notebook, may show the studio in a frame.
+    pub framed: bool,
+}
+
 /// A server that listens.
-#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ready {
     /// The address to open, with its token.
     pub address: String,
     /// The port.
     pub port: u16,
+    /// The way to the session.
+    commands: mpsc::UnboundedSender<Command>,
 }
 
 #[derive(Deserialize)]
@@ -44,18 +66,78 @@ struct Ticket {
     token: Option<String>,
 }
 
-/// Serves a session until Ctrl-C, or until `stop` is dropped or sent to.
+/// Serves a session until Ctrl-C.
 ///
-/// - `port`: 0 for any that is free.
 /// - `ready`: called once the server listens.
 ///
 /// # Errors
 /// The system's message if the port is taken or there are no random numbers.
 pub fn serve(
     session: Session,
-    port: u16,
-    ready: impl FnOnce(&Ready),
-    stop: tokio::sync::oneshot::Receiver<()>,
+    options: ServeOptions,
+    ready: impl FnOnce(Ready),
+) -> Result<(), String> {
+    serve_until(session, options, ready, async {
+        // Without a handler the process ends anyway.
+        let _ = tokio::signal::ctrl_c().await;
+    })
+}
+
+/// A studio on a thread of its own. It ends when this is dropped.
+pub struct Running {
+    /// The address to open, with its token.
+    pub address: String,
+    /// The port.
+    pub port: u16,
+    commands: mpsc::UnboundedSender<Command>,
+    stop: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<Result<(), String>>>,
+}
+
+impl Running {
+    /// Shows an episode in every page. False if the studio has ended.
+    pub fn watch(&self, replay: Replay) -> bool {
+        self.commands.send(Command::Watch(Box::new(replay))).is_ok()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        drop(self.stop.take());
+        if let Some(thread) = self.thread.take() {
+            // It has nothing to say any more.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Serves a session on a thread of its own.
+///
+/// # Errors
+/// Like [`serve`].
+pub fn start(session: Session, options: ServeOptions) -> Result<Running, String> {
+    let (stop, stopped) = oneshot::channel::<()>();
+    let (tell, hear) = std::sync::mpsc::channel();
+    let thread = std::thread::spawn(move || {
+        let ready = |ready| {
+            let _ = tell.send(ready);
+        };
+        serve_until(session, options, ready, async {
+            let _ = stopped.await;
+        })
+    });
+    if let Ok(Ready { address, port, commands }) = hear.recv() {
+        return Ok(Running { address, port, commands, stop: Some(stop), thread: Some(thread) });
+    }
+    let ended = thread.join().unwrap_or(Ok(()));
+    Err(ended.err().unwrap_or_else(|| "the server ended at once".to_owned()))
+}
+
+fn serve_until(
+    session: Session,
+    options: ServeOptions,
+    ready: impl FnOnce(Ready),
+    ended: impl Future<Output = ()>,
 ) -> Result<(), String> {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
@@ -63,15 +145,17 @@ pub fn serve(
         .map_err(|why| why.to_string())?;
     let token: Arc<str> = guard::token()?.into();
     runtime.block_on(async move {
-        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, options.port));
         let listener = TcpListener::bind(address).await.map_err(|why| why.to_string())?;
         let port = listener.local_addr().map_err(|why| why.to_string())?.port();
         let (replies, _) = broadcast::channel(BEHIND_MAX);
         let (commands, inbox) = mpsc::unbounded_channel();
         let sender = replies.clone();
         std::thread::spawn(move || session.run(inbox, &sender));
-        let shared = Shared { port, token: token.clone(), commands, replies };
-        ready(&Ready { address: format!("http://127.0.0.1:{port}/?token={token}"), port });
+        let framed = options.framed;
+        let shared = Shared { port, token: token.clone(), framed, commands, replies };
+        let address = format!("http://127.0.0.1:{port}/?token={token}");
+        ready(Ready { address, port, commands: shared.commands.clone() });
         let mut routes = Router::new().route("/socket", get(socket));
         for asset in ASSETS {
             routes =
@@ -82,12 +166,6 @@ pub fn serve(
                     }),
                 );
         }
-        let ended = async {
-            tokio::select! {
-                _ = tokio::signal::ctrl_c() => {}
-                _ = stop => {}
-            }
-        };
         tokio::select! {
             served = axum::serve(listener, routes.with_state(shared)) => {
                 served.map_err(|why| why.to_string())
@@ -125,11 +203,7 @@ fn file(
         (header::CACHE_CONTROL, "no-store"),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "no-referrer"),
-        (
-            header::CONTENT_SECURITY_POLICY,
-            "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; \
-             frame-ancestors 'self'",
-        ),
+        (header::CONTENT_SECURITY_POLICY, if shared.framed { FRAMED } else { ALONE }),
     ];
     (headers, asset.content).into_response()
 }

@@ -3,27 +3,28 @@
 use super::drag::moved;
 use super::live::LiveMatch;
 use super::message::{
-    CheckReply, DRAWS_MAX, EPISODES_MAX, Episode, Happened, OpenReply, ParamControl, Reply,
-    Request, SummaryReply,
+    CheckReply, DRAWS_MAX, EPISODES_MAX, Episode, OpenReply, ParamControl, Reply, Request,
+    SeatReply,
 };
+use super::players::{ActingPolicy, Guests, Performer};
+use super::stage::{STEPS_MAX, StudioStage, episode_of};
 use crate::dsl::report::diagnostics;
 use crate::engine::batch::ReadyMade;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{Environment, EnvironmentOptions};
-use crate::engine::state::PlayerId;
 use crate::error::{FileFault, Packed};
 use crate::files::{SOURCE_MAX_BYTES, read_file, write};
-use crate::film::{Film, FilmOptions, film, replayed};
-use crate::load::{LoadOptions, compile_text_with, load_with};
-use crate::render::Scene;
+use crate::film::replayed;
+use crate::load::{Cast, CastTarget, LoadOptions, compile_text_with, load_with};
 use crate::render::scene::Id;
 use crate::replay::{REPLAY_MAX_BYTES, Replay};
-use crate::run::{RunOptions, run};
-use crate::scenario::{Bindings, Type, Verdict};
-use crate::scene::{of_match, team};
+use crate::scenario::{Bindings, Team, Type};
+use crate::scene::team;
 use crate::watch::Watcher;
 use crate::{Error, Loaded};
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -34,8 +35,6 @@ use tokio::sync::oneshot;
 
 /// How long the session waits for a file before it looks at its requests again.
 const WAIT: Duration = Duration::from_millis(20);
-/// An episode without an end is shown up to here.
-const STEPS_MAX: u32 = 3_000;
 
 /// What the session is asked for.
 pub(super) enum Command {
@@ -45,6 +44,19 @@ pub(super) enum Command {
     Nonsense(String),
     /// Everything that a new page needs.
     Join(oneshot::Sender<Vec<Arc<str>>>),
+    /// An episode of another program.
+    Watch(Box<Replay>),
+}
+
+/// How a scenario is opened.
+#[derive(Default)]
+pub struct OpenOptions {
+    /// Whether imports and scripts may be outside the file's folder.
+    pub allow_outside: bool,
+    /// The policies of the program that opens it.
+    pub guests: Option<Box<dyn Guests>>,
+    /// Parameters that differ from their defaults, SI units.
+    pub params: BTreeMap<String, f64>,
 }
 
 /// The open scenario.
@@ -52,71 +64,102 @@ pub struct Session {
     source: String,
     /// The file, if it is one.
     path: Option<PathBuf>,
-    allow_outside: bool,
+    options: OpenOptions,
     text: String,
     /// The last good scenario.
     loaded: Loaded,
     params: BTreeMap<String, f64>,
     seed: u64,
     episode: u64,
-    agent: Agent,
+    who: Performer,
+    /// Who plays the same episode beside it.
+    beside: Option<Performer>,
     watcher: Watcher,
-    /// The match that a person plays.
+    /// The match that people play.
     live: Option<LiveMatch>,
     /// The last message of each kind, for pages that come later.
     opened: Arc<str>,
     checked: Arc<str>,
-    played: Option<Arc<str>>,
+    shown: Vec<Arc<str>>,
+    /// The episode that is shown, as a recording.
+    replay: Option<Replay>,
 }
 
 impl Session {
-    /// Opens a scenario by its name in the library or as a file, or a recorded episode.
+    /// Opens a scenario by its name in the library or as a file, or a recorded episode; `beside`:
+    /// a recorded episode that is shown beside it.
     ///
     /// # Errors
     /// Like [`load_with`]; [`Error::Replay`] for a recording that can't be played here.
-    pub fn open(source: &std::ffi::OsStr, allow_outside: bool) -> Result<Session, Error> {
-        let options = LoadOptions { allow_outside, ..LoadOptions::default() };
-        match load_with(source, &options) {
+    pub fn open(
+        source: &OsStr,
+        beside: Option<&OsStr>,
+        options: OpenOptions,
+    ) -> Result<Session, Error> {
+        let loading = LoadOptions {
+            allow_outside: options.allow_outside,
+            regions: true,
+            ..LoadOptions::default()
+        };
+        let mut session = match load_with(source, &loading) {
             Err(Error::File { path, why: FileFault::Packed(Packed::Replay) }) => {
-                let replay = Replay::from_bytes(&read_file(&path, REPLAY_MAX_BYTES)?)?;
-                let film = replayed(&replay)?;
-                let mut session =
-                    Session::new(source, Loaded::without_text(replay.scenario()?), allow_outside);
+                let replay = recording(&path)?;
+                let loaded = Loaded::without_text(replay.scenario()?);
+                let mut session = Session::new(source, loaded, options);
                 (session.seed, session.episode) = (replay.seed, replay.index);
-                session.played = Some(said(&session.episode_of(film, "")));
-                Ok(session)
+                session.shown = vec![said_episode(recorded(&replay, false)?)];
+                session.replay = Some(replay);
+                session
             }
             loaded => {
-                let mut session = Session::new(source, loaded?, allow_outside);
-                session.played = session.play().ok().map(|reply| said(&reply));
-                Ok(session)
+                let mut session = Session::new(source, loaded?, options);
+                // Why it can't be played is reported when a page asks for it.
+                if let Ok(replies) = session.play() {
+                    session.shown = replies;
+                }
+                session
             }
+        };
+        if let Some(beside) = beside {
+            let other = recording(Path::new(beside))?;
+            session.shown.push(said_episode(recorded(&other, true)?));
         }
+        Ok(session)
     }
 
-    fn new(source: &std::ffi::OsStr, loaded: Loaded, allow_outside: bool) -> Session {
+    /// Opens a scenario that is loaded; `name`: how it was asked for.
+    pub fn of(name: &OsStr, loaded: Loaded, options: OpenOptions) -> Session {
+        let mut session = Session::new(name, loaded, options);
+        session.shown = session.play().unwrap_or_default();
+        session
+    }
+
+    fn new(source: &OsStr, loaded: Loaded, mut options: OpenOptions) -> Session {
         // A compiled scenario and a recording have no text to edit.
         let has_text = loaded.sources.iter().next().is_some();
         let path = (has_text && Path::new(source).is_file()).then(|| PathBuf::from(source));
         let text = loaded.sources.iter().next().map_or("", |(_, file)| &*file.text).to_owned();
         let name = source.to_string_lossy().into_owned();
         let watcher = Watcher::new(&loaded.inputs);
+        let params = std::mem::take(&mut options.params);
         let nothing: Arc<str> = Arc::from("");
         let mut session = Session {
             source: name,
             path,
-            allow_outside,
+            options,
             text,
             loaded,
-            params: BTreeMap::new(),
+            params,
             seed: 0,
             episode: 0,
-            agent: Agent::Bot,
+            who: Performer::ReadyMade(Agent::Bot),
+            beside: None,
             watcher,
             live: None,
             opened: nothing.clone(),
             checked: nothing,
-            played: None,
+            shown: Vec::new(),
+            replay: None,
         };
         session.opened = said(&session.opening());
         session.checked = said(&session.checked(&Ok(())));
@@ -132,7 +175,7 @@ impl Session {
         loop {
             match inbox.try_recv() {
                 Ok(Command::Join(answer)) => {
-                    let present = [&self.opened, &self.checked].into_iter().chain(&self.played);
+                    let present = [&self.opened, &self.checked].into_iter().chain(&self.shown);
                     // A page that has gone needs no answer.
                     let _ = answer.send(present.cloned().collect());
                 }
@@ -140,6 +183,7 @@ impl Session {
                 Ok(Command::Nonsense(why)) => {
                     tell(pages, &Reply::Refused { message: format!("not a request: {why}") });
                 }
+                Ok(Command::Watch(replay)) => self.watch(*replay, pages),
                 Err(TryRecvError::Empty) => {
                     self.go_on(pages);
                     if self.watcher.changed(WAIT) {
@@ -152,33 +196,41 @@ impl Session {
     }
 
     fn meet(&mut self, request: Request, pages: &broadcast::Sender<Arc<str>>) {
-        let refuse = |message: String| tell(pages, &Reply::Refused { message });
+        if let Err(message) = self.try_to_meet(request, pages) {
+            tell(pages, &Reply::Refused { message });
+        }
+    }
+
+    fn try_to_meet(
+        &mut self,
+        request: Request,
+        pages: &broadcast::Sender<Arc<str>>,
+    ) -> Result<(), String> {
         match request {
             Request::Text { text } => self.take(text, pages),
-            Request::Save => match &self.path {
-                Some(path) => match write(path, self.text.as_bytes()) {
-                    Ok(()) => tell(pages, &Reply::Saved),
-                    Err(why) => refuse(why.to_string()),
-                },
-                None => refuse(format!("`{}` is a scenario of the library", self.source)),
-            },
-            Request::Play { seed, episode, agent } => match Agent::from_name(&agent) {
-                Some(agent) => {
-                    (self.seed, self.episode, self.agent) = (seed, episode, agent);
-                    self.show(pages);
-                }
-                None => refuse(format!("no agent `{agent}`")),
-            },
-            Request::Begin { side } => match self.begin(team(side)) {
-                Ok(live) => {
-                    tell(pages, &Reply::Step { scenes: live.film.scenes.clone() });
-                    self.live = Some(live);
-                }
-                Err(why) => refuse(why),
-            },
-            Request::Hold { keys } => {
+            Request::Save => {
+                let no_file = || format!("`{}` is a scenario of the library", self.source);
+                let path = self.path.as_ref().ok_or_else(no_file)?;
+                write(path, self.text.as_bytes()).map_err(|why| why.to_string())?;
+                tell(pages, &Reply::Saved);
+            }
+            Request::Play { seed, episode, agent, beside } => {
+                let who = self.find(&agent)?;
+                let beside = beside.map(|name| self.find(&name)).transpose()?;
+                (self.seed, self.episode, self.who, self.beside) = (seed, episode, who, beside);
+                self.show(pages);
+            }
+            Request::Begin { seats } => {
+                let stage = self.stage(&self.who)?;
+                let environment = stage.environment()?;
+                let key = (self.seed, self.episode);
+                let live = LiveMatch::begin(environment, key, stage.player, &seats)?;
+                tell(pages, &Reply::Step { scenes: live.film.scenes.clone() });
+                self.live = Some(live);
+            }
+            Request::Hold { seat, keys } => {
                 if let Some(live) = &mut self.live {
-                    live.hold(keys);
+                    live.hold(seat, keys);
                 }
             }
             Request::Stop => self.end(pages),
@@ -188,32 +240,99 @@ impl Session {
                 let _ = pages.send(self.checked.clone());
                 self.show(pages);
             }
-            Request::Move { player, to } => match self.dragged(player, to) {
-                Ok(text) => {
-                    self.take(text, pages);
-                    let _ = pages.send(self.opened.clone());
+            Request::Move { player, to } => {
+                let text = self.dragged(player, to)?;
+                self.take(text, pages);
+                let _ = pages.send(self.opened.clone());
+            }
+            Request::Cloud { count } => {
+                let starts = self.stage(&self.who)?.cloud(self.seed, count.min(DRAWS_MAX))?;
+                tell(pages, &Reply::Cloud { starts });
+            }
+            Request::Summary { episodes } => {
+                let episodes = episodes.min(EPISODES_MAX);
+                let summary = self.stage(&self.who)?.summary(self.seed, episodes)?;
+                tell(pages, &Reply::Summary(summary));
+            }
+            Request::Record => {
+                let replay = self.replay.as_ref().ok_or("there is no episode to hand over")?;
+                let bytes = replay.to_bytes().map_err(|why| why.to_string())?;
+                let name = &self.loaded.scenario.name;
+                let name = format!("{name}_{}_{}.pitchr", replay.seed, replay.index);
+                let mut hex = String::with_capacity(2 * bytes.len());
+                for byte in bytes {
+                    let _ = write!(hex, "{byte:02x}");
                 }
-                Err(why) => refuse(why),
-            },
-            Request::Cloud { count } => match self.cloud(count.min(DRAWS_MAX)) {
-                Ok(reply) => tell(pages, &reply),
-                Err(why) => refuse(why.to_string()),
-            },
-            Request::Summary { episodes } => match self.summary(episodes.min(EPISODES_MAX)) {
-                Ok(reply) => tell(pages, &reply),
-                Err(why) => refuse(why.to_string()),
-            },
+                tell(pages, &Reply::Recording { name, hex });
+            }
+        }
+        Ok(())
+    }
+
+    /// Who has a name: a ready-made agent, a policy from outside, or a behaviour of the text.
+    fn find(&self, name: &str) -> Result<Performer, String> {
+        if let Some(agent) = Agent::from_name(name) {
+            return Ok(Performer::ReadyMade(agent));
+        }
+        if self.guests().iter().any(|guest| guest == name) {
+            return Ok(Performer::Guest(name.to_owned()));
+        }
+        if self.loaded.behaviors.iter().any(|behavior| behavior == name) {
+            return Ok(Performer::Behavior(name.to_owned()));
+        }
+        Err(format!("nobody is called `{name}`"))
+    }
+
+    fn guests(&self) -> Vec<String> {
+        self.options.guests.as_ref().map(|guests| guests.names()).unwrap_or_default()
+    }
+
+    /// The scenario with its parameters, played by somebody.
+    fn stage(&self, who: &Performer) -> Result<StudioStage, String> {
+        let bot = || ActingPolicy::ReadyMade(ReadyMade::new(Agent::Bot));
+        let mut scenario = self.loaded.scenario.clone();
+        let player = match who {
+            Performer::ReadyMade(agent) => ActingPolicy::ReadyMade(ReadyMade::new(*agent)),
+            Performer::Guest(name) => {
+                let policy = self.options.guests.as_ref().and_then(|guests| guests.policy(name));
+                ActingPolicy::Guest(policy.ok_or_else(|| format!("`{name}` has gone"))?)
+            }
+            Performer::Behavior(name) => {
+                // The bot hands over to the behaviour of the player.
+                let cast = [Team::Left, Team::Right]
+                    .map(|team| Cast { target: CastTarget::Team(team), ai: name.clone() });
+                let options = LoadOptions { cast: &cast, ..self.loading() };
+                let (_, main) = self.loaded.sources.iter().next().ok_or("there is no text")?;
+                let cast = compile_text_with(&main.text, &main.name, &options);
+                scenario = cast.map_err(|why| why.to_string())?.scenario;
+                bot()
+            }
+        };
+        let who = who.name().to_owned();
+        Ok(StudioStage { scenario, options: self.environment(), player, who })
+    }
+
+    fn loading(&self) -> LoadOptions<'static> {
+        let allow_outside = self.options.allow_outside;
+        LoadOptions { allow_outside, regions: true, ..LoadOptions::default() }
+    }
+
+    /// Shows an episode of another program.
+    fn watch(&mut self, replay: Replay, pages: &broadcast::Sender<Arc<str>>) {
+        if self.live.is_some() {
+            return;
+        }
+        match recorded(&replay, false) {
+            Ok(episode) => {
+                self.shown = vec![said_episode(Episode { watched: true, ..episode })];
+                self.replay = Some(replay);
+                send_all(pages, &self.shown);
+            }
+            Err(why) => tell(pages, &Reply::Refused { message: why.to_string() }),
         }
     }
 
-    fn begin(&self, side: crate::scenario::Team) -> Result<LiveMatch, String> {
-        let environment = Environment::new(self.loaded.scenario.clone(), self.environment())
-            .map_err(|why| Error::Environment(why).to_string())?;
-        let policy = ReadyMade::new(self.agent);
-        LiveMatch::begin(environment, (self.seed, self.episode), policy, side)
-    }
-
-    /// Plays the next step of a person's match when it is due.
+    /// Plays the next step of a match by hand when it is due.
     fn go_on(&mut self, pages: &broadcast::Sender<Arc<str>>) {
         let Some(live) = self.live.as_mut().filter(|live| live.is_due()) else { return };
         let before = live.film.scenes.len();
@@ -223,19 +342,20 @@ impl Session {
         match played {
             Ok(true) if live.film.length() < STEPS_MAX => {}
             Ok(_) => self.end(pages),
-            Err(why) => {
+            Err(message) => {
                 self.live = None;
-                tell(pages, &Reply::Refused { message: why.to_string() });
+                tell(pages, &Reply::Refused { message });
             }
         }
     }
 
-    /// Ends a person's match: from now on it can be watched like any other.
+    /// Ends a match by hand: from now on it can be watched like any other.
     fn end(&mut self, pages: &broadcast::Sender<Arc<str>>) {
         let Some(live) = self.live.take() else { return };
-        let played = said(&self.episode_of(live.film, "you"));
-        let _ = pages.send(played.clone());
-        self.played = Some(played);
+        self.replay = live.replay();
+        let episode = episode_of(live.film, (self.seed, self.episode), "you");
+        self.shown = vec![said_episode(episode)];
+        send_all(pages, &self.shown);
     }
 
     /// Reads the file again.
@@ -255,7 +375,7 @@ impl Session {
     /// Takes another text: checks it, and plays it if it is sound. Otherwise the last good one
     /// stays.
     fn take(&mut self, text: String, pages: &broadcast::Sender<Arc<str>>) {
-        let options = LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() };
+        let options = self.loading();
         let name = self
             .path
             .as_deref()
@@ -306,13 +426,38 @@ impl Session {
     /// Plays the episode and shows it.
     fn show(&mut self, pages: &broadcast::Sender<Arc<str>>) {
         match self.play() {
-            Ok(reply) => {
-                let played = said(&reply);
-                let _ = pages.send(played.clone());
-                self.played = Some(played);
+            Ok(replies) => {
+                self.shown = replies;
+                send_all(pages, &self.shown);
             }
-            Err(why) => tell(pages, &Reply::Refused { message: why.to_string() }),
+            Err(message) => {
+                // What stands around a start also says why there is none.
+                if let Ok(sketch) = self.sketch() {
+                    let _ = pages.send(sketch);
+                }
+                tell(pages, &Reply::Refused { message });
+            }
         }
+    }
+
+    /// Plays the episode: what pages get.
+    fn play(&mut self) -> Result<Vec<Arc<str>>, String> {
+        let key = (self.seed, self.episode);
+        let (film, replay) = self.stage(&self.who)?.film(key)?;
+        let mut episodes = vec![episode_of(film, key, self.who.name())];
+        if let Some(beside) = &self.beside {
+            let (film, _) = self.stage(beside)?.film(key)?;
+            episodes.push(Episode { beside: true, ..episode_of(film, key, beside.name()) });
+        }
+        self.replay = replay;
+        let mut replies: Vec<Arc<str>> = episodes.into_iter().map(said_episode).collect();
+        replies.push(self.sketch()?);
+        Ok(replies)
+    }
+
+    fn sketch(&self) -> Result<Arc<str>, String> {
+        let stage = self.stage(&Performer::ReadyMade(Agent::Idle))?;
+        Ok(said(&Reply::Sketch(stage.sketch(&self.loaded, (self.seed, self.episode))?)))
     }
 
     fn opening(&self) -> Reply {
@@ -320,7 +465,6 @@ impl Session {
             source: self.source.clone(),
             is_file: self.path.is_some(),
             text: self.text.clone(),
-            agents: Agent::NAMED.iter().map(|(name, _)| *name).collect(),
         })
     }
 
@@ -354,7 +498,25 @@ impl Session {
             name: scenario.name.clone(),
             title: scenario.title().to_owned(),
             params: params.collect(),
+            agents: self.seats(),
+            players: self.players(),
         })
+    }
+
+    /// Who can play: ready-made agents, policies from outside, behaviours of the text.
+    fn players(&self) -> Vec<String> {
+        let ready_made = Agent::NAMED.iter().map(|(name, _)| (*name).to_owned());
+        ready_made.chain(self.guests()).chain(self.loaded.behaviors.iter().cloned()).collect()
+    }
+
+    /// The agents that people can play.
+    fn seats(&self) -> Vec<SeatReply> {
+        let Ok(environment) = Environment::new(self.loaded.scenario.clone(), self.environment())
+        else {
+            return Vec::new();
+        };
+        let agents = environment.agent_ids().iter().zip(&environment.roster().agents);
+        agents.map(|(id, (team, _))| SeatReply { id: id.clone(), team: team.name() }).collect()
     }
 
     /// The parameters' values: those that were set, within their ranges.
@@ -373,84 +535,28 @@ impl Session {
     fn environment(&self) -> EnvironmentOptions {
         EnvironmentOptions { bindings: Some(self.bindings()), ..EnvironmentOptions::default() }
     }
+}
 
-    fn play(&self) -> Result<Reply, Error> {
-        let scenario = &self.loaded.scenario;
-        let is_endless = scenario.endings.list.is_empty() && scenario.start.limit.is_none();
-        let options = FilmOptions {
-            seed: self.seed,
-            episode: self.episode,
-            agent: self.agent,
-            environment: self.environment(),
-            until_step: is_endless.then_some(STEPS_MAX),
-        };
-        let agent = Agent::NAMED.iter().find(|(_, agent)| *agent == self.agent);
-        let film = film(scenario, &options)?;
-        Ok(self.episode_of(film, agent.map_or("", |(name, _)| name)))
-    }
+/// A recorded episode, as pages get it.
+fn recorded(replay: &Replay, beside: bool) -> Result<Episode, Error> {
+    let episode = episode_of(replayed(replay)?, (replay.seed, replay.index), "");
+    Ok(Episode { beside, ..episode })
+}
 
-    fn episode_of(&self, film: Film, agent: &'static str) -> Reply {
-        let events = film.events.iter().map(|(at, event)| happened(&film, *at, event)).collect();
-        let verdict = film.outcome.as_ref().and_then(|outcome| outcome.verdict);
-        Reply::Episode(Box::new(Episode {
-            seed: self.seed,
-            episode: self.episode,
-            agent,
-            names: film.names.to_vec(),
-            events,
-            outcome: film.outcome.as_ref().map(|outcome| outcome.label.to_string()),
-            success: verdict.map(|verdict| verdict == Verdict::Success),
-            scenes: film.scenes,
-        }))
-    }
+/// Reads a recorded episode.
+fn recording(path: &Path) -> Result<Replay, Error> {
+    Replay::from_bytes(&read_file(path, REPLAY_MAX_BYTES)?)
+}
 
-    fn cloud(&self, count: u32) -> Result<Reply, Error> {
-        let mut environment = Environment::new(self.loaded.scenario.clone(), self.environment())
-            .map_err(Error::Environment)?;
-        let (mut starts, mut scene) = (Vec::new(), Scene::default());
-        for episode in 0..u64::from(count) {
-            environment
-                .reset(Some(self.seed), Some(episode))
-                .map_err(|why| Error::Episode(Box::new(why.into())))?;
-            of_match(environment.state(), &mut scene);
-            let [x, y, _] = scene.ball.pos;
-            let players = scene.players.iter().map(|player| player.pos);
-            starts.push(std::iter::once([x, y]).chain(players).collect());
-        }
-        Ok(Reply::Cloud { starts })
-    }
-
-    fn summary(&self, episodes: u32) -> Result<Reply, Error> {
-        let options = RunOptions {
-            episodes: 0..u64::from(episodes),
-            seed: self.seed,
-            agent: self.agent,
-            threads: 1,
-            environment: self.environment(),
-        };
-        let summary = run(&self.loaded.scenario, &options, |_| {})?;
-        Ok(Reply::Summary(SummaryReply {
-            episodes,
-            outcomes: summary.outcomes.into_iter().map(|(name, _, count)| (name, count)).collect(),
-            mean_return: summary.mean_return,
-            score: summary.score,
-            terms: summary.terms,
-            records: summary.records,
-        }))
+fn send_all(pages: &broadcast::Sender<Arc<str>>, messages: &[Arc<str>]) {
+    for message in messages {
+        // Without a page there is nobody to tell.
+        let _ = pages.send(message.clone());
     }
 }
 
-fn happened(film: &Film, at: usize, event: &crate::engine::state::event::Event) -> Happened {
-    let name = match event.qualifier {
-        Some(qualifier) => format!("{} {}", event.kind.name(), qualifier.name()),
-        None => event.kind.name().to_owned(),
-    };
-    Happened {
-        at,
-        name,
-        by: event.by.and_then(|by| film.names.get(by.index()).cloned()),
-        team: event.team.or_else(|| event.by.map(PlayerId::team)).map(crate::scenario::Team::name),
-    }
+fn said_episode(episode: Episode) -> Arc<str> {
+    said(&Reply::Episode(Box::new(episode)))
 }
 
 fn said(reply: &Reply) -> Arc<str> {

@@ -9,7 +9,7 @@ use crate::problem::facts::{Kind, Names, Operand, Scopes, Types, Verb};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::vocabulary::{Field, GameMode};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
-use std::rc::Rc;
+use std::sync::Arc;
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn unary(&mut self, op: ast::PrefixOp, inner: &'w Expr) -> Value<'w> {
@@ -68,7 +68,7 @@ impl<'w> Lower<'_, 'w> {
                 } else {
                     RegionValue::Intersection(x, y)
                 };
-                Value { ty: Ty::Region, repr: Repr::Region(Rc::new(value)) }
+                Value { ty: Ty::Region, repr: Repr::Region(Arc::new(value)) }
             }
         }
     }
@@ -138,7 +138,7 @@ impl<'w> Lower<'_, 'w> {
             };
             return Value {
                 ty: Ty::Region,
-                repr: Repr::Region(Rc::new(RegionValue::Difference(p, q))),
+                repr: Repr::Region(Arc::new(RegionValue::Difference(p, q))),
             };
         }
         let offset = |value: &Value<'w>, expr: &Expr| {

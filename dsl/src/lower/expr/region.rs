@@ -2,33 +2,62 @@
 
 use super::super::Lower;
 use super::super::mirror::Mirror;
-use super::super::value::{RegionValue, Repr, Value};
-use crate::ast::{Arg, Expr, Span};
+use super::super::value::{LiteralFrame, RegionValue, Repr, Scope, Value};
+use crate::ast::{Arg, Expr, ItemKind, Span};
 use crate::check::types::Ty;
+use crate::origins::RegionOrigin;
 use crate::problem::facts::{Calls, Kind, Names};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::CIRCLE_RADIUS_M;
 use setpiece_scenario::vocabulary::{Function, PitchRegion, RegionName, RegionShape};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 use std::f64::consts::TAU;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Most corners of a polygon.
 const CORNERS_MAX: usize = 64;
 
 impl<'w> Lower<'_, 'w> {
     /// Lowers a region; `None` after a report.
-    pub(crate) fn region(&mut self, expr: &'w Expr) -> Option<Rc<RegionValue>> {
+    pub(crate) fn region(&mut self, expr: &'w Expr) -> Option<Arc<RegionValue>> {
         let value = self.expr(expr);
         self.as_region(value, expr)
     }
 
     /// The region that a value is.
-    pub(crate) fn as_region(&mut self, value: Value<'w>, expr: &Expr) -> Option<Rc<RegionValue>> {
+    pub(crate) fn as_region(&mut self, value: Value<'w>, expr: &Expr) -> Option<Arc<RegionValue>> {
         match self.convert(value, Ty::Region, expr).repr {
             Repr::Region(region) => Some(region),
             _ => None,
         }
+    }
+
+    /// The scenario's and the root file's regions that have a name and no parameters, as far as
+    /// they are known at the start.
+    pub(crate) fn named_regions(&mut self) -> Vec<RegionOrigin> {
+        let world = self.world;
+        let own = world.flat.regions.iter().map(|region| (*region, true));
+        let root = world.library.files.first().map_or(&[][..], |file| &file.items);
+        let items = root.iter().filter_map(|item| match &item.kind {
+            ItemKind::Region(region) => Some((region, false)),
+            _ => None,
+        });
+        let mut found = Vec::new();
+        for (region, sees_scenario) in own.chain(items) {
+            if !region.params.is_empty() {
+                continue;
+            }
+            let (used, problems) = (world.used.borrow().clone(), world.found());
+            let scope = Scope::new(sees_scenario, LiteralFrame::World);
+            let shape =
+                world.tentatively(|| self.within(scope, |lower| lower.region(&region.body)));
+            // Drawing a region is no use of it.
+            *world.used.borrow_mut() = used;
+            if let Some(shape) = shape.filter(|_| world.found() == problems) {
+                found.push(RegionOrigin { span: region.name.span, shape: (*shape).clone() });
+            }
+        }
+        found
     }
 
     /// A region that belongs to no team.
@@ -63,7 +92,7 @@ impl<'w> Lower<'_, 'w> {
             RegionShape::DiscWithout((x, y, radius), rect) => {
                 let centre = (self.code.constant(x), self.code.constant(y));
                 let disc = RegionValue::Circle(centre, self.code.constant(radius));
-                RegionValue::Difference(Rc::new(disc), Rc::new(self.constant_rect(rect)))
+                RegionValue::Difference(Arc::new(disc), Arc::new(self.constant_rect(rect)))
             }
         };
         value(self.at_side(&left, side))
@@ -77,7 +106,7 @@ impl<'w> Lower<'_, 'w> {
             RegionValue::Circle(centre, radius) => RegionValue::Circle(turn(*centre), *radius),
             RegionValue::Difference(a, b) => {
                 let (a, b) = (self.at_side(a, side), self.at_side(b, side));
-                RegionValue::Difference(Rc::new(a), Rc::new(b))
+                RegionValue::Difference(Arc::new(a), Arc::new(b))
             }
             other => other.clone(),
         }
@@ -252,5 +281,5 @@ impl<'w> Lower<'_, 'w> {
 }
 
 fn value<'w>(region: RegionValue) -> Value<'w> {
-    Value { ty: Ty::Region, repr: Repr::Region(Rc::new(region)) }
+    Value { ty: Ty::Region, repr: Repr::Region(Arc::new(region)) }
 }

@@ -10,6 +10,7 @@ use super::super::value::RegionValue;
 use crate::ast::Span;
 use crate::lower::interval::Interval;
 use crate::lower::triangles::{is_flat, triangulate};
+use crate::origins::RegionOrigin;
 use crate::problem::Problem;
 use crate::problem::facts::{Chance, Implied};
 use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
@@ -33,6 +34,9 @@ impl Lower<'_, '_> {
             let text = self.world.text(span);
             self.report(Problem::new(span, Chance::EmptyRegion { text }));
             return None;
+        }
+        if let Some(start) = self.start_mut() {
+            start.drawn_in.push(RegionOrigin { span, shape: region.clone() });
         }
         let first = self.candidate(region, span)?;
         let Some(mut accepted) = first.accepted else { return Some(first.place) };

@@ -6,7 +6,7 @@ use setpiece_scenario::{
     Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, RuleSetting,
     SideAgents, Start,
 };
-use std::rc::Rc;
+use std::sync::Arc;
 
 impl<'w> Value<'w> {
     /// The same value in other registers.
@@ -19,7 +19,7 @@ impl<'w> Value<'w> {
             Repr::Set(set) => {
                 Repr::Set(SetValue { team: f(set.team), except: set.except.map(&mut *f) })
             }
-            Repr::Region(value) => Repr::Region(Rc::new(value.map(f))),
+            Repr::Region(value) => Repr::Region(Arc::new(value.map(f))),
             Repr::List(list) => Repr::List(list.iter().map(|value| value.map(f)).collect()),
             Repr::Nothing | Repr::Text(_) | Repr::Formation(_) => self.repr.clone(),
         };

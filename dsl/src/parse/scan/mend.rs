@@ -1,7 +1,7 @@
 //! Brackets that are not closed, or closed by another's: reported, and mended in the copy that is
 //! parsed.
 
-use super::{Chain, Scanner, Skip};
+use super::{Chain, LineBraces, Scanner, Skip};
 use crate::parse::recover::Context;
 use crate::parse::{MAX_PROBLEMS, span};
 use crate::problem::Problem;
@@ -15,17 +15,13 @@ impl Scanner<'_> {
             return false;
         };
         let (last_byte, last_at, last_indent) = (last.byte, last.at, last.indent);
-        let here = |open: &&super::Open| open.byte == b'{' && open.at >= self.line_from;
         match (byte, last_byte) {
             // The braces that this line opened are all that it may close.
             (b'}', b'(' | b'[') => {
-                let line =
-                    self.bytes.get(at..).unwrap_or_default().split(|byte| *byte == b'\n').next();
-                let line = line.unwrap_or_default();
-                let closed = line.split(|byte| *byte == b'}').count() - 1;
+                let closed = self.braces_from(at);
+                let here = |open: &&super::Open| open.byte == b'{' && open.at >= self.line_from;
                 let opened = self.open.iter().filter(here).count();
-                let wrong = last_at >= self.line_from && closed > opened && !self.line_start;
-                self.spend(line.len()) && wrong
+                last_at >= self.line_from && closed > opened && !self.line_start
             }
             (b'}', _) => false,
             (_, b'{') => self.line_start && last_indent == self.indent,
@@ -34,6 +30,22 @@ impl Scanner<'_> {
                 matching.is_none_or(|index| block.is_some_and(|block| index < block))
             }
         }
+    }
+
+    /// How many `}` stand on this line from here on. Each line is counted once.
+    fn braces_from(&mut self, at: usize) -> usize {
+        let braces = |bytes: &[u8]| bytes.split(|byte| *byte == b'}').count() - 1;
+        let known = self.braces.take().filter(|known| known.from <= at && at < known.end);
+        let (end, left) = if let Some(known) = known {
+            let passed = self.bytes.get(known.from..at).map_or(0, braces);
+            (known.end, known.left.saturating_sub(passed))
+        } else {
+            let rest = self.bytes.get(at..).unwrap_or_default();
+            let line = rest.split(|byte| *byte == b'\n').next().unwrap_or_default();
+            (at + line.len(), braces(line))
+        };
+        self.braces = Some(LineBraces { from: at, end, left });
+        left
     }
 
     /// Reports and mends a bracket that closes another.

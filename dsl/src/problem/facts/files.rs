@@ -26,6 +26,10 @@ facts! {
         /// More scripts than a compilation reads.
         TooManyScripts { limit: ScriptLimit } = Code::TooMuch =>
             say(limit.words(), "one too many").help("join some of the scripts: a file may hold several hooks"),
+        /// A script that is longer than one may be.
+        LongScript { most: usize } = Code::TooMuch =>
+            say(format!("this script is larger than {} KiB", most >> 10), "too long")
+                .help("divide it: each hook may have a file of its own"),
         /// What the engine says of a script, in its words.
         Script { code: Code, message: String, help: Option<String> } = *code => {
             let said = say(message.as_str(), "");
@@ -68,7 +72,7 @@ impl ImportLimit {
 pub(crate) enum ScriptLimit {
     /// Files.
     Files(usize),
-    /// Bytes of all files.
+    /// Bytes of all, each as often as it is used.
     Bytes(usize),
 }
 
@@ -77,7 +81,7 @@ impl ScriptLimit {
         match self {
             ScriptLimit::Files(most) => format!("more than {most} script files are named"),
             ScriptLimit::Bytes(most) => {
-                format!("script files are larger than {} MiB together", most >> 20)
+                format!("the scripts are larger than {} MiB together", most >> 20)
             }
         }
     }

@@ -8,11 +8,13 @@
 
 mod class;
 mod copies;
+mod edits;
 mod natives;
 mod scan;
 mod size;
 
-pub(super) use copies::{Edits, count_copies};
+pub(super) use copies::count_copies;
+pub(super) use edits::Edits;
 pub(super) use natives::register as register_natives;
 pub(super) use size::bytes_of;
 

@@ -338,7 +338,7 @@ impl<'a> Classes<'a> {
                     let of = class;
                     class = self.step(of, link);
                     match link {
-                        Link::Method(call) => {
+                        Link::Method(call, _) => {
                             self.arguments(at, call);
                             let of_players =
                                 of == Class::Squad && EACH.contains(&call.name.as_str());
@@ -476,8 +476,8 @@ impl<'a> Classes<'a> {
             Link::Index(..) if of == Class::Any => Class::Any,
             Link::Index(..) => Class::Short,
             // A map may hold a function of any name.
-            Link::Method(_) if self.has_closures && of == Class::Any => Class::Any,
-            Link::Method(call) => self.named_class(&call.name, call.args.len()),
+            Link::Method(..) if self.has_closures && of == Class::Any => Class::Any,
+            Link::Method(call, _) => self.named_class(&call.name, call.args.len()),
         }
     }
 
@@ -542,7 +542,8 @@ fn gives(name: &str) -> Option<Subject> {
 /// A link of a chain.
 pub(super) enum Link<'a> {
     Property(&'a str),
-    Method(&'a FnCallExpr),
+    /// With the position of its name.
+    Method(&'a FnCallExpr, Position),
     /// With the position of its bracket.
     Index(&'a Expr, Position),
 }
@@ -572,7 +573,7 @@ pub(super) fn links(expr: &Expr) -> (&Expr, Vec<Link<'_>>) {
         };
         links.push(match step {
             Expr::Property(property, _) if !indexes => Link::Property(property.2.as_str()),
-            Expr::MethodCall(call, _) if !indexes => Link::Method(call),
+            Expr::MethodCall(call, position) if !indexes => Link::Method(call, *position),
             index => Link::Index(index, *position),
         });
     }

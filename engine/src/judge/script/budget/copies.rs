@@ -11,6 +11,7 @@
 
 use super::super::host;
 use super::class::{ANONYMOUS, Class, Classes, Link, Pointers, ScriptFunction, closure, links};
+use super::edits::Edits;
 use super::scan::{closing_bracket, expression_end};
 use super::{CAUGHT_OPERATIONS, CAUGHT_WAITING_OPERATIONS, COUNTED, WORKED};
 use rhai::{AST, ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
@@ -35,26 +36,10 @@ const STORE_NODES: usize = 128;
 const ARITHMETIC: &[&str] = &["+", "-", "*", "/", "%", "**"];
 
 /// Functions that copy their arguments and that Rhai implements without a native function.
-const COPYING: &[&str] = &["call", "curry", "Fn", "is_shared", "type_of"];
+const COPYING: &[&str] = &["call", CURRY, "Fn", "is_shared", "type_of"];
 
-/// Where a text differs from the author's.
-#[derive(Debug, Default)]
-pub(in super::super) struct Edits {
-    /// Line, column in the new text, and characters; in order.
-    written: Vec<(usize, usize, usize)>,
-}
-
-impl Edits {
-    /// Maps a place in the text to the author's text.
-    pub(in super::super) fn original(&self, (line, column): (usize, usize)) -> (usize, usize) {
-        let first = self.written.partition_point(|written| written.0 < line);
-        let before = self.written[first..]
-            .iter()
-            .take_while(|written| written.0 == line && written.1 < column);
-        let shift: usize = before.map(|&(_, at, length)| length.min(column - at)).sum();
-        (line, column - shift)
-    }
-}
+/// Binds an argument of a function.
+const CURRY: &str = "curry";
 
 /// Inserts counting calls into a script's text.
 ///
@@ -382,6 +367,17 @@ impl CopyWriter<'_> {
         }
     }
 
+    /// Counts a chain up to a call of `curry`, which copies what the function has captured.
+    fn curried(&mut self, root: &Expr, name: Position) {
+        let begins = self.offset(root.position());
+        let Some(name) = self.offset_of(name, CURRY) else { return };
+        let open = self.source.get(name..).and_then(|rest| rest.find('(')).map(|at| name + at);
+        let close = open.and_then(|open| closing_bracket(self.source, open));
+        if let (Some(begins), Some(close)) = (begins, close) {
+            self.count(begins, close + 1);
+        }
+    }
+
     /// Handles a chain that ends in a part of a list or map.
     fn chain_value(&mut self, expr: &Expr) {
         let (root, _) = links(expr);
@@ -448,7 +444,12 @@ impl CopyWriter<'_> {
                     match step {
                         Link::Property(_) => {}
                         Link::Index(index, _) => self.value(index),
-                        Link::Method(call) => self.arguments(call, 0),
+                        Link::Method(call, name) => {
+                            if call.name == CURRY {
+                                self.curried(root, name);
+                            }
+                            self.arguments(call, 0);
+                        }
                     }
                 }
             }
@@ -475,7 +476,7 @@ impl CopyWriter<'_> {
         } else {
             // Rhai's functions may change their first argument in place.
             if let Some(first) = call.args.first() {
-                if call.name == "type_of" {
+                if [CURRY, "type_of"].contains(&call.name.as_str()) {
                     self.value(first);
                 } else {
                     self.inside_or_closure(first);
@@ -561,7 +562,7 @@ impl CopyWriter<'_> {
                 for step in &steps {
                     nodes += match step {
                         Link::Property(_) => 1,
-                        Link::Method(call) => all(&call.args),
+                        Link::Method(call, _) => all(&call.args),
                         Link::Index(index, _) if class == Class::Short => self.nodes(index),
                         Link::Index(index, _) => INDEX_NODES + self.nodes(index),
                     };
@@ -589,7 +590,7 @@ impl CopyWriter<'_> {
             };
             text.push_str(between);
             copied = *at;
-            edits.written.push((line, column, words.len()));
+            edits.write((line, column), words.len());
             text.push_str(words);
             column += words.len();
         }

@@ -99,6 +99,16 @@ fn copies_are_counted() {
     ));
     endless(&format!("let n = 0; loop {{ {} }}", "n = n + 1 - 1; ".repeat(2000)));
     endless(&format!("{LIST}deep(a, 20)"));
+    for captured in ["1", "s", "now"] {
+        endless(&format!("{TEXT}let f = |x| x; loop {{ f = f.curry({captured}); }}"));
+        endless(&format!("{TEXT}let f = |x| x; loop {{ f = curry(f, {captured}); }}"));
+        endless(&format!(
+            "{TEXT}let f = |x| x; loop {{ this.f = f; f = this.f.curry({captured}).curry(1); }}"
+        ));
+        endless(&format!(
+            "{TEXT}let f = |x| x; for i in 0..2000 {{ f = f.curry({captured}); }} loop {{ f.curry(1).is_shared(); }}"
+        ));
+    }
 }
 
 #[test]

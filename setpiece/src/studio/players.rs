@@ -1,0 +1,79 @@
+//! Who plays the agents: a ready-made agent, a behaviour of the text, or a policy from outside.
+
+use crate::engine::batch::{Policy, ReadyMade};
+use crate::engine::control::agents::Agent;
+use crate::engine::environment::Environment;
+use crate::scenario::Action;
+
+/// A policy of the program that has started the studio.
+pub trait Guest: Policy {
+    /// Why it failed since it was last asked; none if it didn't.
+    fn fault(&mut self) -> Option<String>;
+}
+
+/// The policies of the program that has started the studio.
+pub trait Guests: Send {
+    /// Their names.
+    fn names(&self) -> Vec<String>;
+
+    /// A policy by its name, to play episodes.
+    fn policy(&self, name: &str) -> Option<Box<dyn Guest + Send>>;
+}
+
+/// Who can play the agents.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Performer {
+    /// A ready-made agent.
+    ReadyMade(Agent),
+    /// A behaviour of the text, by its name.
+    Behavior(String),
+    /// A policy from outside, by its name.
+    Guest(String),
+}
+
+impl Performer {
+    /// How pages call it.
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Performer::ReadyMade(agent) => {
+                let named = Agent::NAMED.iter().find(|(_, known)| known == agent);
+                named.map_or("", |(name, _)| name)
+            }
+            Performer::Behavior(name) | Performer::Guest(name) => name,
+        }
+    }
+}
+
+/// What chooses the agents' actions.
+pub(super) enum ActingPolicy {
+    /// A ready-made agent.
+    ReadyMade(ReadyMade),
+    /// A policy from outside.
+    Guest(Box<dyn Guest + Send>),
+}
+
+impl ActingPolicy {
+    /// Why a policy from outside failed.
+    pub(super) fn fault(&mut self) -> Option<String> {
+        match self {
+            ActingPolicy::ReadyMade(_) => None,
+            ActingPolicy::Guest(guest) => guest.fault(),
+        }
+    }
+}
+
+impl Policy for ActingPolicy {
+    fn begin(&mut self, environment: &Environment) {
+        match self {
+            ActingPolicy::ReadyMade(agent) => agent.begin(environment),
+            ActingPolicy::Guest(guest) => guest.begin(environment),
+        }
+    }
+
+    fn act(&mut self, environment: &Environment, agent: usize) -> Action {
+        match self {
+            ActingPolicy::ReadyMade(ready_made) => ready_made.act(environment, agent),
+            ActingPolicy::Guest(guest) => guest.act(environment, agent),
+        }
+    }
+}

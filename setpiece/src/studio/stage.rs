@@ -1,0 +1,199 @@
+//! A scenario with its parameters and who plays it: what is shown of it.
+
+use super::message::{Episode, Happened, RegionReply, RequireReply, SketchReply, SummaryReply};
+use super::players::ActingPolicy;
+use crate::engine::batch::{EpisodeError, run_episode};
+use crate::engine::control::agents::Agent;
+use crate::engine::draw::Drawer;
+use crate::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use crate::engine::state::PlayerId;
+use crate::engine::state::event::Event;
+use crate::film::{Film, FilmOptions, film_of};
+use crate::render::Scene;
+use crate::replay::Replay;
+use crate::run::summarise;
+use crate::scenario::{Scenario, Team, Verdict};
+use crate::scene::of_match;
+use crate::{Error, Loaded};
+use std::sync::Arc;
+
+/// An episode without an end is shown up to here.
+pub(super) const STEPS_MAX: u32 = 3_000;
+/// The attempts at a start that show how often each requirement refuses one.
+const ATTEMPTS: u32 = 300;
+
+/// A scenario, its parameters and its player.
+pub(super) struct StudioStage {
+    pub(super) scenario: Arc<Scenario>,
+    pub(super) options: EnvironmentOptions,
+    pub(super) player: ActingPolicy,
+    /// How pages call the player.
+    pub(super) who: String,
+}
+
+fn fault(why: impl Into<EpisodeError>) -> String {
+    Error::Episode(Box::new(why.into())).to_string()
+}
+
+impl StudioStage {
+    /// Its environment, before an episode.
+    ///
+    /// # Errors
+    /// A sentence, if the parameters don't fit.
+    pub(super) fn environment(&self) -> Result<Environment, String> {
+        Environment::new(self.scenario.clone(), self.options.clone())
+            .map_err(|why| Error::Environment(why).to_string())
+    }
+
+    /// Plays an episode.
+    ///
+    /// # Errors
+    /// A sentence, if it has no start, or a script or a policy fails.
+    pub(super) fn film(
+        &mut self,
+        (seed, episode): (u64, u64),
+    ) -> Result<(Film, Option<Replay>), String> {
+        let start = &self.scenario.start;
+        let is_endless = self.scenario.endings.list.is_empty() && start.limit.is_none();
+        let options = FilmOptions {
+            seed,
+            episode,
+            agent: Agent::Idle,
+            environment: self.options.clone(),
+            until_step: is_endless.then_some(STEPS_MAX),
+        };
+        let played = film_of(&self.scenario, &options, &mut self.player, Some(&self.who))
+            .map_err(|why| why.to_string())?;
+        self.check()?;
+        Ok(played)
+    }
+
+    /// Plays many episodes.
+    ///
+    /// # Errors
+    /// Like [`StudioStage::film`]; an episode without a start counts as an outcome.
+    pub(super) fn summary(&mut self, seed: u64, episodes: u32) -> Result<SummaryReply, String> {
+        if self.scenario.endings.list.is_empty() && self.scenario.start.limit.is_none() {
+            return Err(fault(EpisodeError::Endless(0)));
+        }
+        let (mut environment, mut scratch) = (self.environment()?, Scratch::default());
+        let mut played = Vec::new();
+        for index in 0..u64::from(episodes) {
+            let player = &mut self.player;
+            played.push(run_episode(&mut environment, seed, index, player, &mut scratch));
+            self.check()?;
+        }
+        let summary = summarise(played, environment.term_names(), 0.0);
+        Ok(SummaryReply {
+            episodes,
+            outcomes: summary.outcomes.into_iter().map(|(name, _, count)| (name, count)).collect(),
+            mean_return: summary.mean_return,
+            score: summary.score,
+            terms: summary.terms,
+            records: summary.records,
+        })
+    }
+
+    fn check(&mut self) -> Result<(), String> {
+        match self.player.fault() {
+            Some(why) => Err(format!("`{}` failed: {why}", self.who)),
+            None => Ok(()),
+        }
+    }
+
+    /// Draws many starts: the ball and everyone, metres.
+    ///
+    /// # Errors
+    /// A sentence, if one has no start.
+    pub(super) fn cloud(&self, seed: u64, count: u32) -> Result<Vec<Vec<[f32; 2]>>, String> {
+        let mut environment = self.environment()?;
+        let (mut starts, mut scene) = (Vec::new(), Scene::default());
+        for episode in 0..u64::from(count) {
+            environment.reset(Some(seed), Some(episode)).map_err(fault)?;
+            of_match(environment.state(), &mut scene);
+            let [x, y, _] = scene.ball.pos;
+            let players = scene.players.iter().map(|player| player.pos);
+            starts.push(std::iter::once([x, y]).chain(players).collect());
+        }
+        Ok(starts)
+    }
+
+    /// The regions of a start, and how often each requirement refuses one.
+    ///
+    /// `loaded`: where the scenario comes from.
+    ///
+    /// # Errors
+    /// A sentence, if the parameters don't fit.
+    pub(super) fn sketch(
+        &self,
+        loaded: &Loaded,
+        (seed, episode): (u64, u64),
+    ) -> Result<SketchReply, String> {
+        let environment = self.environment()?;
+        let (roster, bindings) = (environment.roster(), environment.bindings());
+        let mut drawer = Drawer::new(&self.scenario);
+        let drawn = drawer.draw(&self.scenario, bindings, roster, seed, episode);
+        let name =
+            |span| loaded.sources.text(span).split_whitespace().collect::<Vec<_>>().join(" ");
+        let origins = &loaded.origins;
+        let mut regions: Vec<RegionReply> = Vec::new();
+        for region in &origins.regions {
+            let shape = region.shape.map(&mut |reg| drawer.register(reg).unwrap_or_default());
+            let name = name(region.span);
+            // A named region in which something is drawn is one region.
+            if !regions.iter().any(|known| known.name == name) {
+                regions.push(RegionReply { name, shape });
+            }
+        }
+        let found = drawer.acceptance(&self.scenario, bindings, roster, ATTEMPTS, u32::MAX);
+        let unmet = drawn.err().map(|why| why.requirement);
+        let requires = self.scenario.start.requires.iter().enumerate().map(|(at, require)| {
+            let refused = found.refused.get(at).copied().unwrap_or_default();
+            let origin = origins.requires.get(at);
+            let span = origin.and_then(|origin| origin.span);
+            let file = span.and_then(|span| loaded.sources.get(span.file));
+            RequireReply {
+                label: require.label.clone(),
+                implied: origin.is_none_or(|origin| origin.help.is_some()),
+                line: span.zip(file).map(|(span, file)| file.line_column(span.start).0),
+                refused: f64::from(refused) / f64::from(found.attempts.max(1)),
+                fails: unmet.as_ref() == Some(&require.label),
+            }
+        });
+        Ok(SketchReply { regions, requires: requires.collect() })
+    }
+}
+
+/// A film as pages get it.
+pub(super) fn episode_of(film: Film, (seed, episode): (u64, u64), agent: &str) -> Episode {
+    let events = film.events.iter().map(|(at, event)| happened(&film, *at, event)).collect();
+    let verdict = film.outcome.as_ref().and_then(|outcome| outcome.verdict);
+    Episode {
+        seed,
+        episode,
+        agent: agent.to_owned(),
+        beside: false,
+        watched: false,
+        name: film.name,
+        names: film.names.to_vec(),
+        events,
+        outcome: film.outcome.as_ref().map(|outcome| outcome.label.to_string()),
+        success: verdict.map(|verdict| verdict == Verdict::Success),
+        scenes: film.scenes,
+    }
+}
+
+fn happened(film: &Film, at: usize, event: &Event) -> Happened {
+    let name = match event.qualifier {
+        Some(qualifier) => format!("{} {}", event.kind.name(), qualifier.name()),
+        None => event.kind.name().to_owned(),
+    };
+    let label = |player: PlayerId| film.names.get(player.index()).cloned();
+    Happened {
+        at,
+        name,
+        by: event.by.and_then(label),
+        team: event.team.or_else(|| event.by.map(PlayerId::team)).map(Team::name),
+        place: [event.at.x, event.at.y],
+    }
+}

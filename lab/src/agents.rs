@@ -112,7 +112,7 @@ fn play(name: &str, agent: Agent, episodes: u64) -> Result<Summary, LabError> {
         episodes: 0..episodes,
         seed: 0,
         agent,
-        threads: crate::threads(),
+        threads: crate::threads::threads(),
         environment: EnvironmentOptions::default(),
     };
     run(environment.scenario(), &options, |_| {}).map_err(|why| format!("{name}: {why}"))

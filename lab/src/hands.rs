@@ -33,7 +33,6 @@ pub(crate) use again::{RecordedArgs, recorded};
 
 use crate::figure::Section;
 use crate::pitch::LabError;
-use setpiece::scenario::vocabulary::Action;
 
 /// The topics in the common form, in the order of the report.
 const TOPICS: [recorded::Topic; 15] = [
@@ -84,21 +83,6 @@ pub(crate) fn runs_with_the_ball(section: &mut Section) -> Result<(), LabError> 
 /// Every topic, in any section of the report.
 fn topics() -> impl Iterator<Item = &'static recorded::Topic> {
     TOPICS.iter().chain([&standing::TOPIC, &runs::TOPIC])
-}
-
-/// The action of a direction's name in the recorded files; none for a released one.
-fn direction(name: &str) -> Option<Action> {
-    Some(match name {
-        "right" => Action::Right,
-        "left" => Action::Left,
-        "top" => Action::Top,
-        "bottom" => Action::Bottom,
-        "top_right" => Action::TopRight,
-        "bottom_right" => Action::BottomRight,
-        "top_left" => Action::TopLeft,
-        "bottom_left" => Action::BottomLeft,
-        _ => return None,
-    })
 }
 
 #[cfg(test)]

@@ -97,7 +97,7 @@ impl Tally {
 pub(crate) fn play(left: f64, right: f64, matches: u64) -> Result<Vec<Tally>, LabError> {
     let params = [("difficulty", right.to_string()), ("left_difficulty", left.to_string())];
     let prototype = library(SCENARIO, &params)?;
-    let workers = crate::threads() as u64;
+    let workers = crate::threads::threads() as u64;
     let mut all: Vec<(u64, Tally)> = std::thread::scope(|scope| {
         let hands: Vec<_> = (0..workers)
             .map(|worker| {

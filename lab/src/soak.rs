@@ -90,7 +90,7 @@ pub(crate) fn soak(args: &SoakArgs) -> Result<(), LabError> {
         count
     };
     let total = std::thread::scope(|scope| {
-        let hands: Vec<_> = (0..crate::threads()).map(|_| scope.spawn(work)).collect();
+        let hands: Vec<_> = (0..crate::threads::threads()).map(|_| scope.spawn(work)).collect();
         hands.into_iter().try_fold(Count::default(), |total, hand| {
             hand.join().map(|count| total.with(count)).map_err(|_| "a worker stopped".to_owned())
         })

@@ -61,7 +61,7 @@ only seen exact places presses other keys as soon as a mark lies one cell furthe
 What was found by playing the same keys in both games, step by step, and built:
 
 - A rival's ball is reached for where it will be, some ticks ahead. A touch in between leaves the foot beside it.
-  Whoever has not seen the last touch yet goes by the way before it.
+  A player who hasn't seen the last touch yet goes by the ball's way before it.
 - A ball that a rival has just touched springs off the legs of whoever stands in its way.
 - An opponent close by makes a dribbler push the ball further, most a nervous one.
 - The swing of a shot brakes the runner, who follows through and only then speeds up again.

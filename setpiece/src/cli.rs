@@ -4,6 +4,7 @@
 
 mod bench;
 mod check;
+mod common;
 mod doc;
 mod explain;
 mod fmt;
@@ -24,21 +25,11 @@ mod test;
 
 use crate::Error;
 use crate::dsl::problem::Code;
-use crate::engine::control::agents::Agent;
 use clap::{Parser, Subcommand, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
+use common::{ColourChoice, FAULT, FINE, MessageFormat};
 use out::{Out, StyledText};
 use std::ffi::{OsStr, OsString};
-use std::io::IsTerminal;
 use std::path::PathBuf;
-use std::time::Duration;
-
-/// Exit code for success.
-const FINE: u8 = 0;
-/// How often a progress bar and a watcher update.
-const TICK: Duration = Duration::from_millis(200);
-/// Exit code if the input has errors.
-const FAULT: u8 = 1;
 
 /// Football scenarios from text files, and the engine that runs them.
 #[derive(Parser, Debug)]
@@ -55,17 +46,6 @@ pub(crate) struct Args {
     allow_outside: bool,
     #[command(subcommand)]
     command: Command,
-}
-
-/// When to colour the output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ColourChoice {
-    /// On a terminal
-    Auto,
-    /// Always
-    Always,
-    /// Never
-    Never,
 }
 
 #[derive(Subcommand, Debug)]
@@ -195,15 +175,6 @@ pub(crate) enum BuildFormat {
     Bin,
 }
 
-/// How `check` prints problems.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum MessageFormat {
-    /// With the source around them
-    Human,
-    /// One JSON array
-    Json,
-}
-
 /// Runs the command with its arguments, the program's name first, and returns the exit code.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match Args::try_parse_from(arguments) {
@@ -263,24 +234,6 @@ fn run(args: Args) -> u8 {
             FAULT
         }
     }
-}
-
-/// A progress bar on a terminal, nothing elsewhere.
-fn bar(length: u64, template: &str) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template(template);
-    let bar = ProgressBar::new(length);
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(TICK);
-    bar
-}
-
-/// An agent's name on the command line.
-fn agent_name(agent: Agent) -> &'static str {
-    let found = Agent::NAMED.iter().find(|(_, named)| *named == agent);
-    found.map_or("", |(name, _)| *name)
 }
 
 fn list(out: &Out) -> u8 {

@@ -197,10 +197,12 @@ pub(crate) fn tidy() -> Result<(), String> {
     names::check(&mut breaches)?;
     let tracked = tracked()?;
     words::check(&tracked, &mut breaches)?;
-    for path in
-        tracked.iter().filter(|path| Path::new(path).extension().is_some_and(|it| it == "rs"))
-    {
-        width::check(path, &mut breaches)?;
+    for path in &tracked {
+        match Path::new(path).extension().and_then(|ending| ending.to_str()) {
+            Some("rs") => width::check(path, &mut breaches)?,
+            Some("md") => width::check_prose(path, &mut breaches)?,
+            _ => {}
+        }
     }
     if breaches.is_empty() {
         println!("tidy: the house is in order");

@@ -17,6 +17,7 @@ pub mod odds;
 pub mod off_ball;
 pub mod on_ball;
 pub mod press;
+pub mod send;
 pub mod support;
 pub mod taker;
 mod view;
@@ -26,12 +27,9 @@ pub use view::TeamView;
 use crate::state::player::{Aim, Intent};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::HALF_LENGTH_M;
 use setpiece_scenario::vocabulary::Role;
 use setpiece_scenario::{Ai, Others};
 
-/// The middle of the attacked goal in the own frame, metres; the own goal is its negative.
-const GOAL: Vec2 = Vec2::new(HALF_LENGTH_M as f32, 0.0);
 /// A ball must come this near to a player who is to hold their place, metres; chosen.
 const HOLD_M: f32 = 6.0;
 /// Steps between two decisions of a player who isn't near the action, and of one who is far from
@@ -145,12 +143,4 @@ fn keep(game: &mut Match, id: PlayerId) {
     let body = &mut game.players[id.index()].body;
     body.dribble = Vec2::ZERO;
     body.intent = Intent::Ball(3.5);
-}
-
-/// Sends a player to a point of the own frame.
-pub fn send(game: &mut Match, view: &TeamView, id: PlayerId, to: Vec2, speed: f32) {
-    let to = to.clamp(Vec2::new(-54.5, -35.5), Vec2::new(54.5, 35.5)) * view.side;
-    let body = &mut game.players[id.index()].body;
-    body.dribble = Vec2::ZERO;
-    body.intent = Intent::Go(to, speed);
 }

@@ -139,7 +139,7 @@ pub(super) fn action(key: &str) -> Result<Action, LabError> {
         "dribble" => Action::Dribble,
         "release_dribble" => Action::ReleaseDribble,
         "builtin_ai" => Action::BuiltinAi,
-        key => super::direction(key).ok_or_else(|| format!("no key `{key}`"))?,
+        key => direction(key).ok_or_else(|| format!("no key `{key}`"))?,
     })
 }
 
@@ -147,4 +147,19 @@ pub(super) fn action(key: &str) -> Result<Action, LabError> {
 fn mirror(key: Action) -> Action {
     let at = WAYS.iter().position(|way| *way == key);
     at.map_or(key, |at| WAYS[(8 - at) % 8])
+}
+
+/// The action of a direction's name in the recorded files; none for a released one.
+fn direction(name: &str) -> Option<Action> {
+    Some(match name {
+        "right" => Action::Right,
+        "left" => Action::Left,
+        "top" => Action::Top,
+        "bottom" => Action::Bottom,
+        "top_right" => Action::TopRight,
+        "bottom_right" => Action::BottomRight,
+        "top_left" => Action::TopLeft,
+        "bottom_left" => Action::BottomLeft,
+        _ => return None,
+    })
 }

@@ -1,6 +1,6 @@
 //! `setpiece bench`: how fast scenarios are played on this machine.
 
-use super::FINE;
+use super::common::FINE;
 use super::out::{Out, StyledText};
 use super::playing::AgentName;
 use crate::Error;

@@ -1,7 +1,7 @@
 //! `setpiece check`: reports every problem of some files.
 
+use super::common::{FAULT, FINE, MessageFormat};
 use super::out::{Out, StyledText};
-use super::{FAULT, FINE, MessageFormat};
 use crate::Error;
 use crate::dsl::problem::Severity;
 use crate::dsl::report::{Format, render};

@@ -1,6 +1,7 @@
 //! `setpiece doc`: a scenario's page, and a picture of its start.
 
-use super::{FAULT, FINE, out::Out};
+use super::common::{FAULT, FINE};
+use super::out::Out;
 use crate::dsl::problem::Code;
 use crate::engine::batch::EpisodeError;
 use crate::engine::environment::{Environment, EnvironmentOptions};

@@ -1,7 +1,7 @@
 //! `setpiece explain`: the page of an error code.
 
+use super::common::{FAULT, FINE};
 use super::out::{Out, StyledText};
-use super::{FAULT, FINE};
 use crate::dsl::problem::{Code, Severity};
 use crate::explain::{page, similar};
 

@@ -1,6 +1,7 @@
 //! `setpiece fmt`: formats files.
 
-use super::{FAULT, FINE, out::Out};
+use super::common::{FAULT, FINE};
+use super::out::Out;
 use crate::Error;
 use crate::dsl::format::format;
 use crate::dsl::source::{Source, Sources};

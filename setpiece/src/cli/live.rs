@@ -1,6 +1,6 @@
 //! `setpiece run --live`: episodes in the terminal, at the pace of the match.
 
-use super::FINE;
+use super::common::FINE;
 use super::out::{Out, StyledText};
 use crate::drawing::drawn;
 use crate::engine::batch::{EpisodeError, Policy, ReadyMade, STEPS_MAX};

@@ -1,6 +1,6 @@
 //! Printing: text to standard output, problems to standard error, in colour if wanted.
 
-use super::ColourChoice;
+use super::common::ColourChoice;
 use crate::drawing::Paint;
 use crate::dsl::report::{Format, printable, render};
 use crate::dsl::{problem::Problem, source::Sources};

@@ -1,9 +1,10 @@
 //! `setpiece run`: plays episodes of a scenario, once or whenever its file changes.
 
+use super::common::{FAULT, FINE, TICK};
 use super::live::live;
 use super::out::{Out, StyledText};
 use super::suite::run_suite;
-use super::{FAULT, FINE, TICK, playing, playing::Playing, summary};
+use super::{playing, playing::Playing, summary};
 #[cfg(feature = "render")]
 use crate::curves::curves;
 use crate::dsl::problem::{Code, nearest};
@@ -82,7 +83,7 @@ impl RunArgs {
     pub(crate) fn agents(&self) -> Vec<(&'static str, Agent)> {
         let beside = self.beside.map(playing::AgentName::agent);
         let agents = [Some(self.playing.agent()), beside].into_iter().flatten();
-        agents.map(|agent| (super::agent_name(agent), agent)).collect()
+        agents.map(|agent| (super::common::agent_name(agent), agent)).collect()
     }
 
     /// How many threads play.
@@ -263,7 +264,8 @@ fn options(args: &RunArgs, loaded: &Loaded) -> Result<RunOptions, Error> {
 
 fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error> {
     let episodes = options.episodes.end - options.episodes.start;
-    let bar = super::bar(episodes, "{bar:40} {pos}/{len} episodes  {msg} steps  {eta} left");
+    let bar =
+        super::common::bar(episodes, "{bar:40} {pos}/{len} episodes  {msg} steps  {eta} left");
     let steps = std::sync::atomic::AtomicU64::new(0);
     let summary = run(&loaded.scenario, options, |length| {
         let total = steps.fetch_add(length.into(), std::sync::atomic::Ordering::Relaxed)

@@ -1,6 +1,7 @@
 //! `setpiece render`: an episode as a video or as a sheet of frames, or one moment of it.
 
-use super::{FAULT, FINE, out::Out, playing::Playing};
+use super::common::{FAULT, FINE};
+use super::{out::Out, playing::Playing};
 use crate::Error;
 use crate::dsl::problem::Code;
 use crate::error::{FileFault, Packed};

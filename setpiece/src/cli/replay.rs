@@ -1,6 +1,7 @@
 //! `setpiece replay`: plays a recorded episode again and describes it.
 
-use super::{FINE, out::Out};
+use super::common::FINE;
+use super::out::Out;
 use crate::Error;
 use crate::engine::environment::Environment;
 use crate::engine::state::PlayerId;

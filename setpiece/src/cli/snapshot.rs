@@ -1,6 +1,7 @@
 //! `setpiece snapshot`: the state of an episode after some steps, as a file.
 
-use super::{FINE, out::Out, playing::Playing};
+use super::common::FINE;
+use super::{out::Out, playing::Playing};
 use crate::Error;
 use crate::engine::batch::{EpisodeError, Policy, ReadyMade};
 use crate::engine::control::agents::Agent;

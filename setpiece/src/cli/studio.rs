@@ -1,6 +1,7 @@
 //! `setpiece studio`: the text and the football on one page.
 
-use super::{FAULT, FINE, out::Out};
+use super::common::{FAULT, FINE};
+use super::out::Out;
 use crate::Error;
 use crate::dsl::problem::Code;
 use crate::studio::{OpenOptions, ServeOptions, Session, serve};

@@ -1,8 +1,9 @@
 //! `setpiece run SUITE`: a table of a suite's entries.
 
+use super::common::FINE;
+use super::measured;
 use super::out::{Out, StyledText};
 use super::play::{RunArgs, RunFormat};
-use super::{FINE, measured};
 use crate::Error;
 use crate::engine::environment::EnvironmentOptions;
 use crate::measure::Estimate;
@@ -18,8 +19,10 @@ pub(crate) fn run_suite(
 ) -> Result<u8, Error> {
     let agents = args.agents();
     let total: u64 = suite.entries.iter().map(|entry| entry.count).sum::<u64>();
-    let bar =
-        super::bar(total * agents.len() as u64, "{msg} {bar:40} {pos}/{len} episodes  {eta} left");
+    let bar = super::common::bar(
+        total * agents.len() as u64,
+        "{msg} {bar:40} {pos}/{len} episodes  {eta} left",
+    );
     let mut rows = Vec::new();
     for entry in &suite.entries {
         bar.set_message(entry.played.label());

@@ -1,7 +1,8 @@
 //! `setpiece test`: plays the checks of files and says which hold.
 
+use super::common::{FAULT, FINE};
 use super::out::{Out, StyledText};
-use super::{FAULT, FINE, measured, playing};
+use super::{measured, playing};
 use crate::Error;
 use crate::drawing::Paint;
 use crate::dsl::problem::Code;
@@ -146,7 +147,8 @@ fn one(args: &TestArgs, path: &Path, check: &Check) -> Result<PlayedCheck, Error
     let named = Agent::from_name(&check.agent).unwrap_or(Agent::Bot);
     let agent = args.agent.map_or(named, playing::AgentName::agent);
     let begin = Instant::now();
-    let bar = super::bar(check.episodes.count, "{msg} {bar:40} {pos}/{len} episodes  {eta} left");
+    let bar =
+        super::common::bar(check.episodes.count, "{msg} {bar:40} {pos}/{len} episodes  {eta} left");
     bar.set_message(check.name.clone());
     let results = play(
         &check.episodes,
@@ -160,7 +162,7 @@ fn one(args: &TestArgs, path: &Path, check: &Check) -> Result<PlayedCheck, Error
     let mut played = PlayedCheck {
         file: path.display().to_string(),
         check: check.name.clone(),
-        agent: super::agent_name(agent).to_owned(),
+        agent: super::common::agent_name(agent).to_owned(),
         episodes: check.episodes.count,
         seed: check.episodes.seed,
         seconds: begin.elapsed().as_secs_f64(),

@@ -1,5 +1,5 @@
-//! The width of lines: 100 columns for code and comments. A line with a part of a string may be
-//! longer.
+//! The width of lines: 100 columns for code, comments and prose. A line with a part of a string may
+//! be longer, and so may tables, code and long links in prose.
 
 use super::read;
 use crate::ci::root;
@@ -13,6 +13,37 @@ pub(super) fn check(path: &str, breaches: &mut Vec<String>) -> Result<(), String
         breaches.push(format!("{path}:{line}: longer than {COLUMNS_MAX} columns"));
     }
     Ok(())
+}
+
+/// Pages that programs write, with one line per thought.
+const WRITTEN: &[&str] = &["docs/calibration.md", "docs/performance.md", "docs/transfer.md"];
+
+/// Reports each line of a page's prose that is too long.
+pub(super) fn check_prose(path: &str, breaches: &mut Vec<String>) -> Result<(), String> {
+    if WRITTEN.contains(&path) {
+        return Ok(());
+    }
+    for line in too_long_prose(&read(&root().join(path))?) {
+        breaches.push(format!("{path}:{line}: longer than {COLUMNS_MAX} columns"));
+    }
+    Ok(())
+}
+
+/// The numbers of the lines of prose that are too long and could be divided.
+fn too_long_prose(text: &str) -> Vec<usize> {
+    let mut in_code = false;
+    let mut long = Vec::new();
+    for (number, line) in (1..).zip(text.lines()) {
+        let begins = line.trim_start();
+        in_code ^= begins.starts_with("```");
+        let is_prose = !in_code && !begins.starts_with(['`', '|', '#', '!', '<']);
+        let longest = line.split_whitespace().map(|word| word.chars().count()).max();
+        let divides = longest.is_some_and(|longest| longest < COLUMNS_MAX - 10);
+        if is_prose && divides && line.chars().count() > COLUMNS_MAX {
+            long.push(number);
+        }
+    }
+    long
 }
 
 /// The numbers of the lines that are too long and hold no part of a string.
@@ -94,7 +125,15 @@ fn character(rest: &str) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::too_long;
+    use super::{too_long, too_long_prose};
+
+    #[test]
+    fn long_prose_is_found_and_tables_code_and_links_are_not() {
+        let wide = "word ".repeat(21);
+        assert_eq!(too_long_prose(&format!("{wide}\n- {wide}\n")), [1, 2]);
+        let others = format!("| {wide} |\n```\n{wide}\n```\nsee {}\n", "x".repeat(120));
+        assert!(too_long_prose(&others).is_empty());
+    }
 
     #[test]
     fn long_code_and_comments_are_found_and_long_strings_are_not() {

@@ -1,10 +1,11 @@
 //! Where a player runs with the ball: opponents and lines repel, the goal attracts. (GRF's
 //! figures.)
 
+use crate::control::bot::TeamView;
 use crate::control::bot::formation::mindset;
 use crate::control::bot::off_ball;
+use crate::control::bot::send::GOAL;
 use crate::control::bot::support::Forces;
-use crate::control::bot::{GOAL, TeamView};
 use crate::math;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;

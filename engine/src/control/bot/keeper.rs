@@ -1,7 +1,8 @@
 //! The keeper's feet: where they stand, and when they come out. (Their hands are in
 //! `football::keeper`.)
 
-use crate::control::bot::{GOAL, TeamView, on_ball, press, send};
+use crate::control::bot::send::{GOAL, send};
+use crate::control::bot::{TeamView, on_ball, press};
 use crate::football::pace::{RUN_MPS, SPRINT_MPS};
 use crate::math::share;
 use crate::state::player::{Intent, Pose};

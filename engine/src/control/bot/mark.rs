@@ -1,7 +1,8 @@
 //! Defending without the ball: the most dangerous opponents are marked, and the back line keeps its
 //! line. (All figures are GRF's.)
 
-use crate::control::bot::{GOAL, TeamView};
+use crate::control::bot::TeamView;
+use crate::control::bot::send::GOAL;
 use crate::math::share;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;

@@ -2,7 +2,8 @@
 //! the opponent that they mark. (GRF's figures.)
 
 use crate::control::bot::formation::{Outlook, mindset};
-use crate::control::bot::{TeamView, mark, send, support};
+use crate::control::bot::send::send;
+use crate::control::bot::{TeamView, mark, support};
 use crate::football::pace::SPRINT_MPS;
 use crate::math::{self, ease, share};
 use crate::state::player::Intent;

@@ -1,7 +1,8 @@
 //! With the ball: pass, shoot, clear or run on. (The figures are GRF's unless they say otherwise.)
 
 use crate::control::bot::formation::mindset;
-use crate::control::bot::{GOAL, TeamView, dribbling, odds};
+use crate::control::bot::send::GOAL;
+use crate::control::bot::{TeamView, dribbling, odds};
 use crate::football::pace::SPRINT_MPS;
 use crate::football::{kick, noise, touch};
 use crate::math::{self, ease, share};

@@ -1,7 +1,8 @@
 //! Going for the ball, free or an opponent's.
 
 use crate::control::bot::formation::mindset;
-use crate::control::bot::{GOAL, TeamView, off_ball, on_ball};
+use crate::control::bot::send::GOAL;
+use crate::control::bot::{TeamView, off_ball, on_ball};
 use crate::football::pace::SPRINT_MPS;
 use crate::state::player::Intent;
 use crate::state::{Match, Player, PlayerId};

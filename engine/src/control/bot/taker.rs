@@ -1,6 +1,6 @@
 //! Set pieces by the bot: what the taker plays, and when.
 
-use crate::control::bot::GOAL;
+use crate::control::bot::send::GOAL;
 use crate::football::kick;
 use crate::football::noise;
 use crate::football::offside;

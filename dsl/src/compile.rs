@@ -7,11 +7,12 @@ mod unused;
 
 use crate::ast::{Ident, Item, ItemKind, ScenarioItem, Span};
 use crate::cast::Cast;
-use crate::lower::casting::Casting;
+use crate::lower::loaded_scripts::LoadedScripts;
 use crate::lower::mirror::Mirror;
-use crate::lower::script::LoadedScripts;
+use crate::lower::param_info::ParamInfo;
+use crate::lower::people::Casting;
 use crate::lower::{
-    Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, param, record, reward, start,
+    Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, record, reward, start,
 };
 use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
@@ -426,6 +427,6 @@ fn located_in_child(world: &World<'_>, problem: Problem) -> Problem {
 }
 
 /// The parameters that a match may still bind.
-fn free<'a, 'w>(world: &'a World<'w>) -> impl Iterator<Item = &'a param::ParamInfo<'w>> {
+fn free<'a, 'w>(world: &'a World<'w>) -> impl Iterator<Item = &'a ParamInfo<'w>> {
     world.params.iter().filter(|param| param.bound.is_none())
 }

@@ -6,6 +6,7 @@
 //! matter.
 
 pub(crate) mod agents;
+mod begin;
 pub(crate) mod behavior;
 pub(crate) mod builder;
 pub(crate) mod casting;
@@ -14,9 +15,14 @@ pub(crate) mod expr;
 mod fields;
 pub(crate) mod hidden;
 pub(crate) mod interval;
+mod known;
+pub(crate) mod loaded_scripts;
 pub(crate) mod mirror;
+mod mirrored;
 pub(crate) mod observation;
 pub(crate) mod param;
+pub(crate) mod param_info;
+pub(crate) mod people;
 pub(crate) mod place;
 pub(crate) mod record;
 pub(crate) mod reward;
@@ -24,6 +30,7 @@ pub(crate) mod roster;
 pub(crate) mod script;
 pub(crate) mod start;
 pub(crate) mod step;
+pub(crate) mod step_world;
 pub(crate) mod team;
 pub(crate) mod triangles;
 pub(crate) mod value;
@@ -38,12 +45,11 @@ use crate::problem::Problem;
 use crate::problem::facts::{Bounds, Calls, Chance, Implied, Instead, Names, Types};
 use builder::Builder;
 use interval::Interval;
+use known::{Draw, Remembered, StartState, Streams};
 use mirror::Mirror;
-use record::Remembered;
 use setpiece_scenario::vocabulary::EventKind;
 use setpiece_scenario::{BinaryOp, Reg, Require, When};
-use start::{StartState, Streams};
-use step::StepWorld;
+use step_world::StepWorld;
 use value::{LiteralFrame, Repr, Scope, Value};
 
 /// What kind of program is written, which decides what it may read; with what this kind alone
@@ -65,7 +71,7 @@ pub(crate) enum ProgramStage<'w> {
     Observation,
     /// What a scripted player does, at every step; with the draws of the statement that is being
     /// written, `None` where nothing may be drawn.
-    Behavior(Option<Vec<behavior::Draw>>),
+    Behavior(Option<Vec<Draw>>),
 }
 
 impl ProgramStage<'_> {

@@ -3,6 +3,7 @@
 //! words.
 
 mod names;
+mod rings;
 mod rooms;
 mod width;
 mod words;
@@ -195,6 +196,7 @@ pub(crate) fn tidy() -> Result<(), String> {
     }
     dsl_arrows(&mut breaches)?;
     names::check(&mut breaches)?;
+    rings::check(&mut breaches)?;
     let tracked = tracked()?;
     words::check(&tracked, &mut breaches)?;
     for path in &tracked {

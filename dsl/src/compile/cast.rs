@@ -2,7 +2,7 @@
 
 use crate::ast::{Field, FieldValue, Ident, ItemKind, ScenarioStmtKind, TeamStmtKind};
 use crate::cast::{CAST_NAME, Cast};
-use crate::lower::casting::Casting;
+use crate::lower::people::Casting;
 use crate::problem::Problem;
 use crate::problem::facts::Whole;
 use crate::resolve::Library;

@@ -5,7 +5,7 @@ use crate::ast::{
     FieldValue, GiveStmt, GiveValue, ItemKind, RewardStmt, RewardStmtKind, RewardUseKind,
     ScenarioStmtKind, ScriptRef, ScriptSource, TeamStmt, TeamStmtKind,
 };
-use crate::lower::script::LoadedScripts;
+use crate::lower::loaded_scripts::LoadedScripts;
 use crate::problem::Problem;
 use crate::problem::facts::Files;
 use crate::resolve::Library;

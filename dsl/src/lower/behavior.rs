@@ -8,18 +8,19 @@ mod act;
 mod statement;
 
 use super::builder::RegisterLayout;
-use super::step::StepWorld;
+use super::step_world::StepWorld;
 use super::value::{LiteralFrame, LocalName, Scope, Value};
 use super::{Lower, ProgramStage, param};
 use crate::ast::{
     Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span,
 };
 use crate::check::types::Ty;
+use crate::lower::known::{BehaviorUse, Draw};
 use crate::problem::facts::{Assigned, Behaviors, Names};
 use crate::problem::{Guess, Problem};
 use crate::source::FileId;
 use setpiece_scenario::vocabulary::Primitive;
-use setpiece_scenario::{Act, Ai, Behavior, Distribution, Do, Node, PlayerSlot, Reg, Watch};
+use setpiece_scenario::{Act, Ai, Behavior, Do, Node, PlayerSlot, Reg, Watch};
 
 /// Most nodes that calls of behaviours may add up to.
 const NODES_MAX: usize = 10_000;
@@ -27,36 +28,6 @@ const NODES_MAX: usize = 10_000;
 const CALLS_MAX: (usize, usize) = (2_000, 64);
 /// Most interrupts, and calls with `until` or `for`, of one player's behaviour.
 const WATCHES_MAX: usize = 500;
-
-/// What a player's `ai` names.
-#[derive(Clone)]
-pub(crate) enum BehaviorUse<'w> {
-    /// A behaviour.
-    Named {
-        /// Which.
-        item: &'w BehaviorItem,
-        /// The arguments.
-        args: &'w [Arg],
-        /// In which scope they are read.
-        scope: Scope<'w>,
-        /// The whole expression.
-        span: Span,
-    },
-    /// A script.
-    Script(&'w ScriptRef),
-}
-
-/// A draw that happens when a statement is reached.
-pub(crate) struct Draw {
-    /// Where the value goes.
-    pub(crate) cell: u32,
-    /// How often it has been drawn.
-    pub(crate) count: u32,
-    /// The name of its stream.
-    pub(crate) key: u64,
-    /// From what.
-    pub(crate) from: Distribution,
-}
 
 /// Lowers every behaviour that a player uses, and tells the players.
 pub(crate) fn lower_behaviors<'w>(

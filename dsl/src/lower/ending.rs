@@ -1,6 +1,6 @@
 //! Endings: one program, and its conditions in order.
 
-use super::step::StepWorld;
+use super::step_world::StepWorld;
 use super::value::{LiteralFrame, Scope};
 use super::{Lower, ProgramStage, script};
 use crate::ast::{EndCondition, ItemKind};

@@ -4,12 +4,10 @@
 //! directions are read in the mirror, wherever they stand. `flanks` reflects y, so that left backs
 //! become right backs; `ends` turns the pitch by 180° and exchanges the teams.
 
-use super::Lower;
 use crate::ast::Ident;
 use crate::problem::Problem;
 use crate::problem::facts::Bounds;
 use setpiece_scenario::vocabulary::{Role, Team};
-use setpiece_scenario::{Reg, UnaryOp};
 
 /// How a scenario is mirrored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,23 +49,6 @@ impl Mirror {
             (Mirror::Flanks, Role::LM) => Role::RM,
             (Mirror::Flanks, Role::RM) => Role::LM,
             _ => role,
-        }
-    }
-}
-
-impl Lower<'_, '_> {
-    /// World y of something at the top or bottom of the picture.
-    pub(crate) fn picture_y(&mut self, y: Reg) -> Reg {
-        if self.world.mirror == Mirror::Off { y } else { self.code.unary(UnaryOp::Neg, y) }
-    }
-
-    /// A spin, which turns the other way round in a mirror.
-    pub(crate) fn mirrored_spin(&mut self, (x, y, z): (Reg, Reg, Reg)) -> (Reg, Reg, Reg) {
-        let mut negated = |reg: Reg| self.code.unary(UnaryOp::Neg, reg);
-        match self.world.mirror {
-            Mirror::Off => (x, y, z),
-            Mirror::Flanks => (negated(x), y, negated(z)),
-            Mirror::Ends => (negated(x), negated(y), z),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `observe vector { … }`: the scenario's own observation.
 
-use super::step::StepWorld;
+use super::step_world::StepWorld;
 use super::value::{LiteralFrame, Repr, Scope};
 use super::{Lower, ProgramStage};
 use crate::ast::Expr;

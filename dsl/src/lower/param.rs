@@ -1,51 +1,16 @@
 //! A scenario's parameters.
 
-use super::interval::Interval;
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, World};
 use crate::ast::{Domain, Expr, Ident, Span};
 use crate::check::types::Ty;
+use crate::lower::param_info::ParamInfo;
 use crate::problem::facts::{Bounds, Chance, Kind, Names, Types};
 use crate::problem::{Guess, Problem};
 use crate::resolve::FlatParam;
 use setpiece_scenario::Param;
 use setpiece_scenario::vocabulary::Type;
 use std::rc::Rc;
-
-/// A parameter, checked.
-pub(crate) struct ParamInfo<'w> {
-    /// What the scenario carries.
-    pub(crate) param: Param,
-    /// Its type in expressions.
-    pub(crate) ty: Ty,
-    /// Its words, if it is a string.
-    pub(crate) choices: Rc<[String]>,
-    /// Where it is declared.
-    pub(crate) name: &'w Ident,
-    /// Its place among the scenario's parameters.
-    pub(crate) index: u32,
-    /// Instead of a parameter: a child's argument that is drawn or computed.
-    pub(crate) bound: Option<&'w Expr>,
-    /// The type it was declared with.
-    pub(crate) declared: Option<Ty>,
-}
-
-impl ParamInfo<'_> {
-    /// Least and greatest value.
-    pub(crate) fn interval(&self) -> Option<Interval> {
-        if let (Some(least), Some(greatest)) = (
-            self.param.values.iter().copied().reduce(f64::min),
-            self.param.values.iter().copied().reduce(f64::max),
-        ) {
-            return Some((least, greatest));
-        }
-        match self.param.ty {
-            Type::Bool => Some((0.0, 1.0)),
-            Type::Team => Some((-1.0, 1.0)),
-            _ => self.param.range,
-        }
-    }
-}
 
 /// The type a declaration names; reports an unknown one.
 pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {

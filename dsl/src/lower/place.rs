@@ -1,27 +1,16 @@
 //! Where things are: at the start by their place statements, in the match by its state.
 
 use super::mirror::Mirror;
-use super::roster::{Rostered, Stand};
+use super::people::{Rostered, Stand};
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, ProgramStage};
 use crate::ast::{BallStmt, Expr, Facing, Place, PlaceKind, Span};
 use crate::check::types::Ty;
+use crate::lower::known::OnDemand;
 use crate::problem::Problem;
 use crate::problem::facts::{Instead, Players};
 use setpiece_scenario::vocabulary::Field;
 use setpiece_scenario::{BinaryOp, Instr, Reg, UnaryOp};
-
-/// A thing whose place is found on demand.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum OnDemand<T> {
-    /// Nobody asked yet.
-    #[default]
-    Todo,
-    /// Being computed: whoever asks now closes a circle.
-    Busy,
-    /// Known.
-    Done(T),
-}
 
 /// What a place is seen from: the player or team that directions are relative to.
 #[derive(Clone, Copy)]

@@ -4,11 +4,12 @@
 //! in a record: `(count of pass completed by left) / (count of pass by left)`. `series of E` keeps
 //! every step's value and stands alone.
 
-use super::step::StepWorld;
+use super::step_world::StepWorld;
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, ProgramStage};
 use crate::ast::{Binding, Expr, ExprKind, Ident, Span};
 use crate::check::types::Ty;
+use crate::lower::known::Remembered;
 use crate::problem::Problem;
 use crate::problem::facts::{Instead, Scopes};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
@@ -43,15 +44,6 @@ fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Re
     let (program, layout) = lower.code.finish(&roots);
     let values = values.iter().map(|&reg| layout.reg(reg)).collect();
     Some(Record { name: binding.name.node.clone(), program, values, series })
-}
-
-/// What a record keeps of the rewards that it reads.
-#[derive(Default)]
-pub(crate) struct Remembered<'w> {
-    /// The rewards whose states it reads, each with their scope; `None` after a report.
-    pub(crate) rewards: Vec<(String, Option<Scope<'w>>)>,
-    /// Whether it must be kept for each agent, whatever it reads.
-    pub(crate) per_agent: bool,
 }
 
 impl<'w> Lower<'_, 'w> {

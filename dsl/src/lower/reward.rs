@@ -4,7 +4,7 @@ mod never;
 mod state;
 mod writer;
 
-use super::step::StepWorld;
+use super::step_world::StepWorld;
 use super::value::{LiteralFrame, Scope};
 use super::{Lower, ProgramStage, World};
 use crate::ast::{

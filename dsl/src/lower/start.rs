@@ -6,11 +6,10 @@ mod kind;
 mod remap;
 
 use super::agents::{lower_agents, side_with_agents};
-use super::behavior::BehaviorUse;
 use super::builder::RegisterLayout;
-use super::place::OnDemand;
-use super::roster::Rostered;
-use super::step::{LetSlot, LetSource, StepWorld};
+use super::known::{BehaviorUse, OnDemand, StartState};
+use super::people::Rostered;
+use super::step_world::{LetSlot, LetSource, StepWorld};
 use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
 use super::value::{LiteralFrame, Scope, Value};
 use super::{Lower, ProgramStage, World};
@@ -22,64 +21,11 @@ use crate::problem::facts::{Bounds, Chance, Names};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
 use setpiece_scenario::pitch::{LONGEST_S, STEP_S};
-use setpiece_scenario::vocabulary::{StartKind, Team};
+use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{
     Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
 };
 use std::collections::BTreeMap;
-
-/// A player's places at kick-offs: when their team kicks off, and when the others do.
-pub(crate) type Layouts = ((Reg, Reg), (Reg, Reg));
-
-/// What the start program knows so far.
-#[derive(Default)]
-pub(crate) struct StartState<'w> {
-    /// Start places by roster.
-    pub(crate) places: Vec<OnDemand<(Reg, Reg)>>,
-    /// Headings by roster.
-    pub(crate) headings: Vec<OnDemand<Reg>>,
-    /// Layouts of kick-offs by roster: kicking, receiving.
-    pub(crate) layouts: Vec<Option<Layouts>>,
-    /// The ball's place.
-    pub(crate) ball: OnDemand<(Reg, Reg)>,
-    /// What must hold of values that are known at the draw only.
-    pub(crate) implied: Vec<(Require, RequireOrigin)>,
-    /// The behaviour of the player whose options are read.
-    pub(crate) ai: Option<BehaviorUse<'w>>,
-    /// The behaviours that players use, by the players' ids.
-    pub(crate) behaviors: Vec<(u8, BehaviorUse<'w>)>,
-    /// The regions in which something is drawn.
-    pub(crate) drawn_in: Vec<RegionOrigin>,
-    lets: BTreeMap<&'w str, Option<Value<'w>>>,
-    first: Option<Reg>,
-    kind: Option<(StartKind, Option<Reg>)>,
-}
-
-/// The streams that draws come from.
-#[derive(Default)]
-pub(crate) struct Streams {
-    drawing: String,
-    draws: BTreeMap<String, u32>,
-}
-
-impl Streams {
-    /// The name of what is being drawn.
-    pub(crate) fn drawing(&self) -> &str {
-        &self.drawing
-    }
-
-    /// Says what is drawn from now on; gives what was drawn before.
-    pub(crate) fn draw_for(&mut self, name: &str) -> String {
-        std::mem::replace(&mut self.drawing, name.to_owned())
-    }
-
-    /// The next draw's ordinal in its stream.
-    pub(crate) fn next_draw(&mut self) -> u32 {
-        let ordinal = self.draws.entry(self.drawing.clone()).or_default();
-        *ordinal += 1;
-        *ordinal - 1
-    }
-}
 
 /// A lowered start and what belongs to it.
 pub(crate) struct LoweredStart<'c, 'w> {

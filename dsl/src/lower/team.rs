@@ -1,13 +1,13 @@
 //! Options of teams and players.
 
-use super::behavior::BehaviorUse;
 use super::expr::path_of;
-use super::roster::Rostered;
+use super::people::Rostered;
 use super::value::Repr;
 use super::{Lower, fields};
 use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
 use crate::check::options::{PLAYER, TEAM};
 use crate::check::types::Ty;
+use crate::lower::known::BehaviorUse;
 use crate::problem::facts::{Bounds, Chance, Kind, Names, Types};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{PLAYER_SPEED_MAX_MPS, YELLOW_CARDS_MAX};

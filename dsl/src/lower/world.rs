@@ -1,11 +1,10 @@
 //! What every program of a scenario is lowered against, and what is found on the way.
 
-use super::casting::Casting;
 use super::interval::Interval;
+use super::loaded_scripts::LoadedScripts;
 use super::mirror::Mirror;
-use super::param::{ParamInfo, lower_params};
-use super::roster::{Rostered, lower_roster};
-use super::script::LoadedScripts;
+use super::param_info::ParamInfo;
+use super::people::{Casting, Rostered};
 use crate::ast::Span;
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
@@ -40,11 +39,11 @@ pub(crate) struct World<'w> {
     /// What may still be lowered.
     pub(crate) effort: &'w Effort,
     /// How many problems of each code were found.
-    counts: RefCell<BTreeMap<Code, usize>>,
+    pub(super) counts: RefCell<BTreeMap<Code, usize>>,
     /// How many problems were found, also those that are not reported.
-    found: Cell<usize>,
+    pub(super) found: Cell<usize>,
     /// Whether something is tried out.
-    is_tentative: Cell<bool>,
+    pub(super) is_tentative: Cell<bool>,
 }
 
 /// One compilation may lower this much: expressions of every scenario of a file, each as often as
@@ -70,43 +69,6 @@ impl Effort {
     /// Whether nothing is left.
     pub(crate) fn is_spent(&self) -> bool {
         self.0.get() == 0
-    }
-}
-
-impl<'w> World<'w> {
-    /// Reads the parameters, then the players against them. Whoever has a world has all of it.
-    pub(crate) fn new(
-        library: &'w Library,
-        flat: &'w Flat<'w>,
-        mirror: Mirror,
-        casting: &'w [Casting<'w>],
-        scripts_loaded: &'w LoadedScripts<'w>,
-        effort: &'w Effort,
-    ) -> World<'w> {
-        let mut world = World {
-            library,
-            flat,
-            params: Vec::new(),
-            mirror,
-            casting,
-            roster: Vec::new(),
-            whole_roster: false,
-            scripts: RefCell::default(),
-            scripts_loaded,
-            problems: RefCell::default(),
-            used: RefCell::default(),
-            effort,
-            counts: RefCell::default(),
-            found: Cell::default(),
-            is_tentative: Cell::default(),
-        };
-        // A default is a constant: it reads no other parameter and no player.
-        world.params = lower_params(&world);
-        let found = world.found();
-        // Who plays is read against the parameters; where they stand belongs to the start.
-        world.roster = lower_roster(&world);
-        world.whole_roster = world.found() == found;
-        world
     }
 }
 

@@ -14,16 +14,20 @@ mod api;
 mod budget;
 mod call;
 mod check;
+mod hooks;
 mod host;
+mod limits;
 mod place;
+mod words;
 
 pub(crate) use api::Shelf;
-pub use api::{Argument, HookScene, Member, Perspective, Subject, functions, members};
+pub use api::{Argument, HookScene, Member, Params, Perspective, Subject, functions, members};
 pub use check::{ScriptFault, ScriptFaultKind, check_script};
 
 use api::{ShownState, events_of};
 use budget::Edits;
 use call::CompiledScript;
+use hooks::{DONE, RESET, REWARD};
 use place::hook_position;
 use rhai::{Array, Dynamic, EvalAltResult, FuncArgs};
 use setpiece_scenario::pitch::PLAYERS_MAX;
@@ -95,9 +99,6 @@ pub enum Done {
     Labelled(String),
 }
 
-/// A scenario's parameters as scripts see them.
-pub type Params = Arc<rhai::Map>;
-
 /// The compiled scripts of a scenario.
 #[derive(Clone, Debug)]
 pub struct Scripts {
@@ -126,10 +127,6 @@ struct Compiled {
 /// Why places in a script can't be mapped: Rhai stores lines and columns in two bytes, and has its
 /// own line ends.
 const UNFOLLOWED: &str = "the text can't be followed here: it has a lone carriage return, or more than 65535 lines or columns";
-/// The hook that runs before a script's first hook of an episode.
-const RESET: &str = "reset";
-const REWARD: &str = "reward";
-const DONE: &str = "done";
 
 impl Scripts {
     /// Compiles a scenario's scripts.
@@ -147,8 +144,8 @@ impl Scripts {
             };
             let unread = |error: rhai::ParseError| {
                 failed(
-                    host::line_column(error.position()).unwrap_or((1, 1)),
-                    host::parse_message(&error),
+                    words::line_column(error.position()).unwrap_or((1, 1)),
+                    words::parse_message(&error),
                 )
             };
             let ast = host::read(&script.source).map_err(unread)?;
@@ -319,7 +316,7 @@ impl Scripts {
         found: &str,
         scene: &HookScene,
     ) -> ScriptError {
-        let message = format!("expected {expected}, found {}", host::type_words(found));
+        let message = format!("expected {expected}, found {}", api::type_words(found));
         match self.list.get(script as usize) {
             Some(compiled) => compiled.error(hook, None, message, scene),
             None => ScriptError {
@@ -368,7 +365,7 @@ impl Compiled {
     }
 
     fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &HookScene) -> ScriptError {
-        let (position, message) = host::explain(error);
+        let (position, message) = words::explain(error);
         self.error(hook, position.map(|place| self.edits.original(place)), message, scene)
     }
 

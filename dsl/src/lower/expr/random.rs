@@ -1,10 +1,10 @@
 //! Draws: in the start program only.
 
-use super::super::behavior::Draw;
 use super::super::value::Value;
 use super::super::{Lower, ProgramStage};
 use crate::ast::{Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
+use crate::lower::known::Draw;
 use crate::problem::facts::{Chance, Implied};
 use crate::problem::{Problem, signature};
 use setpiece_scenario::vocabulary::Function;

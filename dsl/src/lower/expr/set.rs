@@ -55,7 +55,7 @@ impl<'w> Lower<'_, 'w> {
             return self.fail(Problem::new(span, Chance::WhoseGap));
         };
         let world = self.world;
-        let meant = |player: &crate::lower::roster::Rostered<'_>| {
+        let meant = |player: &crate::lower::people::Rostered<'_>| {
             team < 0.0 || player.team.index() as f64 == team
         };
         let indices: Vec<usize> =

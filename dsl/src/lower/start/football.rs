@@ -6,7 +6,7 @@
 use super::kind::NEAR_M;
 use crate::ast::Span;
 use crate::lower::Lower;
-use crate::lower::roster::Rostered;
+use crate::lower::people::Rostered;
 use crate::lower::team::PlayerOptions;
 use crate::problem::Problem;
 use crate::problem::facts::{Implied, Players, Starts};
@@ -187,7 +187,7 @@ fn check_pair(
         if apart >= SAME_SPOT_M || one.present.is_some() || other.present.is_some() {
             return None;
         }
-        let at = |player: &crate::lower::roster::Rostered<'_>| player.place_span();
+        let at = |player: &Rostered<'_>| player.place_span();
         let nth = lower.world.flat.kickoff.is_some().then_some(nth + 1);
         lower.report(Problem::new(
             at(second),

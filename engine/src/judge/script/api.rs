@@ -4,18 +4,19 @@
 //! The tables of this file and `vocabulary::PROPERTIES` are the whole interface. The getters are
 //! registered from them, and a script's names are checked against them.
 
+mod convert;
 mod functions;
 mod getters;
 mod kept;
 mod table;
 
+pub(super) use convert::{to_number, type_words};
 pub(super) use functions::function;
 pub use functions::functions;
 pub(crate) use kept::Shelf;
 pub(super) use kept::scene_of;
 pub use table::{Member, Subject, members};
 
-use crate::judge::script::Params;
 use crate::judge::script::budget::count_operations;
 use crate::judge::view::{MatchView, PlayerView, player_index, team_of_number};
 use crate::random::Stream;
@@ -25,6 +26,9 @@ use rhai::{Array, Dynamic, Engine};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{Team, Type};
 use std::sync::{Arc, Mutex, PoisonError};
+
+/// A scenario's parameters as scripts see them.
+pub type Params = Arc<rhai::Map>;
 
 /// The data that the hooks of one step share.
 #[derive(Debug)]

@@ -18,28 +18,16 @@ pub(super) use edits::Edits;
 pub(super) use natives::register as register_natives;
 pub(super) use size::bytes_of;
 
-use super::host;
+use super::limits::{BYTES_PER_OPERATION, COUNTED, OPERATIONS_MAX, Overspent, WORKED, Why};
+use super::words;
 use rhai::{Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext, Position};
 use std::cell::{Cell, RefCell};
-
-/// The most operations of one call of a hook: a few milliseconds.
-pub(super) const OPERATIONS_MAX: u64 = 200_000;
-
-/// Bytes that count as one operation. Copying them takes about as long as an operation. A call that
-/// spends every operation on values creates 200,000 × 256 B = 49 MiB. That is less than the 64 MiB
-/// that the documentation promises; the rest is for what is too small to count.
-pub(super) const BYTES_PER_OPERATION: usize = 256;
 
 /// Operations that a caught error counts as. Failed code has done work that nothing else counts.
 const CAUGHT_OPERATIONS: i64 = 1_000;
 /// The same in a script with closures, where Rhai waits for 50 ms before it reports that two of
 /// them use one variable.
 const CAUGHT_WAITING_OPERATIONS: i64 = 40_000;
-
-/// The functions that [`count_copies`] inserts; scripts can't name them.
-pub(super) const COUNTED: &str = "setpiece_counted";
-const WORKED: &str = "setpiece_worked";
-pub(super) const RESERVED: &[&str] = &[COUNTED, WORKED];
 
 pub(crate) type Failable<T> = Result<T, Box<EvalAltResult>>;
 
@@ -76,24 +64,8 @@ pub(super) fn count_bytes(bytes: usize, at: Position) -> Failable<()> {
     }
 }
 
-/// Why a call ends, even if the script tries to catch the error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Why {
-    /// Its operations were spent on the size of values, not on their number.
-    Size,
-    /// It uses a value that is being changed.
-    Changing,
-}
-
-/// What ends a call, and where. (Rhai itself loses the place.)
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Overspent {
-    pub(super) why: Why,
-    pub(super) place: Option<(usize, usize)>,
-}
-
 fn over(why: Why, at: Position) -> Failable<()> {
-    let over = Overspent { why, place: host::line_column(at) };
+    let over = Overspent { why, place: words::line_column(at) };
     Err(EvalAltResult::ErrorTerminated(Dynamic::from(over), at).into())
 }
 
@@ -142,7 +114,7 @@ pub(super) fn end(this: &mut Dynamic) -> Result<(), String> {
         return Ok(());
     }
     let kept = bytes_of(this, Position::NONE)
-        .map_err(|error| host::explain(error).1)
+        .map_err(|error| words::explain(error).1)
         .map(|_| size::unshared(this));
     for mut variable in shared {
         if let Some(mut value) = variable.write_lock::<Dynamic>() {

@@ -3,8 +3,9 @@
 mod names;
 
 use super::api::Subject;
-use super::host;
+use super::hooks::hook_arguments;
 use super::place::{definition, offset, word_at};
+use super::{host, words};
 use names::Names;
 use rhai::{AST, ASTNode, Expr, Position, Stmt};
 use std::ops::Range;
@@ -36,22 +37,6 @@ pub struct ScriptFault {
     pub help: Option<String>,
 }
 
-/// The arguments of a hook; `None` if it isn't a hook.
-pub(super) fn hook_arguments(hook: &str) -> Option<&'static [(&'static str, Subject)]> {
-    const STEP: &[(&str, Subject)] = &[
-        ("ctx", Subject::Ctx),
-        ("now", Subject::State),
-        ("prev", Subject::State),
-        ("events", Subject::Events),
-    ];
-    match hook {
-        "reward" | "done" => Some(STEP),
-        "act" => Some(&[("ctx", Subject::Ctx), ("me", Subject::Player), ("now", Subject::State)]),
-        "reset" => Some(&[("ctx", Subject::Ctx)]),
-        _ => None,
-    }
-}
-
 /// The most problems reported per script, because finding the place of each scans the script from
 /// its beginning.
 const FAULTS_MAX: usize = 100;
@@ -73,7 +58,7 @@ pub fn check_script(source: &str, hook: &str, params: &[&str]) -> Vec<ScriptFaul
                 }
                 _ => (ScriptFaultKind::Syntax, None),
             };
-            let message = host::parse_message(&error);
+            let message = words::parse_message(&error);
             return vec![ScriptFault { kind, range: word_at(source, start), message, help }];
         }
     };
@@ -175,7 +160,7 @@ pub(super) fn suggest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>)
 }
 
 fn position_offset(source: &str, position: Position) -> usize {
-    match host::line_column(position) {
+    match words::line_column(position) {
         Some((line, column)) => offset(source, line, column),
         None => source.len(),
     }

@@ -1,6 +1,9 @@
 //! The process's one Rhai engine: what a script may use, and how much.
 
-use super::budget::{BYTES_PER_OPERATION, OPERATIONS_MAX, Overspent, Why};
+use super::api::to_number;
+use super::limits::{
+    ARRAY_MAX, CALL_LEVELS_MAX, DISABLED, EXPRESSION_DEPTH_MAX, MAP_MAX, RESERVED, STRING_MAX,
+};
 use super::{api, budget};
 use rhai::packages::{
     ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage,
@@ -8,15 +11,10 @@ use rhai::packages::{
 };
 use rhai::{
     AST, Array, Dynamic, Engine, EvalAltResult, FnPtr, ImmutableString, Map, OptimizationLevel,
-    ParseError, ParseErrorType, Position,
+    ParseError, ParseErrorType,
 };
 use std::sync::OnceLock;
 
-const CALL_LEVELS_MAX: usize = 24;
-pub(super) const EXPRESSION_DEPTH_MAX: usize = 48;
-const STRING_MAX: usize = 4_096;
-pub(super) const ARRAY_MAX: usize = 4_096;
-pub(super) const MAP_MAX: usize = 512;
 /// Bytes for the steps that the memories of an episode's scripts may keep, out of the 64 MiB that
 /// the documentation promises.
 pub(super) const MEMORIES_BYTES_MAX: usize = 12 << 20;
@@ -24,9 +22,6 @@ pub(super) const MEMORIES_BYTES_MAX: usize = 12 << 20;
 const SCENES_LEAST: usize = 8;
 const VARIABLES_MAX: usize = 256;
 const FUNCTIONS_MAX: usize = 256;
-
-/// Keywords that would give access to the outside, or to more than the limits allow.
-const DISABLED: &[&str] = &["eval", "import", "export", "print", "debug", "**", "**="];
 
 /// The engine that runs scripts; built at its first use.
 pub(super) fn engine() -> &'static Engine {
@@ -60,7 +55,7 @@ pub(super) fn plain_engine() -> Engine {
 pub(super) fn read(source: &str) -> Result<AST, ParseError> {
     let ast = reader().compile(source)?;
     // A function with a reserved name would be called instead of the one that counts.
-    let reserved = ast.iter_fn_def().find(|own| budget::RESERVED.contains(&own.name.as_str()));
+    let reserved = ast.iter_fn_def().find(|own| RESERVED.contains(&own.name.as_str()));
     let refused = reserved
         .map(|own| (ParseErrorType::Reserved(own.name.to_string()), own.body.start_position()));
     refused.map_or(Ok(ast), |(why, position)| Err(ParseError(Box::new(why), position)))
@@ -164,15 +159,6 @@ fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Converts an integer or float to a float.
-pub(super) fn to_number(value: &Dynamic) -> Result<f64, Box<EvalAltResult>> {
-    match (value.as_float(), value.as_int()) {
-        (Ok(number), _) => Ok(number),
-        (_, Ok(whole)) => Ok(whole as f64),
-        _ => Err(format!("expected a number, found {}", type_words(value.type_name())).into()),
-    }
-}
-
 /// The total content of a script's memory.
 #[derive(Default)]
 struct MemorySize {
@@ -243,119 +229,4 @@ pub(super) fn check_size(memory: &Dynamic, bytes: usize) -> Result<(), String> {
     let mut held = MemorySize::default();
     held.add(memory, 0)?;
     held.scenes_within(bytes)
-}
-
-/// Line and column of a position, if it has any.
-pub(super) fn line_column(position: Position) -> Option<(usize, usize)> {
-    position.line().map(|line| (line, position.position().unwrap_or(1)))
-}
-
-/// Where and why a call failed.
-pub(super) fn explain(error: Box<EvalAltResult>) -> (Option<(usize, usize)>, String) {
-    let mut error = error;
-    let mut place = None;
-    // The innermost place is the line that failed.
-    loop {
-        let here = line_column(error.position());
-        match *error {
-            EvalAltResult::ErrorInFunctionCall(_, _, inner, _) => {
-                place = here.or(place);
-                error = inner;
-            }
-            other => {
-                let known = match &other {
-                    EvalAltResult::ErrorTerminated(token, _) => {
-                        token.read_lock::<Overspent>().and_then(|over| over.place)
-                    }
-                    _ => None,
-                };
-                let place = known.or(here).or(place);
-                return (place, runtime_message(other));
-            }
-        }
-    }
-}
-
-/// Two of a script's functions use one variable at once.
-const RACE: &str =
-    "a closure reads the variable that its chain begins with: put one of both into a `let` before";
-
-/// Rhai reports what is too large; this adds which limit it is.
-fn words_of_size(words: &str) -> String {
-    if words.starts_with("a value") { words.to_owned() } else { format!("{words} too large") }
-}
-
-fn runtime_message(error: EvalAltResult) -> String {
-    match error {
-        EvalAltResult::ErrorTerminated(token, _) if token.is::<Overspent>() => {
-            match token.cast::<Overspent>().why {
-                Why::Size => format!(
-                    "more than {OPERATIONS_MAX} operations in one call: work on values counts by their size, \
-                 {BYTES_PER_OPERATION} bytes to an operation"
-                ),
-                Why::Changing => RACE.to_owned(),
-            }
-        }
-        EvalAltResult::ErrorTerminated(..) => {
-            format!("more than {OPERATIONS_MAX} operations in one call: a loop doesn't end")
-        }
-        EvalAltResult::ErrorStackOverflow(_) => format!("calls nest deeper than {CALL_LEVELS_MAX}"),
-        EvalAltResult::ErrorDataRace(..) => RACE.to_owned(),
-        EvalAltResult::ErrorDataTooLarge(words, _) => lower_first(&words_of_size(&words)),
-        EvalAltResult::ErrorDotExpr(message, _) if !message.is_empty() => lower_first(&message),
-        EvalAltResult::ErrorRuntime(value, _) => format!("the script threw `{value}`"),
-        EvalAltResult::ErrorPropertyNotFound(name, _) => format!("unknown property `{name}`"),
-        EvalAltResult::ErrorVariableNotFound(name, _) => format!("unknown variable `{name}`"),
-        EvalAltResult::ErrorFunctionNotFound(signature, _) => {
-            format!("no function `{}`", tidy(&signature))
-        }
-        mut other => {
-            let _ = other.take_position();
-            lower_first(&other.to_string())
-        }
-    }
-}
-
-/// What is wrong with a script's text, in one clause.
-pub(super) fn parse_message(error: &ParseError) -> String {
-    match error.err_type() {
-        ParseErrorType::VariableUndefined(name) => format!("unknown variable `{name}`"),
-        ParseErrorType::Reserved(word)
-            if DISABLED.iter().chain(budget::RESERVED).any(|known| known == word) =>
-        {
-            format!("`{word}` is not available in a script")
-        }
-        other => lower_first(&other.to_string()),
-    }
-}
-
-/// Rhai's name of a type in plain words.
-pub(super) fn type_words(name: &str) -> String {
-    match name {
-        "()" => "nothing".to_owned(),
-        "i64" => "a whole number".to_owned(),
-        "f64" => "a number".to_owned(),
-        "string" | "map" | "array" | "bool" | "char" => format!("a {name}"),
-        other => match api::type_name(other) {
-            Some(name) => format!(
-                "{} {name}",
-                if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
-            ),
-            None => format!("`{}`", tidy(other)),
-        },
-    }
-}
-
-/// Drops the paths of Rust types from Rhai's words.
-fn tidy(words: &str) -> String {
-    let short = words.replace("rhai::types::immutable_string::", "").replace("alloc::vec::", "");
-    short
-        .split_inclusive([' ', ',', '('])
-        .map(|part| part.rsplit("::").next().unwrap_or(part))
-        .collect()
-}
-
-fn lower_first(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
 }

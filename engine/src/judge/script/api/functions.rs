@@ -1,7 +1,7 @@
 //! The functions of the interface, and all other functions that scripts can call.
 
 use super::super::budget::{Failable, count_bytes};
-use super::super::host::{to_number, type_words};
+use super::convert::{to_number, type_words};
 use super::{Ctx, Point, SeenBall, SeenEvent, SeenPlayer, SeenTeam, ShownState, Vector};
 use crate::judge::machine;
 use crate::judge::view::PlayerView;

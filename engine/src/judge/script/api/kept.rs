@@ -5,9 +5,11 @@
 //! [`Shelf`] of their own, each once, so that what was one is one again. The shelf is handed along
 //! beside the archive of an episode.
 
+use super::convert::type_words;
 use super::{Ctx, Point, SeenBall, SeenEvent, SeenPlayer, SeenScore, SeenTeam, ShownState, Vector};
 use super::{HookScene, Perspective};
 use crate::judge::script::host::MEMORIES_BYTES_MAX;
+use crate::judge::script::limits::{EXPRESSION_DEPTH_MAX, MAP_MAX};
 use crate::judge::script::{Memory, host};
 use crate::judge::view::MatchView;
 use crate::random::Stream;
@@ -57,7 +59,7 @@ enum KeptValue {
     /// A list of this many values.
     List(u32),
     /// A map with as many values as it has names.
-    Table(#[serde(deserialize_with = "bounded::<_, _, { host::MAP_MAX }>")] Vec<String>),
+    Table(#[serde(deserialize_with = "bounded::<_, _, { MAP_MAX }>")] Vec<String>),
     Range(i64, i64),
     RangeThrough(i64, i64),
     Point([f64; 2], f64),
@@ -227,11 +229,8 @@ impl Shelf {
     fn shown(&mut self, value: &Dynamic) -> Result<KeptValue, Unkept> {
         let Some((shown, sight)) = shown(value) else {
             let function = value.is::<FnPtr>();
-            let what = if function {
-                "a function".to_owned()
-            } else {
-                host::type_words(value.type_name())
-            };
+            let what =
+                if function { "a function".to_owned() } else { type_words(value.type_name()) };
             return Err(Unkept { place: String::new(), what });
         };
         let Perspective { us, me, agent } = sight.perspective;
@@ -256,7 +255,7 @@ impl Shelf {
             let first = open.len().checked_sub(n_parts).ok_or("lacks parts of a list or map")?;
             let parts = open.split_off(first);
             let depth = parts.iter().map(|(_, depth)| depth + 1).max().unwrap_or_default();
-            if depth > host::EXPRESSION_DEPTH_MAX {
+            if depth > EXPRESSION_DEPTH_MAX {
                 return Err("is nested too deeply".to_owned());
             }
             let mut parts = parts.into_iter().map(|(part, _)| part);

@@ -4,7 +4,7 @@
 //! the text is treated as large.
 
 use super::super::api::{Subject, members};
-use super::super::check::hook_arguments;
+use super::super::hooks::hook_arguments;
 use rhai::{Expr, FnCallExpr, FnPtr, Position, Stmt, StmtBlock};
 use std::collections::{BTreeMap, BTreeSet};
 

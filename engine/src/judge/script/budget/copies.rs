@@ -9,11 +9,12 @@
 //! Rhai's syntax tree can be read but not written, so the calls are inserted into the text.
 //! [`Edits`] maps places in it back to the author's text.
 
-use super::super::host;
+use super::super::limits::{COUNTED, WORKED};
+use super::super::words;
 use super::class::{ANONYMOUS, Class, Classes, Link, Pointers, ScriptFunction, closure, links};
 use super::edits::Edits;
 use super::scan::{closing_bracket, expression_end};
-use super::{CAUGHT_OPERATIONS, CAUGHT_WAITING_OPERATIONS, COUNTED, WORKED};
+use super::{CAUGHT_OPERATIONS, CAUGHT_WAITING_OPERATIONS};
 use rhai::{AST, ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
 use std::collections::BTreeSet;
 
@@ -157,7 +158,7 @@ struct CopyWriter<'a> {
 
 impl CopyWriter<'_> {
     fn offset(&mut self, position: Position) -> Option<usize> {
-        let (line, column) = host::line_column(position)?;
+        let (line, column) = words::line_column(position)?;
         let start = *self.lines.get(line - 1)?;
         let rest = self.source.get(start..)?;
         let found = rest.char_indices().nth(column.saturating_sub(1)).map(|(at, _)| start + at);
@@ -173,7 +174,7 @@ impl CopyWriter<'_> {
         if self.source.get(at..).is_some_and(|rest| rest.starts_with(expected)) {
             return Some(at);
         }
-        self.lost = self.lost.or(host::line_column(position));
+        self.lost = self.lost.or(words::line_column(position));
         None
     }
 
@@ -369,11 +370,10 @@ impl CopyWriter<'_> {
 
     /// Counts a chain up to a call of `curry`, which copies what the function has captured.
     fn curried(&mut self, root: &Expr, name: Position) {
-        let begins = self.offset(root.position());
-        let Some(name) = self.offset_of(name, CURRY) else { return };
-        let open = self.source.get(name..).and_then(|rest| rest.find('(')).map(|at| name + at);
+        let name = self.offset_of(name, CURRY);
+        let open = name.and_then(|name| Some(name + self.source.get(name..)?.find('(')?));
         let close = open.and_then(|open| closing_bracket(self.source, open));
-        if let (Some(begins), Some(close)) = (begins, close) {
+        if let (Some(begins), Some(close)) = (self.offset(root.position()), close) {
             self.count(begins, close + 1);
         }
     }

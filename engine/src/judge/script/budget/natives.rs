@@ -3,7 +3,7 @@
 //! Each function is taken from Rhai unchanged, and registered again with a wrapper that counts its
 //! arguments and result.
 
-use super::super::host::ARRAY_MAX;
+use super::super::limits::ARRAY_MAX;
 use super::{Failable, bytes_of, count_bytes};
 use rhai::plugin::RhaiResult;
 use rhai::{

@@ -1,7 +1,7 @@
 //! How large a value is.
 
-use super::super::host::EXPRESSION_DEPTH_MAX;
-use super::{Failable, Why, over};
+use super::super::limits::{EXPRESSION_DEPTH_MAX, Why};
+use super::{Failable, over};
 use rhai::{Array, Dynamic, EvalAltResult, FnPtr, ImmutableString, Map, Position};
 
 /// Bytes of the largest value. The limits of lists, maps and strings allow less, but they don't see

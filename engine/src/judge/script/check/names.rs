@@ -4,10 +4,10 @@
 //! hook's arguments, at a loop over players or events, or at a `let` of such a chain. Any other
 //! name must at least be known to the interface or to the script itself.
 
-use super::super::DONE;
 use super::super::api::{Subject, function, functions, members};
+use super::super::hooks::{DONE, hook_arguments};
 use super::super::place::word_at;
-use super::{ScriptFault, ScriptFaultKind, hook_arguments, position_offset, suggest};
+use super::{ScriptFault, ScriptFaultKind, position_offset, suggest};
 use rhai::{AST, ASTFlags, ASTNode, Expr, FnCallExpr, Position, Stmt};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier};
 use std::collections::BTreeMap;

@@ -1,0 +1,82 @@
+//! The players of a scenario as the text has them, and who plays them.
+
+use super::value::Scope;
+use crate::ast::{Expr, Facing, Field, Ident, Place, Span};
+use crate::cast::CastTarget;
+use setpiece_scenario::pitch::TEAM_MAX;
+use setpiece_scenario::vocabulary::{Role, Team};
+
+/// A player of the roster.
+#[derive(Clone)]
+pub(crate) struct Rostered<'w> {
+    /// `team * 11 + index`.
+    pub(crate) id: u8,
+    /// Their team.
+    pub(crate) team: Team,
+    /// Their role.
+    pub(crate) role: Role,
+    /// Their name, if any.
+    pub(crate) name: Option<&'w Ident>,
+    /// Their statement.
+    pub(crate) span: Span,
+    /// Where they start; when their team kicks off, if there are layouts.
+    pub(crate) stand: Stand<'w>,
+    /// In which scope the rest of the player is read.
+    pub(crate) scope: Scope<'w>,
+    /// Where they stand when the others kick off, if there are layouts.
+    pub(crate) receiving: Option<Stand<'w>>,
+    /// Where they look.
+    pub(crate) facing: Option<&'w Facing>,
+    /// How far their place is moved.
+    pub(crate) jitter: Option<&'w Expr>,
+    /// Whether they play.
+    pub(crate) when: Option<&'w Expr>,
+    /// Options: what stands later wins.
+    pub(crate) fields: Vec<&'w Field>,
+}
+
+/// Where a player stands in a layout.
+#[derive(Clone)]
+pub(crate) enum Stand<'w> {
+    /// At a place, read in a scope; in the zone of the role without one.
+    At(Option<&'w Place>, Scope<'w>),
+    /// As in one formation or another.
+    Either(&'w Expr, Box<Stand<'w>>, Box<Stand<'w>>),
+}
+
+impl Rostered<'_> {
+    /// What a report of the place points at.
+    pub(crate) fn place_span(&self) -> Span {
+        match self.stand {
+            Stand::At(Some(place), _) => place.span,
+            Stand::At(None, _) | Stand::Either(..) => self.span,
+        }
+    }
+
+    /// The name of the stream of the draws: the label, else the team and index.
+    pub(crate) fn stream(&self) -> String {
+        match self.name {
+            Some(name) => format!("player {}", name.node),
+            None => format!("player {} {}", self.team, usize::from(self.id) % TEAM_MAX),
+        }
+    }
+
+    /// The player in a sentence.
+    pub(crate) fn shown(&self) -> String {
+        match self.name {
+            Some(name) => format!("`{}`", name.node),
+            None => format!("the {} team's {}", self.team, self.role),
+        }
+    }
+}
+
+/// An `ai` from outside, read: `each all { ai: … }` in a text of its own.
+#[derive(Clone, Copy)]
+pub(crate) struct Casting<'w> {
+    /// Whose.
+    pub(crate) target: CastTarget,
+    /// The `all`.
+    pub(crate) who: &'w Ident,
+    /// The `ai`.
+    pub(crate) field: &'w Field,
+}

@@ -265,6 +265,7 @@ impl<'a> Compilation<'a> {
             scenario: Some(item.name.span),
             params: free(&world).map(|param| param.name.span).collect(),
             players: world.roster.iter().map(|player| player.span).collect(),
+            ball: flat.ball.map(|(_, span)| span),
             rewards: reward_spans,
             endings: flat.ends.iter().map(|end| end.span).collect(),
             records: flat.records.iter().map(|record| record.name.span).collect(),

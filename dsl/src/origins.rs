@@ -13,6 +13,8 @@ pub struct Origins {
     pub params: Vec<Span>,
     /// Its players, in order.
     pub players: Vec<Span>,
+    /// Its ball.
+    pub ball: Option<Span>,
     /// Its rewards, in order.
     pub rewards: Vec<Span>,
     /// Its endings, in order.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import os
 import time
 import weakref
 import webbrowser
@@ -16,12 +17,14 @@ from setpiece._environment import FootballEnv
 from setpiece._errors import ParameterError, ReplayError
 from setpiece._native import Scenario
 from setpiece._opponents import Opponent, Seat, ask, function_of, is_word, policy_of
-from setpiece._options import check_flag, check_number
+from setpiece._options import check_flag
 from setpiece._rows import Picker
 from setpiece._source import Source, load, name_of, path_of, text_of
 from setpiece._vector import FootballVectorEnv
 
 PORT_MAX = 65_535
+TAKEN = ("bot", "idle", "random", "run_and_shoot", "nobody", "you")
+"""Names that mean something else in the page."""
 FRAME_PX = 900
 """The height of the page in a notebook."""
 
@@ -68,6 +71,7 @@ class Studio:
         self._native, self._every_s, self._next = native, every_s, 0.0
         self._followed: list[FootballEnv | FootballVectorEnv] = []
         self.address, self.port = native.address, native.port
+        self._process, self._closed = os.getpid(), False
         _running.add(self)
 
     def __repr__(self) -> str:
@@ -100,6 +104,8 @@ class Studio:
         inner = _inner(env)
         if inner is None:
             raise ParameterError(f"`{env!r}` is no environment of Setpiece", name="env")
+        if self._closed:
+            raise ParameterError("the studio has ended: start another one", name="env")
         inner.mirrors.append(self._take)
         self._followed.append(inner)
 
@@ -111,9 +117,11 @@ class Studio:
         """Ends it: the port is free afterwards, and no environment is followed any more."""
         for env in self._followed:
             env.mirrors.remove(self._take)
-        self._followed = []
+        self._followed, self._closed = [], True
         _running.discard(self)
-        self._native.close()
+        # A forked process has no part in its parent's studio.
+        if self._process == os.getpid():
+            self._native.close()
 
     def _take(self, replay: Callable[[], bytes]) -> None:
         """Shows an episode that has ended, unless one was shown a moment ago."""
@@ -163,9 +171,9 @@ def studio(
         raise ParameterError(
             f"`every_s` is {every_s!r}; expected seconds, 0 or more", name="every_s"
         )
-    number = check_number("port", port)
-    if number > PORT_MAX:
-        raise ParameterError(f"`port` is {number}, outside 0..{PORT_MAX}", name="port")
+    number = port if isinstance(port, int) and not isinstance(port, bool) else -1
+    if not 0 <= number <= PORT_MAX:
+        raise ParameterError(f"`port` is {port!r}; expected 0..{PORT_MAX}", name="port")
     look = ("simple115v2", False) if env is None else env.sight
     given = [_native_policy(name, one, look) for name, one in _read(policies).items()]
     made_of: Source = source if env is None else env.source
@@ -193,6 +201,12 @@ def _read(policies: Mapping[str, Opponent] | None) -> Mapping[str, Opponent]:
         raise ParameterError(
             f"expected `policies` as a mapping from names, found `{policies!r}`", name="policies"
         )
+    for name in policies:
+        if name in TAKEN or not name.strip():
+            raise ParameterError(
+                f"no policy can be called {name!r}: the page has that name already",
+                name="policies",
+            )
     return policies
 
 

@@ -13,7 +13,8 @@ use setpiece::scenario::Action;
 use setpiece::studio::{Guest, Guests, OpenOptions, Running, ServeOptions, Session, start};
 use setpiece::{LoadOptions, Loaded};
 use std::ffi::OsStr;
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A policy of the program: what it sees, and the function that is given it.
 #[derive(FromPyObject)]
@@ -50,15 +51,19 @@ struct OpenedForm {
 }
 
 /// The policies of the program.
-struct PythonGuests(Vec<PolicyForm>);
+struct PythonGuests {
+    policies: Vec<PolicyForm>,
+    /// Set when the studio ends: from then on Python is no longer called.
+    is_closed: Arc<AtomicBool>,
+}
 
 impl Guests for PythonGuests {
     fn names(&self) -> Vec<String> {
-        self.0.iter().map(|policy| policy.name.clone()).collect()
+        self.policies.iter().map(|policy| policy.name.clone()).collect()
     }
 
     fn policy(&self, name: &str) -> Option<Box<dyn Guest + Send>> {
-        let policy = self.0.iter().find(|policy| policy.name == name)?;
+        let policy = self.policies.iter().find(|policy| policy.name == name)?;
         Some(Box::new(PythonPolicy {
             observation: policy.observation.clone(),
             scale: policy.scale,
@@ -67,6 +72,7 @@ impl Guests for PythonGuests {
             chosen: Vec::new(),
             step: None,
             fault: None,
+            is_closed: self.is_closed.clone(),
         }))
     }
 }
@@ -82,6 +88,7 @@ struct PythonPolicy {
     chosen: Vec<Action>,
     step: Option<u32>,
     fault: Option<String>,
+    is_closed: Arc<AtomicBool>,
 }
 
 impl PythonPolicy {
@@ -109,6 +116,9 @@ impl Policy for PythonPolicy {
     }
 
     fn act(&mut self, environment: &Engine, agent: usize) -> Action {
+        if self.is_closed.load(Ordering::Acquire) {
+            return Action::Idle;
+        }
         if self.step != Some(environment.steps()) && self.fault.is_none() {
             self.step = Some(environment.steps());
             match &mut self.engine {
@@ -139,6 +149,7 @@ pub(crate) struct Studio {
     /// The port.
     #[pyo3(get)]
     port: u16,
+    is_closed: Arc<AtomicBool>,
     running: Mutex<Option<Running>>,
 }
 
@@ -157,9 +168,10 @@ impl Studio {
         let compiled = scenario.map(|scenario| scenario.get().inner().clone());
         let bound = bound.map(|scenario| scenario.get().inner().clone());
         let params = bound.iter().flat_map(|scenario| &scenario.params);
+        let is_closed = Arc::new(AtomicBool::new(false));
         let options = OpenOptions {
             allow_outside,
-            guests: Some(Box::new(PythonGuests(policies))),
+            guests: Some(Box::new(PythonGuests { policies, is_closed: is_closed.clone() })),
             params: params.map(|param| (param.name.clone(), param.default)).collect(),
         };
         let opened = py.detach(|| {
@@ -180,7 +192,7 @@ impl Studio {
             errors::parameter(py, "port", &format!("the studio can't be served: {why}"))
         })?;
         let (address, port) = (running.address.clone(), running.port);
-        Ok(Studio { address, port, running: Mutex::new(Some(running)) })
+        Ok(Studio { address, port, is_closed, running: Mutex::new(Some(running)) })
     }
 
     /// Shows an episode, the bytes of a replay, in every page. False if the studio has ended.
@@ -195,6 +207,7 @@ impl Studio {
 
     /// Ends it; the port is free afterwards.
     fn close(&self, py: Python<'_>) {
+        self.is_closed.store(true, Ordering::Release);
         py.detach(|| {
             let running = self.running.lock().unwrap_or_else(PoisonError::into_inner).take();
             drop(running);

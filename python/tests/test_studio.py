@@ -12,6 +12,7 @@ import sys
 import urllib.error
 import urllib.request
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -149,10 +150,7 @@ def test_people_and_policies_play_each_other() -> None:
         tab.ask(type="hold", seat=0, keys={"way": [-1, 0], "held": []})
         start = tab.hear("step")["scenes"][0]
         later = tab.hear("step", lambda one: one["scenes"][-1]["step"] >= 8)["scenes"][-1]
-        moved = [
-            b["pos"][0] - a["pos"][0]
-            for a, b in zip(start["players"], later["players"], strict=True)
-        ]
+        moved = [b[0] - a[0] for a, b in zip(start["players"], later["players"], strict=True)]
         tab.ask(type="stop")
         assert tab.hear("episode")["agent"] == "you"
         assert min(moved[:4]) < -0.5
@@ -215,6 +213,8 @@ def test_at_most_one_episode_is_shown_every_few_seconds() -> None:
         ({"policies": [1]}, "policies"),
         ({"policies": {"a": 3}}, "opponents"),
         ({"policies": {"a": "bot"}}, "policies"),
+        ({"policies": {"bot": lambda _: 5}}, "policies"),
+        ({"policies": {"": lambda _: 5}}, "policies"),
         ({"every_s": -1}, "every_s"),
         ({"every_s": "x"}, "every_s"),
         ({"port": 70_000}, "port"),
@@ -239,6 +239,10 @@ def test_what_cannot_be_opened_is_reported_as_by_load() -> None:
             setpiece.studio("academy_corner", port=taken.getsockname()[1])
     with setpiece.studio() as page, pytest.raises(setpiece.ParameterError):
         page.follow(3)
+    env = setpiece.make("academy_empty_goal_close")
+    with pytest.raises(setpiece.ParameterError, match="has ended"):
+        page.follow(env)
+    assert env.mirrors == []
 
 
 def test_a_program_that_ends_without_closing_it_ends() -> None:
@@ -246,6 +250,32 @@ def test_a_program_that_ends_without_closing_it_ends() -> None:
         "import setpiece; env = setpiece.make('academy_empty_goal_close');"
         "page = setpiece.studio(env, policies={'a': lambda _: 5}); env.reset(seed=1); env.step(5)"
     )
+    done = subprocess.run([sys.executable, "-c", code], timeout=60, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("closing", ["page.close()", "pass", "os.fork() or page.close()"])
+def test_a_program_ends_while_its_policy_plays(closing: str) -> None:
+    code = f"""
+import os, sys, time, setpiece
+sys.path.insert(0, {os.fspath(Path(__file__).parent)!r})
+from test_studio import Tab
+asked = []
+def slow(observation):
+    asked.append(1)
+    time.sleep(0.05)
+    return 5
+page = setpiece.studio("academy_3_vs_1_with_keeper", policies={{"slow": slow}})
+tab = Tab(page)
+tab.ask(type="play", seed=1, episode=0, agent="slow")
+while not asked:
+    time.sleep(0.01)
+{closing}
+before = len(asked)
+time.sleep(0.3)
+assert {closing!r} != "page.close()" or len(asked) <= before + 1
+tab.__exit__()
+"""
     done = subprocess.run([sys.executable, "-c", code], timeout=60, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
 

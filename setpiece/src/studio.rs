@@ -12,11 +12,13 @@ pub mod guard;
 pub mod hands;
 mod live;
 pub mod message;
+pub mod moment;
 mod page;
 mod players;
 mod server;
 mod session;
 mod stage;
+mod summary;
 
 pub use players::{Guest, Guests};
 pub use server::{Ready, Running, ServeOptions, serve, start};

@@ -73,7 +73,9 @@ export class Editor {
           EditorView.updateListener.of((update) => {
             if (update.docChanged && !this.quiet) changed(this.text());
           }),
-          EditorView.contentAttributes.of({ "aria-label": "Scenario text" }),
+          EditorView.contentAttributes.of({
+            "aria-label": "Scenario text. Escape, then Tab leaves it.",
+          }),
         ],
       }),
     });

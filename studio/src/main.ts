@@ -4,6 +4,7 @@ import "./style.css";
 import { Drag } from "./drag";
 import { Editor } from "./editor";
 import type { Episode, Reply, Scene } from "./messages";
+import { scenes } from "./messages";
 import { Hands } from "./hands";
 import { arrows, offside } from "./overlay";
 import { Params } from "./params";
@@ -53,6 +54,8 @@ let regions: HTMLCanvasElement | null = null;
 let live: Scene[] = [];
 let arrived = 0;
 let dirty = false;
+/** Whether somebody has typed here since the text was last shown or saved. */
+let unsaved = false;
 /** Whether the next text comes of a drag on this page. */
 let moved = false;
 let waiting = 0;
@@ -78,22 +81,28 @@ const params = new Params(element("params"), (values) => {
   refreshCloud();
 });
 
+/** How this page calls itself, to know its own changes. */
+const SELF = crypto.randomUUID();
+
 function edited(text: string): void {
-  dirty = true;
+  dirty = unsaved = true;
+  say("");
   clearTimeout(waiting);
   waiting = window.setTimeout(() => {
-    socket.ask({ type: "text", text });
+    socket.ask({ type: "text", text, from: SELF });
     refreshCloud();
   }, CHECK_MS);
 }
 
 function save(): void {
-  socket.ask({ type: "text", text: editor.text() });
+  clearTimeout(waiting);
+  socket.ask({ type: "text", text: editor.text(), from: SELF });
   socket.ask({ type: "save" });
 }
 
 function play(): void {
-  const whole = (input: HTMLInputElement) => Math.max(0, Math.floor(Number(input.value) || 0));
+  const whole = (input: HTMLInputElement) =>
+    Math.min(Number.MAX_SAFE_INTEGER, Math.max(0, Math.floor(Number(input.value) || 0)));
   const also = beside.value === NOBODY ? null : beside.value;
   // What somebody has chosen stays until they follow the program again.
   follow.checked = false;
@@ -112,10 +121,16 @@ function go(at: number): void {
 function hear(reply: Reply): void {
   switch (reply.type) {
     case "opened":
-      editor.show(reply.text, moved);
-      moved = false;
-      dirty = false;
       element<HTMLButtonElement>("save").hidden = !reply.is_file;
+      element("text").toggleAttribute("hidden", reply.text === "" && !reply.is_file);
+      dirty = !reply.is_saved;
+      // What somebody types here has come this way already.
+      if (reply.from === SELF) break;
+      if (dirty && !moved && editor.text() !== "") say("somebody else is editing this text");
+      // What was written here and is replaced from elsewhere comes back by undo.
+      editor.show(reply.text, moved || unsaved);
+      unsaved = false;
+      moved = false;
       break;
     case "checked": {
       editor.report(reply.problems);
@@ -138,15 +153,17 @@ function hear(reply: Reply): void {
       choices(beside, [NOBODY, ...reply.players], NOBODY);
       break;
     }
-    case "episode":
+    case "episode": {
+      const played: Episode = { ...reply, scenes: scenes(reply.roster, reply.scenes) };
       if (reply.watched) element("follow").closest("label")?.removeAttribute("hidden");
       if (reply.watched && !follow.checked) break;
-      if (reply.watched && episode?.watched && clock.playing) waits = reply;
-      else show(reply);
+      if (reply.watched && episode?.watched && clock.playing) waits = played;
+      else show(played);
       break;
+    }
     case "step":
       if (reply.scenes[0]?.step === 0) live = [];
-      live.push(...reply.scenes);
+      live.push(...scenes(reply.roster, reply.scenes));
       arrived = performance.now();
       break;
     case "cloud":
@@ -164,12 +181,13 @@ function hear(reply: Reply): void {
       download(reply.name, reply.hex);
       break;
     case "saved":
-      dirty = false;
+      dirty = unsaved = false;
       say("saved");
       break;
     case "refused":
       if (live.length === 0) hands.active = false;
       moved = false;
+      if (episode) choose(agent, episode.agent);
       say(reply.message);
       break;
   }
@@ -184,6 +202,11 @@ function choices(select: HTMLSelectElement, names: string[], first: string): voi
   select.value = chosen;
 }
 
+/** Chooses a name, if it is one of the choices. */
+function choose(select: HTMLSelectElement, name: string): void {
+  if ([...select.options].some((option) => option.value === name)) select.value = name;
+}
+
 /** Shows an episode, in the second picture if it is there to be compared. */
 function show(reply: Episode): void {
   if (reply.beside) {
@@ -196,7 +219,7 @@ function show(reply: Episode): void {
   const first = episode === null;
   const played = live.length > 0;
   if (reply.watched) say("as another program has played it");
-  else if (episode?.watched) say("");
+  else if (element("state").textContent !== "saved") say("");
   [episode, other] = [reply, null];
   second?.element.remove();
   second = null;
@@ -205,7 +228,7 @@ function show(reply: Episode): void {
   [live, hands.active, waits] = [[], false, null];
   scrub.max = String(clock.last);
   [seed.value, index.value] = [String(reply.seed), String(reply.episode)];
-  if ([...agent.options].some((option) => option.value === reply.agent)) agent.value = reply.agent;
+  choose(agent, reply.agent);
   plot.show(reply);
   showEvents(element("events"), reply, go);
   caption();
@@ -213,7 +236,7 @@ function show(reply: Episode): void {
 
 /** Says which picture is whose, where there are two. */
 function caption(): void {
-  const words = (of: Episode) => [of.agent || of.name, `seed ${of.seed}`, `episode ${of.episode}`].join(" · ");
+  const words = (of: Episode) => [of.agent || `recording of ${of.name}`, `seed ${of.seed}`, `episode ${of.episode}`].join(" · ");
   screen.say(other && episode ? words(episode) : "");
   if (other) second?.say(words(other));
 }
@@ -227,14 +250,14 @@ function download(name: string, hex: string): void {
   URL.revokeObjectURL(link.href);
 }
 
-function frameOf(scenes: Scene[], at: number, share: number, of: Episode | null): Frame {
-  const scene = scenes[at];
+function frameOf(of: Scene[], at: number, share: number, episode: Episode | null): Frame {
+  const scene = of[at];
   return {
-    scenes,
+    scenes: of,
     at,
     share,
     trails: trails.checked,
-    arrows: lines.checked && of ? arrows(scenes, of.events, at) : [],
+    arrows: lines.checked && episode ? arrows(of, episode.events, at) : [],
     offside: lines.checked && scene ? offside(scene) : null,
     regions: zones.checked && at === 0 ? regions : null,
     cloud: starts,
@@ -281,8 +304,8 @@ function frame(now: number): void {
   if (live.length > 0) {
     hand(now);
   } else if (episode && scene) {
-    const scenes = at === 0 ? [drag.shown(scene), ...episode.scenes.slice(1, 2)] : episode.scenes;
-    screen.draw(frameOf(scenes, at, share, episode));
+    const shown = at === 0 ? [drag.shown(scene), ...episode.scenes.slice(1, 2)] : episode.scenes;
+    screen.draw(frameOf(shown, at, share, episode));
     scrub.value = String(at);
     element("moment").textContent = `${(scene.step / 10).toFixed(1)} s`;
     element("toggle").textContent = clock.playing ? "Pause" : "Play";
@@ -351,6 +374,8 @@ document.addEventListener("keydown", (event) => {
   const target = event.target as HTMLElement;
   if (hands.active && event.key !== "Escape") return;
   if (target.closest(".cm-editor, input:not(#scrub):not([type=checkbox]), select")) return;
+  // A button or a box that has the focus takes these itself.
+  if ([" ", "Enter"].includes(event.key) && target.closest("button, input[type=checkbox]")) return;
   const keys: Record<string, () => void> = {
     " ": () => clock.toggle(),
     ArrowLeft: () => go(clock.now.at - 1),

@@ -3,10 +3,10 @@
 export type Side = "left" | "right";
 export interface Id { team: Side; slot: number }
 
-export interface Player {
-  id: Id;
-  number: number;
-  role: string;
+/** What stays the same of a player. */
+export interface Rostered { id: Id; number: number; role: string }
+
+export interface Player extends Rostered {
   pos: [number, number];
   vel: [number, number];
   facing: [number, number];
@@ -16,16 +16,39 @@ export interface Player {
   agent: boolean;
 }
 
-export interface Scene {
+/** x, y, velocity, facing, posture, yellow cards, whether present, whether an agent's. */
+export type RawPlayer =
+  [number, number, number, number, number, number, string, number, boolean, boolean];
+
+interface Moment {
   step: number;
-  ball: { pos: [number, number, number]; owner: Id | null };
-  players: Player[];
   score: [number, number];
-  clock_s: number;
   mode: string;
   possession: Side | null;
   rewards: { name: string; value: number }[];
   placed: boolean;
+}
+
+/** A moment as it is sent. */
+export interface RawScene extends Moment {
+  ball: [number, number, number]; owner: Id | null; players: RawPlayer[];
+}
+
+export interface Scene extends Moment {
+  ball: { pos: [number, number, number]; owner: Id | null };
+  players: Player[];
+}
+
+/** Moments as the page keeps them. */
+export function scenes(roster: Rostered[], raw: RawScene[]): Scene[] {
+  return raw.map(({ ball, owner, players, ...moment }) => ({
+    ...moment,
+    ball: { pos: ball, owner },
+    players: players.map(([x, y, vx, vy, fx, fy, posture, cards, present, agent], index) => ({
+      ...(roster[index] ?? { id: { team: "left", slot: index }, number: index + 1, role: "" }),
+      pos: [x, y], vel: [vx, vy], facing: [fx, fy], posture, yellow_cards: cards, present, agent,
+    })),
+  }));
 }
 
 export interface Label {
@@ -62,12 +85,13 @@ export type HeldKey =
 export interface Keys { way: [number, number]; held: HeldKey[] }
 
 export type Reply =
-  | { type: "opened"; source: string; is_file: boolean; text: string }
+  | { type: "opened"; source: string; is_file: boolean; is_saved: boolean; text: string;
+      from: string | null }
   | { type: "checked"; problems: Problem[]; fault: string | null; name: string; title: string;
       params: Param[]; agents: Seat[]; players: string[] }
   | { type: "episode"; seed: number; episode: number; agent: string; beside: boolean;
-      watched: boolean; name: string; scenes: Scene[]; names: string[]; events: Happened[]; outcome: string | null; success: boolean | null }
-  | { type: "step"; scenes: Scene[] }
+      watched: boolean; name: string; roster: Rostered[]; scenes: RawScene[]; names: string[]; events: Happened[]; outcome: string | null; success: boolean | null }
+  | { type: "step"; roster: Rostered[]; scenes: RawScene[] }
   | { type: "cloud"; starts: [number, number][][] }
   | { type: "summary"; episodes: number; outcomes: [string, number][]; mean_return: number;
       score: [number, number]; terms: [string, number][]; records: [string, number][] }
@@ -77,7 +101,7 @@ export type Reply =
   | { type: "refused"; message: string };
 
 export type Request =
-  | { type: "text"; text: string }
+  | { type: "text"; text: string; from: string }
   | { type: "save" }
   | { type: "play"; seed: number; episode: number; agent: string; beside: string | null }
   | { type: "bind"; params: Record<string, number> }
@@ -89,4 +113,5 @@ export type Request =
   | { type: "summary"; episodes: number }
   | { type: "record" };
 
-export type Episode = Extract<Reply, { type: "episode" }>;
+/** A played episode as the page keeps it. */
+export type Episode = Omit<Extract<Reply, { type: "episode" }>, "scenes"> & { scenes: Scene[] };

@@ -2,6 +2,13 @@
 
 import type { Param } from "./messages";
 
+/** The nearest of 1, 2, 5, 10, 20, … times a power of ten. */
+function round(step: number): number {
+  const power = 10 ** Math.floor(Math.log10(step));
+  const times = [1, 2, 5, 10].find((times) => times * power >= step * 0.999) ?? 10;
+  return Number((times * power).toPrecision(1));
+}
+
 export class Params {
   private readonly values = new Map<string, number>();
   private shape = "";
@@ -69,7 +76,7 @@ export class Params {
     const [low, high] = param.range;
     input.type = "range";
     [input.min, input.max] = [String(low), String(high)];
-    input.step = param.kind === "integer" ? "1" : String((high - low) / 200);
+    input.step = param.kind === "integer" ? "1" : String(round((high - low) / 200));
     input.value = String(param.value);
     input.oninput = () => set(Number(input.value));
     return input;

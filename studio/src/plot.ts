@@ -18,12 +18,14 @@ export class Plot {
     const names = episode.scenes[0]?.rewards.map((term) => term.name) ?? [];
     const sums = names.map(() => 0);
     const curves: number[][] = names.map(() => []);
+    const paid: number[][] = names.map(() => []);
     let step = 0;
     for (const scene of episode.scenes) {
       scene.rewards.forEach((term, index) => {
         // A stop and its restart are of one step, which pays once.
-        const paid = scene.step > step ? term.value : 0;
-        sums[index] = (sums[index] ?? 0) + paid;
+        const value = scene.step > step ? term.value : 0;
+        if (value !== 0) paid[index]?.push(curves[index]?.length ?? 0);
+        sums[index] = (sums[index] ?? 0) + value;
         curves[index]?.push(sums[index] ?? 0);
       });
       step = scene.step;
@@ -43,11 +45,14 @@ export class Plot {
         { label: "s" },
         ...names.map((label, index) => ({
           label,
+          // Each payment is a mark, unless nearly every step pays.
+          points: { show: true, size: 7, filter: () => rare(paid[index] ?? []) },
           stroke: COLOURS[index % COLOURS.length] ?? "#ffffff",
           width: 2,
         })),
       ],
     };
+    const rare = (at: number[]) => (at.length * 4 < this.times.length ? at : []);
     this.plot?.destroy();
     this.plot = new uPlot(options, [this.times, ...curves], this.parent);
     this.plot.over.addEventListener("click", () => this.go(this.plot?.cursor.idx ?? 0));

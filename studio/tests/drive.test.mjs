@@ -54,8 +54,10 @@ async function open(scenario, folder, options = {}, prepare = () => {}, where = 
 async function visit(child, options = {}, prepare = () => {}, where = browser) {
   children.push(child);
   const address = await new Promise((resolve) => {
+    let heard = "";
     child.stdout.on("data", (text) => {
-      const found = /open (http\S+)/.exec(String(text));
+      heard += String(text);
+      const found = /open (http\S+)\s/.exec(heard);
       if (found) resolve(found[1]);
     });
   });
@@ -70,7 +72,7 @@ async function visit(child, options = {}, prepare = () => {}, where = browser) {
   });
   await page.addInitScript(prepare);
   await page.goto(address);
-  await page.waitForSelector(".cm-content", PATIENCE);
+  await page.waitForSelector("#pitch", PATIENCE);
   return page;
 }
 

@@ -1,5 +1,10 @@
 //! Dragging: the numbers of a place in the text, rewritten in their own units.
 
+use crate::Loaded;
+use crate::render::scene::Id;
+use crate::scenario::Team;
+use crate::scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+use crate::scene::team;
 use std::ops::Range;
 
 /// Metres of a normalised 1, along and across the pitch. (GRF's.)
@@ -14,6 +19,44 @@ struct WrittenPlace {
     is_metres: bool,
     /// Whether they are in the team's own frame.
     is_own: bool,
+}
+
+/// The text of a session with a player, or the ball, put elsewhere.
+///
+/// - `loaded`: the last good scenario.
+/// - `to`: metres, in the world's frame; what lies off the pitch is put on its rim.
+///
+/// # Errors
+/// A sentence for the user, if the place isn't two plain numbers of this text.
+pub(super) fn dragged(
+    loaded: &Loaded,
+    text: &str,
+    player: Option<Id>,
+    to: [f64; 2],
+) -> Result<String, String> {
+    if to.iter().any(|metres| !metres.is_finite()) {
+        return Err("a place is two numbers".to_owned());
+    }
+    let to = [to[0].clamp(-HALF_LENGTH_M, HALF_LENGTH_M), to[1].clamp(-HALF_WIDTH_M, HALF_WIDTH_M)];
+    let main = loaded.sources.iter().next();
+    // A text that has changed since the last good one has its statements elsewhere.
+    if main.is_some_and(|(_, source)| *source.text != *text) {
+        return Err("mend the text first: the picture is of the last good one".to_owned());
+    }
+    let elsewhere = || "this place isn't written in this file".to_owned();
+    let origins = &loaded.origins;
+    let (span, turns) = match player {
+        None => (origins.ball, false),
+        Some(id) => {
+            let slots = loaded.scenario.players.iter().enumerate();
+            let mut of_team = slots.filter(|(_, slot)| slot.team == team(id.team));
+            let (at, slot) = of_team.nth(usize::from(id.slot)).ok_or_else(elsewhere)?;
+            (origins.players.get(at).copied(), slot.team == Team::Right)
+        }
+    };
+    let here = span.filter(|span| main.is_some_and(|(file, _)| file == span.file));
+    let span = here.filter(|span| !loaded.sources.text(*span).is_empty()).ok_or_else(elsewhere)?;
+    moved(text, span.start as usize, to, turns)
 }
 
 /// The text with the place behind the first `at` of a statement moved to a point of the pitch.

@@ -1,8 +1,8 @@
 //! What pages and the session say to each other, as JSON.
 
+use super::moment::{MomentReply, RosterReply};
 use crate::dsl::Outline;
 use crate::dsl::report::Diagnostic;
-use crate::render::Scene;
 use crate::render::scene::Id;
 use crate::studio::hands::HeldKeys;
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,8 @@ pub enum Request {
     Text {
         /// The whole file.
         text: String,
+        /// The page that it comes from, as it calls itself.
+        from: Option<String>,
     },
     /// Write the text to the file.
     Save,
@@ -89,8 +91,10 @@ pub enum Reply {
     Episode(Box<Episode>),
     /// A step that a person has played.
     Step {
+        /// Everyone.
+        roster: Vec<RosterReply>,
         /// The moments that it led to: where play was stopped, if it was, and the present.
-        scenes: Vec<Scene>,
+        scenes: Vec<MomentReply>,
     },
     /// Many starts.
     Cloud {
@@ -124,8 +128,12 @@ pub struct OpenReply {
     pub source: String,
     /// Whether the text can be saved.
     pub is_file: bool,
+    /// Whether the file has this text.
+    pub is_saved: bool,
     /// The text.
     pub text: String,
+    /// The page that it comes from.
+    pub from: Option<String>,
 }
 
 /// The result of a check.
@@ -226,8 +234,10 @@ pub struct Episode {
     pub watched: bool,
     /// The scenario's name.
     pub name: String,
+    /// Everyone, in the order of each moment's players.
+    pub roster: Vec<RosterReply>,
     /// The moments, in order.
-    pub scenes: Vec<Scene>,
+    pub scenes: Vec<MomentReply>,
     /// Everybody's label, by team and place.
     pub names: Vec<String>,
     /// What happened: the moment, and the words for it.

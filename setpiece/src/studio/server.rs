@@ -15,14 +15,17 @@ use serde::Deserialize;
 use std::future::Future;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
+use std::sync::mpsc::Receiver;
 use std::thread::JoinHandle;
+use std::time::Duration;
 use tokio::net::TcpListener;
-use tokio::sync::broadcast::Receiver;
 use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::{broadcast, mpsc, oneshot};
 
 /// Messages that a page may be behind before it starts over.
-const BEHIND_MAX: usize = 64;
+const BEHIND_MAX: usize = 16;
+/// How long a studio that ends waits for a policy that is being asked.
+const ENDS_WITHIN: Duration = Duration::from_secs(2);
 
 /// What the page may load, and who may show it in a frame.
 const ALONE: &str = "default-src 'self'; img-src 'self' data: blob:; \
@@ -59,6 +62,8 @@ pub struct Ready {
     pub port: u16,
     /// The way to the session.
     commands: mpsc::UnboundedSender<Command>,
+    /// Ends with the session's thread.
+    is_gone: Receiver<()>,
 }
 
 #[derive(Deserialize)]
@@ -89,25 +94,36 @@ pub struct Running {
     pub address: String,
     /// The port.
     pub port: u16,
-    commands: mpsc::UnboundedSender<Command>,
+    commands: Option<mpsc::UnboundedSender<Command>>,
     stop: Option<oneshot::Sender<()>>,
     thread: Option<JoinHandle<Result<(), String>>>,
+    /// Ends with the session's thread.
+    is_gone: Receiver<()>,
+    /// A forked process has no threads to wait for.
+    process: u32,
 }
 
 impl Running {
     /// Shows an episode in every page. False if the studio has ended.
     pub fn watch(&self, replay: Replay) -> bool {
-        self.commands.send(Command::Watch(Box::new(replay))).is_ok()
+        let commands = self.commands.as_ref();
+        commands.is_some_and(|sender| sender.send(Command::Watch(Box::new(replay))).is_ok())
     }
 }
 
 impl Drop for Running {
     fn drop(&mut self) {
         drop(self.stop.take());
-        if let Some(thread) = self.thread.take() {
-            // It has nothing to say any more.
-            let _ = thread.join();
+        drop(self.commands.take());
+        let Some(thread) = self.thread.take() else { return };
+        if self.process != std::process::id() {
+            std::mem::forget(thread);
+            return;
         }
+        // It has nothing to say any more.
+        let _ = thread.join();
+        // The session ends once nobody can send it anything; a policy may take its time.
+        let _ = self.is_gone.recv_timeout(ENDS_WITHIN);
     }
 }
 
@@ -126,8 +142,16 @@ pub fn start(session: Session, options: ServeOptions) -> Result<Running, String>
             let _ = stopped.await;
         })
     });
-    if let Ok(Ready { address, port, commands }) = hear.recv() {
-        return Ok(Running { address, port, commands, stop: Some(stop), thread: Some(thread) });
+    if let Ok(Ready { address, port, commands, is_gone }) = hear.recv() {
+        return Ok(Running {
+            address,
+            port,
+            commands: Some(commands),
+            stop: Some(stop),
+            thread: Some(thread),
+            is_gone,
+            process: std::process::id(),
+        });
     }
     let ended = thread.join().unwrap_or(Ok(()));
     Err(ended.err().unwrap_or_else(|| "the server ended at once".to_owned()))
@@ -151,11 +175,15 @@ fn serve_until(
         let (replies, _) = broadcast::channel(BEHIND_MAX);
         let (commands, inbox) = mpsc::unbounded_channel();
         let sender = replies.clone();
-        std::thread::spawn(move || session.run(inbox, &sender));
+        let (gone, is_gone) = std::sync::mpsc::channel::<()>();
+        std::thread::spawn(move || {
+            session.run(inbox, &sender);
+            drop(gone);
+        });
         let framed = options.framed;
         let shared = Shared { port, token: token.clone(), framed, commands, replies };
         let address = format!("http://127.0.0.1:{port}/?token={token}");
-        ready(Ready { address, port, commands: shared.commands.clone() });
+        ready(Ready { address, port, commands: shared.commands.clone(), is_gone });
         let mut routes = Router::new().route("/socket", get(socket));
         for asset in ASSETS {
             routes =
@@ -256,7 +284,7 @@ async fn talk(mut socket: WebSocket, shared: Shared) {
 async fn pass_on(
     socket: &mut WebSocket,
     said: Result<Arc<str>, RecvError>,
-    replies: &mut Receiver<Arc<str>>,
+    replies: &mut broadcast::Receiver<Arc<str>>,
     shared: &Shared,
 ) -> bool {
     match said {

@@ -1,14 +1,16 @@
 //! The session: the open scenario, on a thread of its own.
 
-use super::drag::moved;
+use super::drag::dragged;
 use super::live::LiveMatch;
 use super::message::{
     CheckReply, DRAWS_MAX, EPISODES_MAX, Episode, OpenReply, ParamControl, Reply, Request,
     SeatReply,
 };
+use super::moment::{MomentReply, roster};
 use super::players::{ActingPolicy, Guests, Performer};
 use super::stage::{STEPS_MAX, StudioStage, episode_of};
-use crate::dsl::report::diagnostics;
+use super::summary::RunningSummary;
+use crate::dsl::report::{Diagnostic, diagnostics};
 use crate::engine::batch::ReadyMade;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{Environment, EnvironmentOptions};
@@ -16,10 +18,9 @@ use crate::error::{FileFault, Packed};
 use crate::files::{SOURCE_MAX_BYTES, read_file, write};
 use crate::film::replayed;
 use crate::load::{Cast, CastTarget, LoadOptions, compile_text_with, load_with};
-use crate::render::scene::Id;
+use crate::render::Scene;
 use crate::replay::{REPLAY_MAX_BYTES, Replay};
 use crate::scenario::{Bindings, Team, Type};
-use crate::scene::team;
 use crate::watch::Watcher;
 use crate::{Error, Loaded};
 use std::collections::BTreeMap;
@@ -66,6 +67,8 @@ pub struct Session {
     path: Option<PathBuf>,
     options: OpenOptions,
     text: String,
+    /// The text of the file.
+    on_disk: String,
     /// The last good scenario.
     loaded: Loaded,
     params: BTreeMap<String, f64>,
@@ -83,6 +86,12 @@ pub struct Session {
     shown: Vec<Arc<str>>,
     /// The episode that is shown, as a recording.
     replay: Option<Replay>,
+    /// What the last check found, and what is wrong besides.
+    found: (Vec<Diagnostic>, Option<String>),
+    /// Whether something has changed since the episode was played.
+    is_stale: bool,
+    /// Many episodes that are being played.
+    sum: Option<RunningSummary>,
 }
 
 impl Session {
@@ -147,6 +156,7 @@ impl Session {
             source: name,
             path,
             options,
+            on_disk: text.clone(),
             text,
             loaded,
             params,
@@ -160,9 +170,13 @@ impl Session {
             checked: nothing,
             shown: Vec::new(),
             replay: None,
+            found: (Vec::new(), None),
+            is_stale: false,
+            sum: None,
         };
-        session.opened = said(&session.opening());
-        session.checked = said(&session.checked(&Ok(())));
+        session.found.0 = diagnostics(&session.loaded.warnings, &session.loaded.sources);
+        session.opened = said(&session.opening(None));
+        session.checked = said(&session.checked());
         session
     }
 
@@ -184,14 +198,33 @@ impl Session {
                     tell(pages, &Reply::Refused { message: format!("not a request: {why}") });
                 }
                 Ok(Command::Watch(replay)) => self.watch(*replay, pages),
-                Err(TryRecvError::Empty) => {
-                    self.go_on(pages);
-                    if self.watcher.changed(WAIT) {
-                        self.reload(pages);
-                    }
-                }
+                // What came later has been heard: only the last of many changes is played.
+                Err(TryRecvError::Empty) => self.idle(pages),
                 Err(TryRecvError::Disconnected) => return,
             }
+        }
+    }
+
+    /// What there is to do while nobody asks for anything.
+    fn idle(&mut self, pages: &broadcast::Sender<Arc<str>>) {
+        if std::mem::take(&mut self.is_stale) {
+            self.show(pages);
+        }
+        self.go_on(pages);
+        let wait = if self.sum.is_some() { Duration::ZERO } else { WAIT };
+        if self.watcher.changed(wait) {
+            self.reload(pages);
+        }
+        self.sum_up(pages);
+    }
+
+    /// Plays the next of many episodes.
+    fn sum_up(&mut self, pages: &broadcast::Sender<Arc<str>>) {
+        let Some(mut sum) = self.sum.take() else { return };
+        match sum.play_one() {
+            Ok(true) => self.sum = Some(sum),
+            Ok(false) => tell(pages, &Reply::Summary(sum.reply())),
+            Err(message) => tell(pages, &Reply::Refused { message }),
         }
     }
 
@@ -207,25 +240,27 @@ impl Session {
         pages: &broadcast::Sender<Arc<str>>,
     ) -> Result<(), String> {
         match request {
-            Request::Text { text } => self.take(text, pages),
+            Request::Text { text, from } => self.take(text, from, pages),
             Request::Save => {
                 let no_file = || format!("`{}` is a scenario of the library", self.source);
                 let path = self.path.as_ref().ok_or_else(no_file)?;
                 write(path, self.text.as_bytes()).map_err(|why| why.to_string())?;
+                self.on_disk.clone_from(&self.text);
+                self.opened = said(&self.opening(None));
                 tell(pages, &Reply::Saved);
             }
             Request::Play { seed, episode, agent, beside } => {
                 let who = self.find(&agent)?;
                 let beside = beside.map(|name| self.find(&name)).transpose()?;
                 (self.seed, self.episode, self.who, self.beside) = (seed, episode, who, beside);
-                self.show(pages);
+                self.is_stale = true;
             }
             Request::Begin { seats } => {
                 let stage = self.stage(&self.who)?;
                 let environment = stage.environment()?;
                 let key = (self.seed, self.episode);
                 let live = LiveMatch::begin(environment, key, stage.player, &seats)?;
-                tell(pages, &Reply::Step { scenes: live.film.scenes.clone() });
+                tell(pages, &step(&live.film.scenes));
                 self.live = Some(live);
             }
             Request::Hold { seat, keys } => {
@@ -236,23 +271,22 @@ impl Session {
             Request::Stop => self.end(pages),
             Request::Bind { params } => {
                 self.params = params;
-                self.checked = said(&self.checked(&Ok(())));
+                self.checked = said(&self.checked());
                 let _ = pages.send(self.checked.clone());
-                self.show(pages);
+                self.is_stale = true;
             }
             Request::Move { player, to } => {
-                let text = self.dragged(player, to)?;
-                self.take(text, pages);
-                let _ = pages.send(self.opened.clone());
+                let text = dragged(&self.loaded, &self.text, player, to)?;
+                self.take(text, None, pages);
             }
             Request::Cloud { count } => {
                 let starts = self.stage(&self.who)?.cloud(self.seed, count.min(DRAWS_MAX))?;
                 tell(pages, &Reply::Cloud { starts });
             }
             Request::Summary { episodes } => {
-                let episodes = episodes.min(EPISODES_MAX);
-                let summary = self.stage(&self.who)?.summary(self.seed, episodes)?;
-                tell(pages, &Reply::Summary(summary));
+                let stage = self.stage(&self.who)?;
+                self.sum =
+                    Some(RunningSummary::begin(stage, self.seed, episodes.min(EPISODES_MAX))?);
             }
             Request::Record => {
                 let replay = self.replay.as_ref().ok_or("there is no episode to hand over")?;
@@ -337,8 +371,7 @@ impl Session {
         let Some(live) = self.live.as_mut().filter(|live| live.is_due()) else { return };
         let before = live.film.scenes.len();
         let played = live.step();
-        let scenes = live.film.scenes.get(before..).unwrap_or_default().to_vec();
-        tell(pages, &Reply::Step { scenes });
+        tell(pages, &step(live.film.scenes.get(before..).unwrap_or_default()));
         match played {
             Ok(true) if live.film.length() < STEPS_MAX => {}
             Ok(_) => self.end(pages),
@@ -364,17 +397,15 @@ impl Session {
         let text =
             read_file(&path, SOURCE_MAX_BYTES).ok().and_then(|bytes| String::from_utf8(bytes).ok());
         let Some(text) = text else { return };
-        let is_new = text != self.text;
-        self.take(text, pages);
-        if is_new {
-            self.opened = said(&self.opening());
-            let _ = pages.send(self.opened.clone());
-        }
+        self.on_disk.clone_from(&text);
+        self.take(text, None, pages);
     }
 
-    /// Takes another text: checks it, and plays it if it is sound. Otherwise the last good one
-    /// stays.
-    fn take(&mut self, text: String, pages: &broadcast::Sender<Arc<str>>) {
+    /// Takes another text, and says so: checks it, and plays it if it is sound. Otherwise the last
+    /// good one stays.
+    ///
+    /// `from`: the page that it comes from.
+    fn take(&mut self, text: String, from: Option<String>, pages: &broadcast::Sender<Arc<str>>) {
         let options = self.loading();
         let name = self
             .path
@@ -388,39 +419,19 @@ impl Session {
             self.watcher.watch(&loaded.inputs);
             self.loaded = loaded;
         });
-        let is_sound = result.is_ok();
-        self.checked = said(&self.checked(&result));
-        self.opened = said(&self.opening());
-        let _ = pages.send(self.checked.clone());
-        if is_sound {
-            self.show(pages);
-        }
-    }
-
-    /// The text with a player or the ball put elsewhere.
-    fn dragged(&self, player: Option<Id>, to: [f64; 2]) -> Result<String, String> {
-        if to.iter().any(|metres| !metres.is_finite()) {
-            return Err("a place is two numbers".to_owned());
-        }
-        let elsewhere = || "this place isn't written in this file".to_owned();
-        let Some(id) = player else {
-            let statement = self.text.find("ball at ").ok_or_else(elsewhere)?;
-            return moved(&self.text, statement, to, false);
+        self.is_stale |= result.is_ok();
+        self.found = match result {
+            Ok(()) => (diagnostics(&self.loaded.warnings, &self.loaded.sources), None),
+            Err(Error::Compile(failure)) => {
+                (diagnostics(&failure.problems, &failure.sources), None)
+            }
+            Err(other) => (Vec::new(), Some(other.to_string())),
         };
-        let of_team = |slot: &&crate::scenario::PlayerSlot| slot.team == team(id.team);
-        let slots = &self.loaded.scenario.players;
-        let slot = slots.iter().filter(of_team).nth(usize::from(id.slot)).ok_or_else(elsewhere)?;
-        let at = slots.iter().position(|other| std::ptr::eq(other, slot)).ok_or_else(elsewhere)?;
-        let span = self.loaded.origins.players.get(at).copied().ok_or_else(elsewhere)?;
-        let (sources, main) = (&self.loaded.sources, self.loaded.sources.iter().next());
-        let is_here =
-            main.is_some_and(|(file, _)| file == span.file) && !sources.text(span).is_empty();
-        // A text that has changed since the last good one has its statements elsewhere.
-        let same = main.is_some_and(|(_, source)| *source.text == *self.text);
-        if !is_here || !same {
-            return Err(elsewhere());
-        }
-        moved(&self.text, span.start as usize, to, slot.team == crate::scenario::Team::Right)
+        let opened = said(&self.opening(from));
+        let _ = pages.send(opened);
+        self.opened = said(&self.opening(None));
+        self.checked = said(&self.checked());
+        let _ = pages.send(self.checked.clone());
     }
 
     /// Plays the episode and shows it.
@@ -460,22 +471,18 @@ impl Session {
         Ok(said(&Reply::Sketch(stage.sketch(&self.loaded, (self.seed, self.episode))?)))
     }
 
-    fn opening(&self) -> Reply {
+    fn opening(&self, from: Option<String>) -> Reply {
         Reply::Opened(OpenReply {
             source: self.source.clone(),
             is_file: self.path.is_some(),
+            is_saved: self.path.is_none() || self.text == self.on_disk,
             text: self.text.clone(),
+            from,
         })
     }
 
-    fn checked(&self, result: &Result<(), Error>) -> Reply {
-        let (problems, fault) = match result {
-            Ok(()) => (diagnostics(&self.loaded.warnings, &self.loaded.sources), None),
-            Err(Error::Compile(failure)) => {
-                (diagnostics(&failure.problems, &failure.sources), None)
-            }
-            Err(other) => (Vec::new(), Some(other.to_string())),
-        };
+    fn checked(&self) -> Reply {
+        let (problems, fault) = self.found.clone();
         let scenario = &self.loaded.scenario;
         let values = self.bindings().0;
         let params = scenario.params.iter().zip(values).map(|(param, value)| ParamControl {
@@ -553,6 +560,12 @@ fn send_all(pages: &broadcast::Sender<Arc<str>>, messages: &[Arc<str>]) {
         // Without a page there is nobody to tell.
         let _ = pages.send(message.clone());
     }
+}
+
+/// Moments of a match that is played by hand.
+fn step(scenes: &[Scene]) -> Reply {
+    let moments = scenes.iter().map(MomentReply::from).collect();
+    Reply::Step { roster: roster(scenes), scenes: moments }
 }
 
 fn said_episode(episode: Episode) -> Arc<str> {

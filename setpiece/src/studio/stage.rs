@@ -1,23 +1,23 @@
 //! A scenario with its parameters and who plays it: what is shown of it.
 
-use super::message::{Episode, Happened, RegionReply, RequireReply, SketchReply, SummaryReply};
+use super::message::{Episode, Happened, RegionReply, RequireReply, SketchReply};
+use super::moment::{MomentReply, roster};
 use super::players::ActingPolicy;
-use crate::engine::batch::{EpisodeError, run_episode};
+use crate::engine::batch::EpisodeError;
 use crate::engine::control::agents::Agent;
 use crate::engine::draw::Drawer;
-use crate::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use crate::engine::environment::{Environment, EnvironmentOptions};
 use crate::engine::state::PlayerId;
 use crate::engine::state::event::Event;
 use crate::film::{Film, FilmOptions, film_of};
 use crate::render::Scene;
 use crate::replay::Replay;
-use crate::run::summarise;
 use crate::scenario::{Scenario, Team, Verdict};
 use crate::scene::of_match;
 use crate::{Error, Loaded};
 use std::sync::Arc;
 
-/// An episode without an end is shown up to here.
+/// Longer episodes are shown up to here: a whole match.
 pub(super) const STEPS_MAX: u32 = 3_000;
 /// The attempts at a start that show how often each requirement refuses one.
 const ATTEMPTS: u32 = 300;
@@ -31,7 +31,8 @@ pub(super) struct StudioStage {
     pub(super) who: String,
 }
 
-fn fault(why: impl Into<EpisodeError>) -> String {
+/// A failed episode in one sentence.
+pub(super) fn fault(why: impl Into<EpisodeError>) -> String {
     Error::Episode(Box::new(why.into())).to_string()
 }
 
@@ -53,14 +54,12 @@ impl StudioStage {
         &mut self,
         (seed, episode): (u64, u64),
     ) -> Result<(Film, Option<Replay>), String> {
-        let start = &self.scenario.start;
-        let is_endless = self.scenario.endings.list.is_empty() && start.limit.is_none();
         let options = FilmOptions {
             seed,
             episode,
             agent: Agent::Idle,
             environment: self.options.clone(),
-            until_step: is_endless.then_some(STEPS_MAX),
+            until_step: Some(STEPS_MAX),
         };
         let played = film_of(&self.scenario, &options, &mut self.player, Some(&self.who))
             .map_err(|why| why.to_string())?;
@@ -68,33 +67,11 @@ impl StudioStage {
         Ok(played)
     }
 
-    /// Plays many episodes.
+    /// Whether the player has failed.
     ///
     /// # Errors
-    /// Like [`StudioStage::film`]; an episode without a start counts as an outcome.
-    pub(super) fn summary(&mut self, seed: u64, episodes: u32) -> Result<SummaryReply, String> {
-        if self.scenario.endings.list.is_empty() && self.scenario.start.limit.is_none() {
-            return Err(fault(EpisodeError::Endless(0)));
-        }
-        let (mut environment, mut scratch) = (self.environment()?, Scratch::default());
-        let mut played = Vec::new();
-        for index in 0..u64::from(episodes) {
-            let player = &mut self.player;
-            played.push(run_episode(&mut environment, seed, index, player, &mut scratch));
-            self.check()?;
-        }
-        let summary = summarise(played, environment.term_names(), 0.0);
-        Ok(SummaryReply {
-            episodes,
-            outcomes: summary.outcomes.into_iter().map(|(name, _, count)| (name, count)).collect(),
-            mean_return: summary.mean_return,
-            score: summary.score,
-            terms: summary.terms,
-            records: summary.records,
-        })
-    }
-
-    fn check(&mut self) -> Result<(), String> {
+    /// A sentence that says why.
+    pub(super) fn check(&mut self) -> Result<(), String> {
         match self.player.fault() {
             Some(why) => Err(format!("`{}` failed: {why}", self.who)),
             None => Ok(()),
@@ -179,7 +156,8 @@ pub(super) fn episode_of(film: Film, (seed, episode): (u64, u64), agent: &str) -
         events,
         outcome: film.outcome.as_ref().map(|outcome| outcome.label.to_string()),
         success: verdict.map(|verdict| verdict == Verdict::Success),
-        scenes: film.scenes,
+        roster: roster(&film.scenes),
+        scenes: film.scenes.iter().map(MomentReply::from).collect(),
     }
 }
 

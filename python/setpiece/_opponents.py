@@ -271,15 +271,15 @@ def no_agent(who: str, ids: Sequence[str]) -> ParameterError:
     )
 
 
-def policy_of(who: str, opponent: Opponent) -> Policy:
-    """Returns an opponent as a policy, or raises `ParameterError`."""
+def policy_of(who: str, opponent: Opponent, argument: str = "opponents") -> Policy:
+    """Returns an opponent as a policy, or raises `ParameterError` for the argument."""
     if isinstance(opponent, Policy):
         if opponent.observation is not None:
             kind = check_observation(opponent.observation)
             return replace(opponent, observation=kind, scale=check_scale(opponent.scale, kind))
         if check_flag("scale", opponent.scale):
             raise ParameterError(
-                f"`opponents[{who!r}]` scales nothing without an observation of its own",
+                f"`{argument}[{who!r}]` scales nothing without an observation of its own",
                 name="scale",
                 help='name one: `Policy(…, "simple115v2", scale=True)`',
             )
@@ -288,10 +288,13 @@ def policy_of(who: str, opponent: Opponent) -> Policy:
         return Policy(opponent)
     if callable(opponent):
         return Policy(opponent, batched=False)
+    named = argument == "opponents"
+    words = "'bot', a behaviour's name, " if named else ""
+    files = "a `.rhai` or `.onnx`" if named else "an `.onnx`"
     raise ParameterError(
-        f"`opponents[{who!r}]` is {opponent!r}; it can be 'bot', a behaviour's name, a function, a `setpiece.Policy`, "
-        "an object with `predict`, or the path of a `.rhai` or `.onnx` file",
-        name="opponents",
+        f"`{argument}[{who!r}]` is {opponent!r}; it can be {words}a function, a `setpiece.Policy`, "
+        f"an object with `predict`, or the path of {files} file",
+        name=argument,
     )
 
 

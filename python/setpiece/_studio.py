@@ -5,7 +5,6 @@ from __future__ import annotations
 import atexit
 import os
 import time
-import weakref
 import webbrowser
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
@@ -28,7 +27,8 @@ TAKEN = ("bot", "idle", "random", "run_and_shoot", "nobody", "you")
 FRAME_PX = 900
 """The height of the page in a notebook."""
 
-_running: weakref.WeakSet[Studio] = weakref.WeakSet()
+_running: set[Studio] = set()
+"""They run until they are closed, whether or not the program keeps them."""
 
 
 class Parts(TypedDict):
@@ -126,7 +126,8 @@ class Studio:
     def _take(self, replay: Callable[[], bytes]) -> None:
         """Shows an episode that has ended, unless one was shown a moment ago."""
         now = time.monotonic()
-        if now < self._next:
+        # A forked process has no part in its parent's studio.
+        if now < self._next or self._process != os.getpid():
             return
         self._next = now + self._every_s
         try:
@@ -152,7 +153,7 @@ def studio(
       a vector's first environment, at most one episode every `every_s` seconds.
     - `policies`: what the page can choose as *agent*, by name: everything that `opponents` of
       `make` takes but the names of behaviours. Without an observation of its own a policy sees that
-      of the environment, else `"simple115v2"`.
+      of the environment, without a stack and in its usual size, else `"simple115v2"`.
     - `port`: 0 for any that is free.
 
     The page is at `address`; `open` shows it in the browser. In a notebook the studio shows itself.
@@ -217,7 +218,7 @@ def _native_policy(name: str, given: Opponent, look: tuple[str, bool]) -> Native
             f"`policies[{name!r}]` is {given!r}, which the page offers anyway if the file has it",
             name="policies",
         )
-    policy = policy_of(name, given)
+    policy = policy_of(name, given, "policies")
     function = function_of(policy)
 
     def play(seen: Any, ids: Sequence[str]) -> list[int]:

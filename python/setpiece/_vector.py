@@ -91,6 +91,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self.mirrors: list[Mirror] = []
         self._acts: list[Any] | None = None
         self._bound: dict[str, ParamValue] = {}
+        self._began: dict[str, ParamValue] = {}
         refuse_functions(options.reward_functions)
         if record is not None:
             raise UnavailableError(
@@ -186,7 +187,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             self._begun = True
             self._over &= ~mask
             if mask[0]:
-                self._acts = []
+                self._watch()
             begun = self._shown(), self._infos()
         if self.render_mode == "human":
             self.render()
@@ -214,8 +215,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             actions = self._read(actions)
             with one_thread:
                 self._batch.step(self._arrays, actions)
-            if self.mirrors:
-                self._keep(actions)
+            self._keep(actions)
             over = self._arrays.terminated | self._arrays.truncated
             infos = self._infos()
             if over.any():
@@ -304,6 +304,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         with one_thread:
             none = [None] * self.num_envs
             self._batch.reset(self._arrays, over.tolist(), none, none, True)
+        if over[0]:
+            self._watch()
         fresh = self._infos()
         fresh.update(
             {
@@ -322,16 +324,23 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         for key, value in ended.items():
             infos[key], infos[f"_{key}"] = value, over.copy()
         if over[0] and self.mirrors:
-            acts, self._acts = self._acts, []
+            acts = self._acts
             seed, index = ended["setpiece"]["seed"][0], ended["setpiece"]["index"][0]
             for mirror in self.mirrors:
                 mirror(lambda: self._replay(acts, seed, index))
 
+    def _watch(self) -> None:
+        """Begins an episode of the first environment, for those who watch it."""
+        self._acts, self._began = ([] if self.mirrors else None), self._bound
+
     def _keep(self, actions: Any) -> None:
         """Keeps the actions of the first environment while somebody watches it."""
-        if self._over[0]:
+        if not self.mirrors:
+            # Whoever comes later has not seen the beginning.
+            self._acts = None
+        elif self._over[0]:
             # This step has begun the next episode.
-            self._acts = []
+            self._watch()
         elif self._acts is not None:
             self._acts.append(np.asarray(actions)[0].copy())
 
@@ -344,7 +353,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             raise ReplayError("the episode began before it was watched")
         native = _native.Environment(self.scenario, self._options)
         with one_thread:
-            native.reset(int(seed), int(index), self._bound, None)
+            native.reset(int(seed), int(index), self._began, None)
             for action in acts:
                 native.step(action)
             return native.replay()

@@ -3,6 +3,7 @@
 use crate::actions::ActionSet;
 use crate::errors;
 use crate::observation::{ObservationForm, Observer, Wanted};
+use crate::patience::interruptible;
 use crate::scenario::Scenario;
 use pyo3::prelude::*;
 use setpiece::engine::batch::Policy;
@@ -12,7 +13,7 @@ use setpiece::replay::Replay as Recording;
 use setpiece::scenario::Action;
 use setpiece::studio::{Guest, Guests, OpenOptions, Running, ServeOptions, Session, start};
 use setpiece::{LoadOptions, Loaded};
-use std::ffi::OsStr;
+use std::ffi::OsString;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -35,7 +36,7 @@ struct PolicyForm {
 struct OpenedForm {
     /// A path, a name of the library, or the name of a text in reports.
     #[pyo3(item)]
-    path: String,
+    path: OsString,
     /// The text, if it is one.
     #[pyo3(item)]
     text: Option<String>,
@@ -174,18 +175,18 @@ impl Studio {
             guests: Some(Box::new(PythonGuests { policies, is_closed: is_closed.clone() })),
             params: params.map(|param| (param.name.clone(), param.default)).collect(),
         };
-        let opened = py.detach(|| {
-            let name = OsStr::new(&path);
+        let opened = interruptible(py, move || {
             let loading = LoadOptions { allow_outside, regions: true, ..LoadOptions::default() };
+            let name = path.to_string_lossy();
             match (compiled, text) {
                 (Some(scenario), _) => {
-                    Ok(Session::of(name, Loaded::without_text(scenario), options))
+                    Ok(Session::of(&path, Loaded::without_text(scenario), options))
                 }
-                (None, Some(text)) => setpiece::compile_text_with(&text, &path, &loading)
-                    .map(|loaded| Session::of(name, loaded, options)),
-                (None, None) => Session::open(name, None, options),
+                (None, Some(text)) => setpiece::compile_text_with(&text, &name, &loading)
+                    .map(|loaded| Session::of(&path, loaded, options)),
+                (None, None) => Session::open(&path, None, options),
             }
-        });
+        })?;
         let session = opened.map_err(|error| errors::from_facade(py, &error))?;
         let serving = ServeOptions { port, framed: true };
         let running = py.detach(|| start(session, serving)).map_err(|why| {
@@ -212,5 +213,11 @@ impl Studio {
             let running = self.running.lock().unwrap_or_else(PoisonError::into_inner).take();
             drop(running);
         });
+    }
+}
+
+impl Drop for Studio {
+    fn drop(&mut self) {
+        self.is_closed.store(true, Ordering::Release);
     }
 }

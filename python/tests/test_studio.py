@@ -193,6 +193,28 @@ def test_it_shows_the_first_environment_of_a_vector(mode: str) -> None:
             assert watched["scenes"][-1]["step"] == length
 
 
+def test_an_episode_that_began_unwatched_is_not_shown() -> None:
+    env = setpiece.make_vec("academy_empty_goal_close", 2)
+    env.reset(seed=1)
+    env.step([setpiece.Action.RIGHT] * 2)
+    with setpiece.studio(env, every_s=0) as page, Tab(page) as tab:
+        ended = 0
+        while ended < 2:
+            _, _, terminated, truncated, infos = env.step([setpiece.Action.RIGHT] * 2)
+            if (terminated | truncated)[0]:
+                ended += 1
+                length = infos["setpiece"]["length"][0]
+        watched = tab.hear("episode", lambda one: one["watched"])
+        assert (watched["episode"], watched["scenes"][-1]["step"]) == (1, length)
+        assert watched["outcome"] == "scored"
+
+
+def test_a_studio_that_nobody_keeps_runs_on() -> None:
+    address = setpiece.studio("academy_corner").address
+    with urllib.request.urlopen(address) as answer:
+        assert answer.status == 200
+
+
 def test_at_most_one_episode_is_shown_every_few_seconds() -> None:
     env = setpiece.make("academy_empty_goal_close")
     with setpiece.studio(env, every_s=1e6) as page, Tab(page) as tab:
@@ -211,7 +233,7 @@ def test_at_most_one_episode_is_shown_every_few_seconds() -> None:
     [
         ({"source": 3}, "scenario"),
         ({"policies": [1]}, "policies"),
-        ({"policies": {"a": 3}}, "opponents"),
+        ({"policies": {"a": 3}}, "policies"),
         ({"policies": {"a": "bot"}}, "policies"),
         ({"policies": {"bot": lambda _: 5}}, "policies"),
         ({"policies": {"": lambda _: 5}}, "policies"),

@@ -19,6 +19,7 @@ mod server;
 mod session;
 mod stage;
 mod summary;
+mod tell;
 
 pub use players::{Guest, Guests};
 pub use server::{Ready, Running, ServeOptions, serve, start};

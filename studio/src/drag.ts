@@ -23,6 +23,8 @@ export class Drag {
     }, true);
     element.addEventListener("pointermove", (event) => {
       const place = this.view.place(event.clientX, event.clientY);
+      // Above the horizon there is no place.
+      if (!place.every(Number.isFinite)) return;
       if (this.held) this.held.place = place;
       element.style.cursor = this.held || this.find(place) ? "grab" : "default";
     });

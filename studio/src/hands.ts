@@ -63,7 +63,7 @@ export class Hands {
       select.dataset["device"] = device;
       select.add(new Option("nobody", ""));
       for (const { id, team } of this.agents) select.add(new Option(`${id} (${team})`, id));
-      const known = this.agents.some((agent) => agent.id === chosen.get(device));
+      const known = ["", ...this.agents.map((agent) => agent.id)].includes(chosen.get(device) ?? "?");
       select.value = (known ? chosen.get(device) : this.agents[0]?.id) ?? "";
       row.append(`${device} plays `, select);
       return row;
@@ -100,12 +100,13 @@ export class Hands {
 
   private key(event: KeyboardEvent, isDown: boolean): void {
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    // What is let go is let go, whatever else is held.
+    if (!isDown) this.down.delete(name);
     const isWriting = (event.target as HTMLElement).closest(".cm-editor, input, select");
     if (isWriting || !this.active || event.ctrlKey || event.metaKey || !(name in KEYS || name in WAYS)) return;
     event.preventDefault();
     event.stopPropagation();
     if (isDown) this.down.add(name);
-    else this.down.delete(name);
   }
 
   /** What the devices of an agent hold together; `hasBall`: whether its team has the ball. */

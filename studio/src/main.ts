@@ -22,6 +22,7 @@ const STEP_MS = 100;
 const CLOUD = 150;
 const EPISODES = 100;
 const NOBODY = "nobody";
+const PLAYING = "playing…";
 
 function element<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -78,7 +79,6 @@ const drag = new Drag(
 const plot = new Plot(element("plot"), (at) => go(at));
 const params = new Params(element("params"), (values) => {
   socket.ask({ type: "bind", params: values });
-  refreshCloud();
 });
 
 /** How this page calls itself, to know its own changes. */
@@ -90,7 +90,6 @@ function edited(text: string): void {
   clearTimeout(waiting);
   waiting = window.setTimeout(() => {
     socket.ask({ type: "text", text, from: SELF });
-    refreshCloud();
   }, CHECK_MS);
 }
 
@@ -126,7 +125,10 @@ function hear(reply: Reply): void {
       dirty = !reply.is_saved;
       // What somebody types here has come this way already.
       if (reply.from === SELF) break;
-      if (dirty && !moved && editor.text() !== "") say("somebody else is editing this text");
+      clearTimeout(waiting);
+      if (dirty && !moved && ![reply.text, ""].includes(editor.text())) {
+        say("somebody else is editing this text");
+      }
       // What was written here and is replaced from elsewhere comes back by undo.
       editor.show(reply.text, moved || unsaved);
       unsaved = false;
@@ -157,8 +159,9 @@ function hear(reply: Reply): void {
       const played: Episode = { ...reply, scenes: scenes(reply.roster, reply.scenes) };
       if (reply.watched) element("follow").closest("label")?.removeAttribute("hidden");
       if (reply.watched && !follow.checked) break;
-      if (reply.watched && episode?.watched && clock.playing) waits = played;
+      if (reply.watched && episode?.watched && clock.now.at < clock.last) waits = played;
       else show(played);
+      refreshCloud();
       break;
     }
     case "step":
@@ -187,6 +190,7 @@ function hear(reply: Reply): void {
     case "refused":
       if (live.length === 0) hands.active = false;
       moved = false;
+      if (element("results").textContent === PLAYING) element("results").textContent = "";
       if (episode) choose(agent, episode.agent);
       say(reply.message);
       break;
@@ -211,7 +215,9 @@ function choose(select: HTMLSelectElement, name: string): void {
 function show(reply: Episode): void {
   if (reply.beside) {
     other = reply;
+    // It is kept: a browser has few pictures in space.
     second ??= new Screen(screens, "pitch-beside", say);
+    second.element.hidden = false;
     second.see(view.value as Seen);
     caption();
     return;
@@ -221,9 +227,9 @@ function show(reply: Episode): void {
   if (reply.watched) say("as another program has played it");
   else if (element("state").textContent !== "saved") say("");
   [episode, other] = [reply, null];
-  second?.element.remove();
-  second = null;
+  if (second) second.element.hidden = true;
   clock.load(reply, first || reply.watched || (clock.playing && !played));
+  if (element("results").textContent === PLAYING) element("results").textContent = "";
   if (played) clock.go(clock.last);
   [live, hands.active, waits] = [[], false, null];
   scrub.max = String(clock.last);
@@ -298,7 +304,7 @@ function frame(now: number): void {
   clock.pass(Math.min(0.25, (now - before) / 1000));
   before = now;
   hands.refresh();
-  if (waits && !clock.playing) show(waits);
+  if (waits && follow.checked && clock.now.at >= clock.last) show(waits);
   const { at, share } = clock.now;
   const scene = episode?.scenes[at];
   if (live.length > 0) {
@@ -339,7 +345,7 @@ element("save").onclick = save;
 element("hand").onclick = byHand;
 element("record").onclick = () => socket.ask({ type: "record" });
 element("summarise").onclick = () => {
-  element("results").textContent = "playing…";
+  element("results").textContent = PLAYING;
   socket.ask({ type: "summary", episodes: EPISODES });
 };
 scrub.oninput = () => go(Number(scrub.value));

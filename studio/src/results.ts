@@ -52,7 +52,7 @@ export function showRequires(parent: HTMLElement, requires: Require[], go: (line
     ...shown.map(({ label, line, refused, fails }) => {
       const row = document.createElement("button");
       row.className = fails ? "require fails" : "require";
-      const share = refused > 0 ? `refuses ${(100 * refused).toFixed(0)} % of draws` : "refuses no draw";
+      const share = refused > 0 ? `is the first to refuse ${(100 * refused).toFixed(0)} % of draws` : "refuses no other draw";
       row.textContent = `${fails ? "✗" : "✓"} ${label}`;
       const note = document.createElement("span");
       note.textContent = fails ? "this start can't be drawn" : share;

@@ -13,7 +13,7 @@ export interface Frame {
   share: number;
   trails: boolean;
   arrows: Arrow[];
-  /** Where the attackers are offside: metres, and which way they attack. */
+  /** Where the attackers are offside, metres. */
   offside: number | null;
   /** The painted regions of the start. */
   regions: HTMLCanvasElement | null;

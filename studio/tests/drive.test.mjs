@@ -257,7 +257,7 @@ test("a behaviour plays, beside another player, and the episode is kept as a fil
   assert.match(captions[0], /^waits · seed 0/);
   assert.match(captions[1], /^run_and_shoot · seed 0/);
   await page.selectOption("#beside", "nobody");
-  await page.waitForSelector("#pitch-beside", { state: "detached", ...PATIENCE });
+  await page.waitForSelector("#pitch-beside", { state: "hidden", ...PATIENCE });
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#record")]);
   assert.equal(download.suggestedFilename(), "zones_0_0.pitchr");
   const folder = mkdtempSync(join(tmpdir(), "studio-"));

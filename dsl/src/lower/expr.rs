@@ -205,6 +205,16 @@ impl<'w> Lower<'_, 'w> {
         better: impl FnOnce(&Self, Ty) -> Option<String>,
     ) -> Reg {
         let value = self.expr(expr);
+        self.condition_of(&value, expr, better)
+    }
+
+    /// The truth value that a value is; `better` knows what was meant by some that are none.
+    fn condition_of(
+        &mut self,
+        value: &Value<'w>,
+        expr: &'w Expr,
+        better: impl FnOnce(&Self, Ty) -> Option<String>,
+    ) -> Reg {
         if !value.is_error() && value.ty != Ty::Bool {
             let condition = better(self, value.ty);
             let instead =
@@ -212,7 +222,7 @@ impl<'w> Lower<'_, 'w> {
             self.report(self.mismatch_with(value.ty, Ty::Bool, expr.span, instead));
             return self.code.unknown();
         }
-        self.reg(&value)
+        self.reg(value)
     }
 }
 

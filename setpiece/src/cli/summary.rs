@@ -44,8 +44,8 @@ struct MeanScore {
 /// The results of a run as one JSON object.
 pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary) -> String {
     let mut outcomes = BTreeMap::new();
-    for (label, _, count) in &summary.outcomes {
-        *outcomes.entry(label.as_str()).or_default() += count;
+    for (label, _, count) in outcomes_of(scenario, summary) {
+        *outcomes.entry(label).or_default() += count;
     }
     let [left, right] = summary.score;
     let report = Report {
@@ -65,6 +65,22 @@ pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary)
         digest: format!("{:016x}", summary.digest),
     };
     serde_json::to_string(&report).unwrap_or_default()
+}
+
+/// How often each ending came, the most frequent first, and then those that never came.
+fn outcomes_of<'a>(
+    scenario: &'a Scenario,
+    summary: &'a Summary,
+) -> Vec<(&'a str, Option<Verdict>, u32)> {
+    let came = summary.outcomes.iter().map(|(label, verdict, n)| (label.as_str(), *verdict, *n));
+    let mut outcomes: Vec<_> = came.collect();
+    for ending in &scenario.endings.list {
+        // What a script calls its ending is not known before it comes.
+        if ending.script.is_none() && !outcomes.iter().any(|(label, ..)| *label == ending.label) {
+            outcomes.push((&ending.label, ending.verdict, 0));
+        }
+    }
+    outcomes
 }
 
 /// Prints the table, below a drawing of the first episode's start.
@@ -95,10 +111,10 @@ pub(crate) fn print(
         options.seed
     ));
     out.line("");
-    let width =
-        summary.outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(11);
-    for (label, verdict, count) in &summary.outcomes {
-        let share = f64::from(*count) / summary.episodes.len() as f64;
+    let outcomes = outcomes_of(scenario, summary);
+    let width = outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(11);
+    for (label, verdict, count) in outcomes {
+        let share = f64::from(count) / summary.episodes.len() as f64;
         let bar = "█".repeat((share * BAR as f64).round() as usize);
         let (word, paint) = match verdict {
             Some(Verdict::Success) => ("success", Paint::Success),

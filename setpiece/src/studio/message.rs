@@ -192,7 +192,7 @@ pub struct RequireReply {
     pub implied: bool,
     /// Its line, if it has one.
     pub line: Option<u32>,
-    /// The share of single attempts at a start that it refuses, 0..1.
+    /// The share of single attempts at a start that it is the first to refuse, 0..1.
     pub refused: f64,
     /// Whether it is why this episode has no start.
     pub fails: bool,

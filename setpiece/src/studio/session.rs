@@ -6,19 +6,19 @@ use super::message::{
     CheckReply, DRAWS_MAX, EPISODES_MAX, Episode, OpenReply, ParamControl, Reply, Request,
     SeatReply,
 };
-use super::moment::{MomentReply, roster};
 use super::players::{ActingPolicy, Guests, Performer};
 use super::stage::{STEPS_MAX, StudioStage, episode_of};
 use super::summary::RunningSummary;
+use super::tell::{said, said_episode, send_all, step, tell};
 use crate::dsl::report::{Diagnostic, diagnostics};
 use crate::engine::batch::ReadyMade;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{Environment, EnvironmentOptions};
+use crate::engine::state::PlayerId;
 use crate::error::{FileFault, Packed};
 use crate::files::{SOURCE_MAX_BYTES, read_file, write};
 use crate::film::replayed;
 use crate::load::{Cast, CastTarget, LoadOptions, compile_text_with, load_with};
-use crate::render::Scene;
 use crate::replay::{REPLAY_MAX_BYTES, Replay};
 use crate::scenario::{Bindings, Team, Type};
 use crate::watch::Watcher;
@@ -84,6 +84,8 @@ pub struct Session {
     opened: Arc<str>,
     checked: Arc<str>,
     shown: Vec<Arc<str>>,
+    /// Why the episode can't be played, if it can't.
+    unmet: Vec<Arc<str>>,
     /// The episode that is shown, as a recording.
     replay: Option<Replay>,
     /// What the last check found, and what is wrong besides.
@@ -122,10 +124,7 @@ impl Session {
             }
             loaded => {
                 let mut session = Session::new(source, loaded?, options);
-                // Why it can't be played is reported when a page asks for it.
-                if let Ok(replies) = session.play() {
-                    session.shown = replies;
-                }
+                session.replay_episode();
                 session
             }
         };
@@ -139,7 +138,10 @@ impl Session {
     /// Opens a scenario that is loaded; `name`: how it was asked for.
     pub fn of(name: &OsStr, loaded: Loaded, options: OpenOptions) -> Session {
         let mut session = Session::new(name, loaded, options);
-        session.shown = session.play().unwrap_or_default();
+        // A text of the same name as a file isn't that file.
+        session.path = None;
+        session.opened = said(&session.opening(None));
+        session.replay_episode();
         session
     }
 
@@ -169,6 +171,7 @@ impl Session {
             opened: nothing.clone(),
             checked: nothing,
             shown: Vec::new(),
+            unmet: Vec::new(),
             replay: None,
             found: (Vec::new(), None),
             is_stale: false,
@@ -189,7 +192,8 @@ impl Session {
         loop {
             match inbox.try_recv() {
                 Ok(Command::Join(answer)) => {
-                    let present = [&self.opened, &self.checked].into_iter().chain(&self.shown);
+                    let present = [&self.opened, &self.checked].into_iter();
+                    let present = present.chain(&self.shown).chain(&self.unmet);
                     // A page that has gone needs no answer.
                     let _ = answer.send(present.cloned().collect());
                 }
@@ -207,7 +211,7 @@ impl Session {
 
     /// What there is to do while nobody asks for anything.
     fn idle(&mut self, pages: &broadcast::Sender<Arc<str>>) {
-        if std::mem::take(&mut self.is_stale) {
+        if self.live.is_none() && std::mem::take(&mut self.is_stale) {
             self.show(pages);
         }
         self.go_on(pages);
@@ -242,7 +246,7 @@ impl Session {
         match request {
             Request::Text { text, from } => self.take(text, from, pages),
             Request::Save => {
-                let no_file = || format!("`{}` is a scenario of the library", self.source);
+                let no_file = || format!("there is no file to save `{}` to", self.source);
                 let path = self.path.as_ref().ok_or_else(no_file)?;
                 write(path, self.text.as_bytes()).map_err(|why| why.to_string())?;
                 self.on_disk.clone_from(&self.text);
@@ -270,7 +274,7 @@ impl Session {
             }
             Request::Stop => self.end(pages),
             Request::Bind { params } => {
-                self.params = params;
+                (self.params, self.sum) = (params, None);
                 self.checked = said(&self.checked());
                 let _ = pages.send(self.checked.clone());
                 self.is_stale = true;
@@ -333,8 +337,7 @@ impl Session {
             }
             Performer::Behavior(name) => {
                 // The bot hands over to the behaviour of the player.
-                let cast = [Team::Left, Team::Right]
-                    .map(|team| Cast { target: CastTarget::Team(team), ai: name.clone() });
+                let cast = self.cast(name)?;
                 let options = LoadOptions { cast: &cast, ..self.loading() };
                 let (_, main) = self.loaded.sources.iter().next().ok_or("there is no text")?;
                 let cast = compile_text_with(&main.text, &main.name, &options);
@@ -344,6 +347,19 @@ impl Session {
         };
         let who = who.name().to_owned();
         Ok(StudioStage { scenario, options: self.environment(), player, who })
+    }
+
+    /// The players that a behaviour plays: those of the agents; all of a team whose agent changes
+    /// players.
+    fn cast(&self, behavior: &str) -> Result<Vec<Cast>, String> {
+        let environment = Environment::new(self.loaded.scenario.clone(), self.environment())
+            .map_err(|why| Error::Environment(why).to_string())?;
+        let of = |&(team, player): &(Team, Option<PlayerId>)| match player {
+            Some(player) => CastTarget::Player(team, player.in_team()),
+            None => CastTarget::Team(team),
+        };
+        let targets = environment.roster().agents.iter().map(of);
+        Ok(targets.map(|target| Cast { target, ai: behavior.to_owned() }).collect())
     }
 
     fn loading(&self) -> LoadOptions<'static> {
@@ -375,8 +391,9 @@ impl Session {
         match played {
             Ok(true) if live.film.length() < STEPS_MAX => {}
             Ok(_) => self.end(pages),
-            Err(message) => {
-                self.live = None;
+            Err(why) => {
+                let message = format!("`{}` failed: {why}", self.who.name());
+                self.end(pages);
                 tell(pages, &Reply::Refused { message });
             }
         }
@@ -385,6 +402,7 @@ impl Session {
     /// Ends a match by hand: from now on it can be watched like any other.
     fn end(&mut self, pages: &broadcast::Sender<Arc<str>>) {
         let Some(live) = self.live.take() else { return };
+        self.is_stale = false;
         self.replay = live.replay();
         let episode = episode_of(live.film, (self.seed, self.episode), "you");
         self.shown = vec![said_episode(episode)];
@@ -397,7 +415,10 @@ impl Session {
         let text =
             read_file(&path, SOURCE_MAX_BYTES).ok().and_then(|bytes| String::from_utf8(bytes).ok());
         let Some(text) = text else { return };
+        // What has changed may be an import: the text here, saved or not, is compiled again.
+        let is_other = text != self.on_disk;
         self.on_disk.clone_from(&text);
+        let text = if is_other { text } else { self.text.clone() };
         self.take(text, None, pages);
     }
 
@@ -420,6 +441,7 @@ impl Session {
             self.loaded = loaded;
         });
         self.is_stale |= result.is_ok();
+        self.sum = None;
         self.found = match result {
             Ok(()) => (diagnostics(&self.loaded.warnings, &self.loaded.sources), None),
             Err(Error::Compile(failure)) => {
@@ -436,17 +458,18 @@ impl Session {
 
     /// Plays the episode and shows it.
     fn show(&mut self, pages: &broadcast::Sender<Arc<str>>) {
+        self.replay_episode();
+        send_all(pages, if self.unmet.is_empty() { &self.shown } else { &self.unmet });
+    }
+
+    /// Plays the episode again. If it can't be played, the last one stays, and why.
+    fn replay_episode(&mut self) {
         match self.play() {
-            Ok(replies) => {
-                self.shown = replies;
-                send_all(pages, &self.shown);
-            }
+            Ok(replies) => (self.shown, self.unmet) = (replies, Vec::new()),
             Err(message) => {
                 // What stands around a start also says why there is none.
-                if let Ok(sketch) = self.sketch() {
-                    let _ = pages.send(sketch);
-                }
-                tell(pages, &Reply::Refused { message });
+                let sketch = self.sketch().ok().into_iter();
+                self.unmet = sketch.chain([said(&Reply::Refused { message })]).collect();
             }
         }
     }
@@ -513,7 +536,9 @@ impl Session {
     /// Who can play: ready-made agents, policies from outside, behaviours of the text.
     fn players(&self) -> Vec<String> {
         let ready_made = Agent::NAMED.iter().map(|(name, _)| (*name).to_owned());
-        ready_made.chain(self.guests()).chain(self.loaded.behaviors.iter().cloned()).collect()
+        let guests = self.guests();
+        let behaviors = self.loaded.behaviors.iter().filter(|name| !guests.contains(name));
+        ready_made.chain(guests.iter().cloned()).chain(behaviors.cloned()).collect()
     }
 
     /// The agents that people can play.
@@ -553,30 +578,4 @@ fn recorded(replay: &Replay, beside: bool) -> Result<Episode, Error> {
 /// Reads a recorded episode.
 fn recording(path: &Path) -> Result<Replay, Error> {
     Replay::from_bytes(&read_file(path, REPLAY_MAX_BYTES)?)
-}
-
-fn send_all(pages: &broadcast::Sender<Arc<str>>, messages: &[Arc<str>]) {
-    for message in messages {
-        // Without a page there is nobody to tell.
-        let _ = pages.send(message.clone());
-    }
-}
-
-/// Moments of a match that is played by hand.
-fn step(scenes: &[Scene]) -> Reply {
-    let moments = scenes.iter().map(MomentReply::from).collect();
-    Reply::Step { roster: roster(scenes), scenes: moments }
-}
-
-fn said_episode(episode: Episode) -> Arc<str> {
-    said(&Reply::Episode(Box::new(episode)))
-}
-
-fn said(reply: &Reply) -> Arc<str> {
-    serde_json::to_string(reply).unwrap_or_default().into()
-}
-
-fn tell(pages: &broadcast::Sender<Arc<str>>, reply: &Reply) {
-    // Without a page there is nobody to tell.
-    let _ = pages.send(said(reply));
 }

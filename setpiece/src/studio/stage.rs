@@ -118,7 +118,7 @@ impl StudioStage {
             let shape = region.shape.map(&mut |reg| drawer.register(reg).unwrap_or_default());
             let name = name(region.span);
             // A named region in which something is drawn is one region.
-            if !regions.iter().any(|known| known.name == name) {
+            if !regions.iter().any(|known| known.name == name && known.shape == shape) {
                 regions.push(RegionReply { name, shape });
             }
         }

@@ -60,12 +60,14 @@ impl<'w> BehaviorWriter<'_, 'w> {
         if !primitive.runs() {
             self.refuse_sprint(stmt, &format!("`{primitive}`"));
         }
+        if primitive == Primitive::Wait && stmt.duration.is_none() {
+            let given = args.first().map(|arg| self.lower.world.text(arg.value.span));
+            self.lower.report(Problem::new(span, Behaviors::WaitHowLong { given }));
+            return;
+        }
         let done = self.drawing(|writer| {
             let act = writer.act(primitive, args, span);
             let (until, seconds) = writer.clauses(stmt);
-            if primitive == Primitive::Wait && stmt.duration.is_none() {
-                writer.lower.report(Problem::new(span, Behaviors::WaitHowLong));
-            }
             act.map(|act| Do { act, sprint: stmt.sprinting.is_some(), until, seconds })
         });
         self.nodes.extend(done.map(Node::Do));

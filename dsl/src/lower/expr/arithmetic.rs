@@ -48,7 +48,12 @@ impl<'w> Lower<'_, 'w> {
         use ast::InfixOp as Op;
         match op.node {
             Op::And | Op::Or => {
-                let x = self.condition(a);
+                let first = self.expr(a);
+                if let Some(joined) = self.regions_joined(op.node, (&first, a), b) {
+                    let word = if op.node == Op::And { "and" } else { "or" };
+                    return self.fail(Problem::new(span, Types::RegionsJoined { word, joined }));
+                }
+                let x = self.condition_of(&first, a, |_, _| None);
                 let y = self.condition_or(b, |lower, ty| lower.shared(op.node, a, b, ty));
                 let code = if op.node == Op::And { BinaryOp::And } else { BinaryOp::Or };
                 Value::one(Ty::Bool, self.code.binary(code, x, y))
@@ -71,6 +76,29 @@ impl<'w> Lower<'_, 'w> {
                 Value { ty: Ty::Region, repr: Repr::Region(Arc::new(value)) }
             }
         }
+    }
+
+    /// How `A or B`, `A and B`, `A and not B` of two regions is written; none of anything else.
+    fn regions_joined(
+        &mut self,
+        op: ast::InfixOp,
+        (first, a): (&Value<'w>, &Expr),
+        b: &'w Expr,
+    ) -> Option<String> {
+        let (b, is_without) = match &b.kind {
+            ExprKind::Unary(ast::PrefixOp::Not, inner) => (&**inner, true),
+            _ => (b, false),
+        };
+        let world = self.world;
+        if first.ty != Ty::Region || world.tentatively(|| self.expr(b).ty) != Ty::Region {
+            return None;
+        }
+        let sign = match (op, is_without) {
+            (ast::InfixOp::And, true) => "-",
+            (ast::InfixOp::And, false) => "&",
+            _ => "|",
+        };
+        Some(format!("{} {sign} {}", world.text(a.span), world.text(b.span)))
     }
 
     /// How `A or b` is written where `b` is no condition, but goes on with the end of A:

@@ -10,10 +10,13 @@ facts! {
         /// More statements or calls than a behavior may have.
         TooLarge { name: String } = Code::Impossible =>
             say(format!("`{name}` makes the behavior too large"), "").help("call fewer behaviors"),
-        /// `do wait`.
-        WaitHowLong = Code::WrongArguments =>
-            say("`wait` doesn't say for how long", "")
-                .help("write `do wait for 1s`; `do hold` stands until something else happens"),
+        /// `do wait`, or `do wait(1s)`; `given`: what stands in the brackets.
+        WaitHowLong { given: Option<String> } = Code::WrongArguments => {
+            let time = given.as_deref().unwrap_or("1s");
+            say("`wait` doesn't say for how long", "").help(format!(
+                "write `do wait for {time}`; `do hold` stands until something else happens"
+            ))
+        },
         /// `sprinting` of what doesn't run; `what`: in backticks, or with its article.
         NoSprint { what: String, runs: Vec<&'static str> } = Code::WrongArguments =>
             say(format!("{what} is not done `sprinting`"), "not here")

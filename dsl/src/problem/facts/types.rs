@@ -94,6 +94,10 @@ facts! {
         /// `event` without a property.
         EventIsNoValue { parts: String } = Code::WrongType =>
             say("`event` is no value by itself", "").help(format!("it has `{parts}`")),
+        /// `A or B` of regions; `joined`: how it is written.
+        RegionsJoined { word: &'static str, joined: String } = Code::WrongType =>
+            say(format!("`{word}` joins conditions, and these are regions"), "two regions")
+                .help(format!("write `{joined}`")),
         /// A name of a file that stands for no value; `cure`: how it is used instead.
         NotAValue { name: String, noun: &'static str, cure: Option<Use> } = Code::WrongType => {
             let said = say(format!("`{name}` is {noun}, not a value"), "");

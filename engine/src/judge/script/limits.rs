@@ -22,9 +22,8 @@ pub(super) const OPERATIONS_MAX: u64 = 200_000;
 /// that the documentation promises; the rest is for what is too small to count.
 pub(super) const BYTES_PER_OPERATION: usize = 256;
 
-/// The functions that `budget`  inserts; scripts can't name them.
+/// The functions that `budget` inserts: one counts the size of a value, one counts operations.
 pub(super) const COUNTED: &str = "setpiece_counted";
-/// Counts operations.
 pub(super) const WORKED: &str = "setpiece_worked";
 /// What scripts can't name.
 pub(super) const RESERVED: &[&str] = &[COUNTED, WORKED];

@@ -57,7 +57,9 @@ export class Hands {
     const devices = [KEYBOARD, ...pads.map((index) => `Gamepad ${index + 1}`)];
     if (devices.join() === this.devices) return;
     this.devices = devices.join();
-    const chosen = new Map(this.rows().map(([device, select]) => [device, select.value]));
+    // Before the agents are known nobody has chosen anybody.
+    const made = this.rows().filter(([, select]) => select.options.length > 1);
+    const chosen = new Map(made.map(([device, select]) => [device, select.value]));
     const rows = devices.map((device) => {
       const [row, select] = [document.createElement("label"), document.createElement("select")];
       select.dataset["device"] = device;

@@ -50,17 +50,22 @@ async function open(scenario, folder, options = {}, prepare = () => {}, where = 
   return visit(child, options, prepare, where);
 }
 
-/** A page of a studio that a process has started and whose address it prints. */
-async function visit(child, options = {}, prepare = () => {}, where = browser) {
-  children.push(child);
-  const address = await new Promise((resolve) => {
+/** What a process prints: the first group of a pattern. */
+function said(child, pattern) {
+  return new Promise((resolve) => {
     let heard = "";
     child.stdout.on("data", (text) => {
       heard += String(text);
-      const found = /open (http\S+)\s/.exec(heard);
+      const found = pattern.exec(heard);
       if (found) resolve(found[1]);
     });
   });
+}
+
+/** A page of a studio that a process has started and whose address it prints. */
+async function visit(child, options = {}, prepare = () => {}, where = browser) {
+  children.push(child);
+  const address = await said(child, /open (http\S+)\s/);
   const page = await where.newPage({ viewport: { width: 1440, height: 900 }, colorScheme: "dark", ...options });
   page.on("pageerror", (error) => assert.fail(error.message));
   page.on("console", (message) => {
@@ -301,6 +306,13 @@ while True:
 
 test("a goal is played by keyboard and by gamepad", async () => {
   const page = await open("academy_empty_goal_close", tmpdir());
+  await page.waitForSelector("#seats option:nth-child(2)", { state: "attached", ...PATIENCE });
+  assert.equal(await page.inputValue("#seats select"), "left_0");
+  await page.selectOption("#seats select", "");
+  await page.click("#next");
+  await page.waitForTimeout(500);
+  assert.equal(await page.inputValue("#seats select"), "", "nobody stays nobody");
+  await page.selectOption("#seats select", "left_0");
   for (const device of ["keyboard", "gamepad"]) {
     await page.click("#hand");
     await waits(page, "#score", "by hand");
@@ -379,13 +391,45 @@ test("ten tabs show the same, and one that closes stops nothing", async () => {
   }
 });
 
-test("it fits small and light screens", async () => {
+test("it fits every screen, dark and light", async () => {
   const { folder } = drill();
-  for (const [width, height] of [[1024, 700], [400, 800]]) {
-    const page = await open("drill.pitch", folder, { viewport: { width, height }, colorScheme: "light" });
+  const screens = [[1440, 900, "light", "-light"], [1024, 700, "light", "-1024"],
+    [1024, 700, "dark", "-1024-dark"], [400, 800, "light", "-400"], [400, 800, "dark", "-400-dark"]];
+  for (const [width, height, colorScheme, name] of screens) {
+    const page = await open("drill.pitch", folder, { viewport: { width, height }, colorScheme });
     await waits(page, "#problems", "no problems");
+    await waits(page, "#moment", "^(0\\.[5-9]|[1-9])");
     const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(over <= 0, `${over} pixels too wide at ${width}`);
-    await shoot(page, `studio-${width}`);
+    await shoot(page, `studio${name}`);
+    await page.close();
   }
+});
+
+test("a notebook shows the studio of a Python program in a frame", async (t) => {
+  if (!PYTHON) return t.skip("SETPIECE_PYTHON names no Python that has the package");
+  const program = `
+import http.server, setpiece
+page = setpiece.studio("academy_corner")
+html = f"<html><body>{page._repr_html_()}</body></html>".encode()
+class Notebook(http.server.BaseHTTPRequestHandler):
+    def do_GET(self):
+        self.send_response(200)
+        self.send_header("Content-Type", "text/html")
+        self.end_headers()
+        self.wfile.write(html)
+    def log_message(self, *_):
+        pass
+server = http.server.HTTPServer(("127.0.0.1", 0), Notebook)
+print("at", f"http://localhost:{server.server_port}/", flush=True)
+server.serve_forever()
+`;
+  const child = spawn(PYTHON, ["-c", program]);
+  children.push(child);
+  const address = await said(child, /at (http\S+)\s/);
+  const page = await browser.newPage();
+  await page.goto(address);
+  const frame = page.frameLocator("iframe");
+  await frame.locator("#name", { hasText: "academy_corner" }).waitFor(PATIENCE);
+  await frame.locator("#score", { hasText: "0 : 0" }).waitFor(PATIENCE);
 });

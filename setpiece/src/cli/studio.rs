@@ -19,6 +19,9 @@ pub(crate) struct StudioArgs {
     /// The port, on this machine alone; 0 takes any that is free
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
+    /// Also open the page in the browser
+    #[arg(long)]
+    open: bool,
 }
 
 /// Serves the page until Ctrl-C.

@@ -77,8 +77,7 @@ impl Film {
 /// [`Error::Environment`] if the options don't fit the scenario; [`Error::Episode`] if it has no
 /// start, a script fails, or nothing ends it.
 pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Error> {
-    let named = Agent::NAMED.iter().find(|(_, agent)| *agent == options.agent);
-    let who = named.map(|(name, _)| *name);
+    let who = Some(options.agent.name());
     Ok(film_of(scenario, options, &mut ReadyMade::new(options.agent), who)?.0)
 }
 

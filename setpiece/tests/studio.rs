@@ -454,6 +454,18 @@ fn while_not(tab: &mut Tab, first: Value, wanted: impl Fn(&Value) -> bool) {
 }
 
 #[test]
+fn a_level_opens_with_its_parameters_and_its_episode() {
+    let studio = Studio::of("two.pitch{gap=12m}#7:3");
+    let mut tab = studio.tab();
+    assert_eq!(tab.hear("opened")["is_file"], true);
+    assert_eq!(tab.hear("checked")["params"][0]["shown"], "12m");
+    let episode = tab.hear("episode");
+    assert_eq!((&episode["seed"], &episode["episode"]), (&json!(7), &json!(3)));
+    let x = episode["scenes"][0]["players"][1][0].as_f64().unwrap();
+    assert!((x - 22.0).abs() < 0.01, "{x}");
+}
+
+#[test]
 fn garbage_ends_nothing() {
     let studio = Studio::open();
     let mut tab = studio.tab();
@@ -527,6 +539,8 @@ fn what_cannot_be_opened_or_served_is_one_clear_error() {
     };
     let (code, why) = run(&["studio", "academy_cornr"]);
     assert!(code == Some(1) && why.contains("SP0005") && why.contains("academy_corner"), "{why}");
+    let (code, why) = run(&["studio", "academy_corner{gapp=3}#1"]);
+    assert!(code == Some(1) && why.contains("gapp"), "{why}");
     let taken = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
     let port = taken.local_addr().unwrap().port().to_string();
     let (code, why) = run(&["studio", "academy_corner", "--port", &port]);

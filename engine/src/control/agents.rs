@@ -50,6 +50,12 @@ impl Agent {
         ]
     };
 
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        let named = Self::NAMED.iter().find(|(_, agent)| *agent == self);
+        named.map_or("", |(name, _)| *name)
+    }
+
     /// Finds an agent by its name.
     pub fn from_name(name: &str) -> Option<Agent> {
         Self::NAMED.iter().find(|(known, _)| *known == name).map(|&(_, agent)| agent)

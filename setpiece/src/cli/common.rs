@@ -1,6 +1,5 @@
 //! What several commands share: exit codes, progress, choices.
 
-use crate::engine::control::agents::Agent;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -43,10 +42,4 @@ pub(super) fn bar(length: u64, template: &str) -> ProgressBar {
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar.enable_steady_tick(TICK);
     bar
-}
-
-/// An agent's name on the command line.
-pub(super) fn agent_name(agent: Agent) -> &'static str {
-    let found = Agent::NAMED.iter().find(|(_, named)| *named == agent);
-    found.map_or("", |(name, _)| *name)
 }

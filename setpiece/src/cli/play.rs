@@ -83,7 +83,7 @@ impl RunArgs {
     pub(crate) fn agents(&self) -> Vec<(&'static str, Agent)> {
         let beside = self.beside.map(playing::AgentName::agent);
         let agents = [Some(self.playing.agent()), beside].into_iter().flatten();
-        agents.map(|agent| (super::common::agent_name(agent), agent)).collect()
+        agents.map(|agent| (agent.name(), agent)).collect()
     }
 
     /// How many threads play.

@@ -10,7 +10,8 @@ use std::ffi::OsString;
 
 #[derive(Args, Debug)]
 pub(crate) struct StudioArgs {
-    /// A scenario of the library, a .pitch file, or a recorded episode (.pitchr)
+    /// A scenario of the library, a .pitch file, a level (NAME{param=value}#SEED:EPISODE), or a
+    /// recorded episode (.pitchr)
     #[arg(value_name = "SCENARIO", default_value = "academy_3_vs_1_with_keeper")]
     scenario: OsString,
     /// A recorded episode (.pitchr) to show beside it

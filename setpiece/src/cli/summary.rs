@@ -4,7 +4,6 @@ use super::out::{Out, StyledText};
 use crate::Error;
 use crate::drawing::{Paint, drawn};
 use crate::engine::batch::EpisodeSummary;
-use crate::engine::control::agents::Agent;
 use crate::engine::environment::Environment;
 use crate::engine::statistics::MatchMeans;
 use crate::run::{RunOptions, Summary};
@@ -101,10 +100,7 @@ pub(crate) fn print(
     }
     out.line(StyledText::default().dim("  left team 0-9 attacks →, right team a-k ←, ball o"));
     out.line("");
-    let agent = Agent::NAMED
-        .iter()
-        .find(|(_, agent)| *agent == options.agent)
-        .map_or("", |(name, _)| *name);
+    let agent = options.agent.name();
     out.line(format!(
         "  {} episodes · agent {agent} · seed {}",
         summary.episodes.len(),

@@ -162,7 +162,7 @@ fn one(args: &TestArgs, path: &Path, check: &Check) -> Result<PlayedCheck, Error
     let mut played = PlayedCheck {
         file: path.display().to_string(),
         check: check.name.clone(),
-        agent: super::common::agent_name(agent).to_owned(),
+        agent: agent.name().to_owned(),
         episodes: check.episodes.count,
         seed: check.episodes.seed,
         seconds: begin.elapsed().as_secs_f64(),

@@ -35,10 +35,7 @@ impl Performer {
     /// How pages call it.
     pub(super) fn name(&self) -> &str {
         match self {
-            Performer::ReadyMade(agent) => {
-                let named = Agent::NAMED.iter().find(|(_, known)| known == agent);
-                named.map_or("", |(name, _)| name)
-            }
+            Performer::ReadyMade(agent) => agent.name(),
             Performer::Behavior(name) | Performer::Guest(name) => name,
         }
     }

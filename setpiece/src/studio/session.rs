@@ -1,11 +1,10 @@
 //! The session: the open scenario, on a thread of its own.
 
+mod about;
+
 use super::drag::dragged;
 use super::live::LiveMatch;
-use super::message::{
-    CheckReply, DRAWS_MAX, EPISODES_MAX, Episode, OpenReply, ParamControl, Reply, Request,
-    SeatReply,
-};
+use super::message::{DRAWS_MAX, EPISODES_MAX, Episode, Reply, Request};
 use super::players::{ActingPolicy, Guests, Performer};
 use super::stage::{STEPS_MAX, StudioStage, episode_of};
 use super::summary::RunningSummary;
@@ -13,14 +12,15 @@ use super::tell::{said, said_episode, send_all, step, tell};
 use crate::dsl::report::{Diagnostic, diagnostics};
 use crate::engine::batch::ReadyMade;
 use crate::engine::control::agents::Agent;
-use crate::engine::environment::{Environment, EnvironmentOptions};
+use crate::engine::environment::Environment;
 use crate::engine::state::PlayerId;
 use crate::error::{FileFault, Packed};
 use crate::files::{SOURCE_MAX_BYTES, read_file, write};
 use crate::film::replayed;
+use crate::level::Level;
 use crate::load::{Cast, CastTarget, LoadOptions, compile_text_with, load_with};
 use crate::replay::{REPLAY_MAX_BYTES, Replay};
-use crate::scenario::{Bindings, Team, Type};
+use crate::scenario::Team;
 use crate::watch::Watcher;
 use crate::{Error, Loaded};
 use std::collections::BTreeMap;
@@ -97,7 +97,8 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens a scenario by its name in the library or as a file, or a recorded episode; `beside`:
+    /// Opens a scenario by its name in the library or as a file, a level, or a recorded episode;
+    /// `beside`:
     /// a recorded episode that is shown beside it.
     ///
     /// # Errors
@@ -112,6 +113,8 @@ impl Session {
             regions: true,
             ..LoadOptions::default()
         };
+        let level = source.to_str().filter(|_| !Path::new(source).exists()).and_then(Level::parse);
+        let source = level.as_ref().map_or(source, |level| OsStr::new(&level.scenario));
         let mut session = match load_with(source, &loading) {
             Err(Error::File { path, why: FileFault::Packed(Packed::Replay) }) => {
                 let replay = recording(&path)?;
@@ -124,6 +127,9 @@ impl Session {
             }
             loaded => {
                 let mut session = Session::new(source, loaded?, options);
+                if let Some(level) = &level {
+                    session.enter(level)?;
+                }
                 session.replay_episode();
                 session
             }
@@ -133,6 +139,17 @@ impl Session {
             session.shown.push(said_episode(recorded(&other, true)?));
         }
         Ok(session)
+    }
+
+    /// Takes the parameters and the episode of a level.
+    fn enter(&mut self, level: &Level) -> Result<(), Error> {
+        let scenario = &self.loaded.scenario;
+        let values = level.bind(scenario)?.0;
+        let names = scenario.params.iter().map(|param| param.name.clone());
+        self.params = names.zip(values).collect();
+        (self.seed, self.episode) = (level.seed, level.episode);
+        self.checked = said(&self.checked());
+        Ok(())
     }
 
     /// Opens a scenario that is loaded; `name`: how it was asked for.
@@ -492,80 +509,6 @@ impl Session {
     fn sketch(&self) -> Result<Arc<str>, String> {
         let stage = self.stage(&Performer::ReadyMade(Agent::Idle))?;
         Ok(said(&Reply::Sketch(stage.sketch(&self.loaded, (self.seed, self.episode))?)))
-    }
-
-    fn opening(&self, from: Option<String>) -> Reply {
-        Reply::Opened(OpenReply {
-            source: self.source.clone(),
-            is_file: self.path.is_some(),
-            is_saved: self.path.is_none() || self.text == self.on_disk,
-            text: self.text.clone(),
-            from,
-        })
-    }
-
-    fn checked(&self) -> Reply {
-        let (problems, fault) = self.found.clone();
-        let scenario = &self.loaded.scenario;
-        let values = self.bindings().0;
-        let params = scenario.params.iter().zip(values).map(|(param, value)| ParamControl {
-            name: param.name.clone(),
-            doc: param.doc.clone(),
-            value,
-            shown: param.show(value),
-            range: param.range,
-            choices: param.choices.clone(),
-            values: param.values.clone(),
-            kind: match param.ty {
-                Type::Bool => "bool",
-                Type::Int => "integer",
-                _ => "number",
-            },
-        });
-        Reply::Checked(CheckReply {
-            problems,
-            fault,
-            name: scenario.name.clone(),
-            title: scenario.title().to_owned(),
-            params: params.collect(),
-            agents: self.seats(),
-            players: self.players(),
-        })
-    }
-
-    /// Who can play: ready-made agents, policies from outside, behaviours of the text.
-    fn players(&self) -> Vec<String> {
-        let ready_made = Agent::NAMED.iter().map(|(name, _)| (*name).to_owned());
-        let guests = self.guests();
-        let behaviors = self.loaded.behaviors.iter().filter(|name| !guests.contains(name));
-        ready_made.chain(guests.iter().cloned()).chain(behaviors.cloned()).collect()
-    }
-
-    /// The agents that people can play.
-    fn seats(&self) -> Vec<SeatReply> {
-        let Ok(environment) = Environment::new(self.loaded.scenario.clone(), self.environment())
-        else {
-            return Vec::new();
-        };
-        let agents = environment.agent_ids().iter().zip(&environment.roster().agents);
-        agents.map(|(id, (team, _))| SeatReply { id: id.clone(), team: team.name() }).collect()
-    }
-
-    /// The parameters' values: those that were set, within their ranges.
-    fn bindings(&self) -> Bindings {
-        let value = |param: &crate::scenario::Param| {
-            let set = self.params.get(&param.name).copied().filter(|value| value.is_finite());
-            match (set, param.range) {
-                (Some(value), Some((low, high))) => value.clamp(low, high),
-                (Some(value), None) => value,
-                (None, _) => param.default,
-            }
-        };
-        Bindings(self.loaded.scenario.params.iter().map(value).collect())
-    }
-
-    fn environment(&self) -> EnvironmentOptions {
-        EnvironmentOptions { bindings: Some(self.bindings()), ..EnvironmentOptions::default() }
     }
 }
 

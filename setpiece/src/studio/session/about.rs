@@ -1,0 +1,83 @@
+//! What the session says of itself: its text, what a check found, its parameters and players.
+
+use super::Session;
+use crate::engine::control::agents::Agent;
+use crate::engine::environment::{Environment, EnvironmentOptions};
+use crate::scenario::{Bindings, Type};
+use crate::studio::message::{CheckReply, OpenReply, ParamControl, Reply, SeatReply};
+
+impl Session {
+    pub(super) fn opening(&self, from: Option<String>) -> Reply {
+        Reply::Opened(OpenReply {
+            source: self.source.clone(),
+            is_file: self.path.is_some(),
+            is_saved: self.path.is_none() || self.text == self.on_disk,
+            text: self.text.clone(),
+            from,
+        })
+    }
+
+    pub(super) fn checked(&self) -> Reply {
+        let (problems, fault) = self.found.clone();
+        let scenario = &self.loaded.scenario;
+        let values = self.bindings().0;
+        let params = scenario.params.iter().zip(values).map(|(param, value)| ParamControl {
+            name: param.name.clone(),
+            doc: param.doc.clone(),
+            value,
+            shown: param.show(value),
+            range: param.range,
+            choices: param.choices.clone(),
+            values: param.values.clone(),
+            kind: match param.ty {
+                Type::Bool => "bool",
+                Type::Int => "integer",
+                _ => "number",
+            },
+        });
+        Reply::Checked(CheckReply {
+            problems,
+            fault,
+            name: scenario.name.clone(),
+            title: scenario.title().to_owned(),
+            params: params.collect(),
+            agents: self.seats(),
+            players: self.players(),
+        })
+    }
+
+    /// Who can play: ready-made agents, policies from outside, behaviours of the text.
+    pub(super) fn players(&self) -> Vec<String> {
+        let ready_made = Agent::NAMED.iter().map(|(name, _)| (*name).to_owned());
+        let guests = self.guests();
+        let behaviors = self.loaded.behaviors.iter().filter(|name| !guests.contains(name));
+        ready_made.chain(guests.iter().cloned()).chain(behaviors.cloned()).collect()
+    }
+
+    /// The agents that people can play.
+    pub(super) fn seats(&self) -> Vec<SeatReply> {
+        let Ok(environment) = Environment::new(self.loaded.scenario.clone(), self.environment())
+        else {
+            return Vec::new();
+        };
+        let agents = environment.agent_ids().iter().zip(&environment.roster().agents);
+        agents.map(|(id, (team, _))| SeatReply { id: id.clone(), team: team.name() }).collect()
+    }
+
+    /// The parameters' values: those that were set, within their ranges.
+    pub(super) fn bindings(&self) -> Bindings {
+        let value = |param: &crate::scenario::Param| {
+            let set = self.params.get(&param.name).copied().filter(|value| value.is_finite());
+            match (set, param.range) {
+                (Some(value), Some((low, high))) => value.clamp(low, high),
+                (Some(value), None) => value,
+                (None, _) => param.default,
+            }
+        };
+        Bindings(self.loaded.scenario.params.iter().map(value).collect())
+    }
+
+    pub(super) fn environment(&self) -> EnvironmentOptions {
+        EnvironmentOptions { bindings: Some(self.bindings()), ..EnvironmentOptions::default() }
+    }
+}

@@ -250,6 +250,7 @@ impl Drawer {
                 lets: &[],
                 index: draws.index,
                 us: Team::Left,
+                terminated: false,
                 silent: false,
             },
             crew: Crew::one(None),

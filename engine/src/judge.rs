@@ -177,6 +177,7 @@ impl Judge {
         }
         let input = Input {
             events: events.as_slice(),
+            terminated: outcome.as_ref().is_some_and(|outcome| !outcome.truncated),
             ..self.known.input(Sight::Live(game), &self.prev, side)
         };
         self.rewards.step(game, &input, shown(&self.known, scene.as_ref()))?;

@@ -86,6 +86,7 @@ pub(crate) fn run(
             lets: &[],
             index: 3,
             us: Team::Left,
+            terminated: false,
             silent,
         },
         plan,

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
 /// The version this build reads and writes.
-pub const FORMAT_VERSION: u32 = 2;
+pub const FORMAT_VERSION: u32 = 3;
 /// Largest file, bytes: more than the largest scenario needs, and little enough to be read whole.
 pub const FILE_MAX_BYTES: u64 = 16 << 20;
 /// The value of the field `format`.

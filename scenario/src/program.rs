@@ -90,6 +90,9 @@ pub enum Instr {
     Binary(BinaryOp, Reg, Reg),
     /// `if 0 then 1 else 2`.
     Select(Reg, Reg, Reg),
+    /// Whether the episode terminates in this step: 1 or 0. The limit doesn't terminate it. Endings,
+    /// which decide it, and observations read 0.
+    Terminated,
     /// The team of the agent that is judged.
     Us,
     /// The player that the agent controls now, or -1.
@@ -428,6 +431,7 @@ impl Instr {
             | Instr::Param(_)
             | Instr::Let(_)
             | Instr::EpisodeIndex
+            | Instr::Terminated
             | Instr::Us
             | Instr::Me
             | Instr::Event(_)

@@ -236,7 +236,11 @@ fn verify_program(
                 ProgramPlace::Step { .. },
             )
             | (
-                Instr::Until { .. } | Instr::Once { .. } | Instr::Us | Instr::Me,
+                Instr::Until { .. }
+                | Instr::Once { .. }
+                | Instr::Terminated
+                | Instr::Us
+                | Instr::Me,
                 ProgramPlace::Step { .. },
             )
             | (Instr::Us, ProgramPlace::Init) => {}
@@ -249,6 +253,7 @@ fn verify_program(
                 | Instr::Since { .. }
                 | Instr::Until { .. }
                 | Instr::Once { .. }
+                | Instr::Terminated
                 | Instr::Us
                 | Instr::Me,
                 _,

@@ -165,12 +165,17 @@ fn a_potential_pays_its_difference_over_an_episode() {
         record begin = first of prev(ball.x)
         record over = last of ball.x
     }";
-    for summary in bots(text, 3).0 {
+    let cut_short = text.replace("record all", "end limit 20 steps\n record all");
+    for summary in bots(text, 3).0.into_iter().chain(bots(&cut_short, 3).0) {
         let record = |name: &str| {
             let found = summary.records.iter().find(|(known, _)| known == name);
             found.and_then(|(_, value)| value.number()).unwrap()
         };
         let (begin, over, all) = (record("begin"), record("over"), record("all"));
+        // A state in which the episode terminates has no potential; the limit doesn't terminate it.
+        let terminated = summary.outcome != "limit";
+        assert_eq!(terminated, summary.length != 20);
+        let (over, all) = if terminated { (0.0, all - over) } else { (over, all) };
         assert!(
             (summary.terms[0][0] - (over - begin)).abs() < 1e-6,
             "{} of {begin}..{over}",

@@ -42,6 +42,7 @@ enum Key {
     Param(u32),
     Let(u32),
     EpisodeIndex,
+    Terminated,
     Us,
     Me,
     Unary(UnaryOp, u32),
@@ -213,6 +214,11 @@ impl Builder {
     /// The episode's index.
     pub(crate) fn episode_index(&mut self) -> Reg {
         self.shared(ROOT, Key::EpisodeIndex, Instr::EpisodeIndex)
+    }
+
+    /// Whether the episode terminates in this step.
+    pub(crate) fn terminated(&mut self) -> Reg {
+        self.shared(ROOT, Key::Terminated, Instr::Terminated)
     }
 
     /// The judged agent's team.

@@ -121,6 +121,7 @@ impl Known {
             lets: &self.lets,
             index: self.index,
             us,
+            terminated: false,
             silent: false,
         }
     }

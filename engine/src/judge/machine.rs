@@ -45,6 +45,8 @@ pub struct Input<'a> {
     pub index: u64,
     /// The team judged for.
     pub us: Team,
+    /// Whether the episode terminates in this step, as far as it is known.
+    pub terminated: bool,
     /// Whether this is the start state: temporal instructions see it, but effects don't happen.
     pub silent: bool,
 }
@@ -296,6 +298,7 @@ impl<const W: usize> Machine<'_, W> {
                 let (c, a, b) = (self.lanes::<N>(*c), self.lanes::<N>(*a), self.lanes::<N>(*b));
                 array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] })
             }
+            Instr::Terminated => [f64::from(u8::from(input.terminated)); N],
             Instr::Us => [input.us.index() as f64; N],
             Instr::Me => array::from_fn(|lane| self.crew.players[lane]),
             Instr::Load { field, of, when } => {

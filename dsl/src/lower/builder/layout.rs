@@ -147,6 +147,7 @@ impl LaidOutCode {
             | Instr::Param(_)
             | Instr::Let(_)
             | Instr::EpisodeIndex
+            | Instr::Terminated
             | Instr::Us
             | Instr::Me
             | Instr::Event(_)

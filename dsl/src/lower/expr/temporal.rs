@@ -121,6 +121,9 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// What a potential pays in a step: γ Φ(s') - Φ(s) (Ng, Harada and Russell 1999, theorem 1).
+    ///
+    /// A state in which the episode terminates has the potential 0, or the policy that is best would
+    /// depend on where episodes end (Grzes 2017).
     fn potential(&mut self, e: &'w Expr, gamma: &'w Expr, span: Span) -> Value<'w> {
         let now = self.want_reg(e, Ty::Number);
         let discount = self.want_reg(gamma, Ty::Number);
@@ -130,6 +133,8 @@ impl<'w> Lower<'_, 'w> {
         };
         let before = self.reg(&before);
         let discounted = self.code.binary(BinaryOp::Mul, discount, now);
+        let (over, nothing) = (self.code.terminated(), self.code.constant(0.0));
+        let discounted = self.code.select(over, nothing, discounted);
         Value::one(Ty::Number, self.code.binary(BinaryOp::Sub, discounted, before))
     }
 

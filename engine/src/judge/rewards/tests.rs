@@ -55,7 +55,17 @@ impl Bench {
 fn input<'a>(now: &'a MatchView, prev: &'a MatchView, events: &'a [Event]) -> Input<'a> {
     let us = Team::Left;
     let (now, prev) = (Some(Sight::Kept(now)), Some(Sight::Kept(prev)));
-    Input { now, prev, events, params: &[], lets: &[], index: 0, us, silent: false }
+    Input {
+        now,
+        prev,
+        events,
+        params: &[],
+        lets: &[],
+        index: 0,
+        us,
+        terminated: false,
+        silent: false,
+    }
 }
 
 #[test]

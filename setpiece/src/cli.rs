@@ -106,7 +106,9 @@ enum Command {
   setpiece run corner.pitch --watch
   setpiece run corner.pitch --live
   setpiece run corner.pitch --episodes 100 --plot curves.svg
-  setpiece run 11_vs_11_stochastic --from half_time.pitchs")]
+  setpiece run 11_vs_11_stochastic --from half_time.pitchs
+  setpiece run --level 'academy_corner{difficulty=0.8}#12:3'
+  setpiece run drill.pitch --level 'drill{gap=5m}#12:3'")]
     Run(play::RunArgs),
     /// Play the checks of files and say which hold; exit code 1 if one doesn't
     #[command(after_help = "Examples:
@@ -125,6 +127,7 @@ The worst episode of a failed check is written to `failed-checks/`.")]
   setpiece render corner.pitch --agent random --seed 7 -o sheet.png
   setpiece render 11_vs_11_stochastic --step 120 -o frame.png
   setpiece render 11_vs_11_stochastic --step 120 --camera broadcast -o frame.png
+  setpiece render drill.pitch --level 'drill{gap=5m}#12:3' -o worst.mp4
   setpiece render runs/academy_corner_7_0.pitchr -o episode.mp4
 
 A recorded episode (.pitchr) is drawn as it was played: who played, seed and parameters are its own.")]

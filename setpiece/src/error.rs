@@ -57,10 +57,12 @@ pub enum Error {
     },
     /// Threads can't be started.
     Threads(String),
-    /// A level was taken of another scenario of that name.
+    /// A level is of another scenario.
     Level {
         /// The level.
         level: String,
+        /// How the scenario differs.
+        why: LevelFault,
     },
     /// A parameter can't be bound.
     Param {
@@ -69,6 +71,20 @@ pub enum Error {
         /// A similar name, if any.
         similar: Option<String>,
     },
+}
+
+/// How a level's scenario differs from the one that it is used with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LevelFault {
+    /// The level has the digest of another version.
+    Version,
+    /// It has another name.
+    Name {
+        /// The name of the scenario that the level is used with.
+        found: String,
+    },
+    /// Neither the library nor a file has this name.
+    Unknown,
 }
 
 /// What is wrong with a file.
@@ -233,6 +249,9 @@ impl Error {
             Error::Replay(ReplayError::Beginning) => {
                 Some("save the replay of an episode that `reset` began; `snapshot` keeps this one's state".to_owned())
             }
+            Error::Level { why: LevelFault::Unknown, .. } => Some(
+                "name the file that holds it: `setpiece run FILE.pitch --level …`".to_owned(),
+            ),
             _ => None,
         }
     }
@@ -310,9 +329,17 @@ impl std::fmt::Display for Error {
                 write!(f, "there is no step {step}: the episode has {length} steps")
             }
             Error::Threads(why) => f.write_str(why),
-            Error::Level { level } => {
-                write!(f, "the level `{level}` was taken of another version of its scenario")
-            }
+            Error::Level { level, why } => match why {
+                LevelFault::Version => {
+                    write!(f, "the level `{level}` was taken of another version of its scenario")
+                }
+                LevelFault::Name { found } => {
+                    write!(f, "the level `{level}` is of another scenario than `{found}`")
+                }
+                LevelFault::Unknown => {
+                    write!(f, "the level `{level}` is of a scenario that isn't in the library")
+                }
+            },
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Levels: what decides an episode's start and chance.
 
 use crate::Error;
+use crate::error::LevelFault;
 use serde::{Deserialize, Serialize};
 use setpiece_scenario::{Bindings, Scenario};
 use std::collections::BTreeMap;
@@ -75,6 +76,33 @@ impl Level {
         })
     }
 
+    /// Reads a level from its text or its JSON.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn read(text: &str) -> Result<Level, String> {
+        if text.trim_start().starts_with('{') {
+            return serde_json::from_str(text).map_err(|why| why.to_string());
+        }
+        Level::parse(text).ok_or_else(|| "write it as NAME{param=value}#SEED:EPISODE".to_owned())
+    }
+
+    /// Refuses a scenario of another name.
+    ///
+    /// # Errors
+    /// [`Error::Level`].
+    pub fn check_name(&self, scenario: &Scenario) -> Result<(), Error> {
+        if self.scenario == scenario.name {
+            return Ok(());
+        }
+        Err(self.fault(LevelFault::Name { found: scenario.name.clone() }))
+    }
+
+    /// The error of this level.
+    pub(crate) fn fault(&self, why: LevelFault) -> Error {
+        Error::Level { level: self.to_string(), why }
+    }
+
     /// The values of a scenario's parameters in this level.
     ///
     /// # Errors
@@ -84,7 +112,7 @@ impl Level {
         let digest = setpiece_scenario::file::digest(scenario).ok();
         let found = digest.map(|digest| format!("{digest:016x}"));
         if self.digest.is_some() && self.digest != found {
-            return Err(Error::Level { level: self.to_string() });
+            return Err(self.fault(LevelFault::Version));
         }
         let pairs = self.params.iter().map(|(name, value)| (name.as_str(), value.as_str()));
         crate::bind(scenario, pairs)
@@ -123,6 +151,11 @@ mod tests {
             let line = serde_json::to_string(&level).unwrap();
             assert_eq!(serde_json::from_str::<Level>(&line).unwrap(), level);
         }
+        assert_eq!(
+            Level::read(" {\"scenario\":\"a\",\"seed\":3}").unwrap(),
+            Level::read("a#3").unwrap()
+        );
+        assert!(Level::read("{\"scenario\":\"a\"}").unwrap_err().contains("seed"));
         for text in ["academy_corner", "a{b}#1", "a{b=1#1", "a#", "a#1:x", "a#-1"] {
             assert_eq!(Level::parse(text), None, "{text}");
         }

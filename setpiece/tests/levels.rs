@@ -142,3 +142,74 @@ fn a_level_is_of_its_scenario() {
     let error = level.bind(&changed).unwrap_err();
     assert_eq!(error.code().to_string(), "SP0019");
 }
+
+/// The digest of the one episode that a command plays.
+fn episode(folder: &Path, args: &[&str]) -> String {
+    let (code, out, err) = setpiece(folder, args);
+    assert_eq!(code, Some(0), "{err}");
+    let report: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(report["episodes"], 1, "{out}");
+    report["digest"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn the_level_of_a_failed_check_plays_its_worst_episode() {
+    let dir = tempfile::tempdir().unwrap();
+    let (_, out, _) = setpiece(dir.path(), &["test", "--filter", "standing"]);
+    let level = out.lines().find_map(|line| line.trim().strip_prefix("worst: ")).unwrap();
+    let replay = out.lines().find_map(|line| line.split_once("studio ")).unwrap().1;
+    let shown = |what: &[&str], name: &str| {
+        let args = [&["render", "-o", name, "--step", "90"], what].concat();
+        let (code, _, err) = setpiece(dir.path(), &args);
+        assert_eq!(code, Some(0), "{err}");
+        std::fs::read(dir.path().join(name)).unwrap()
+    };
+    let played = shown(&["drill.pitch", "--agent", "idle", "--level", level], "played.svg");
+    assert_eq!(played, shown(&[replay], "recorded.svg"));
+}
+
+#[test]
+fn a_level_plays_exactly_its_episode() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = |more: &[&str]| episode(dir.path(), &[&["run", "--format", "json"], more].concat());
+    let text = run(&["drill.pitch", "--level", "drill{gap=5m}#12:3"]);
+    let json = r#"{"scenario":"drill","params":{"gap":"5m"},"seed":12,"episode":3}"#;
+    assert_eq!(run(&["drill.pitch", "--level", json]), text);
+    assert_ne!(run(&["drill.pitch", "--level", "drill{gap=5m}#12:2"]), text);
+    let alone = run(&["--level", "academy_corner#12"]);
+    assert_eq!(run(&["academy_corner", "--seed", "12", "-n", "1"]), alone);
+
+    let draw = |more: &[&str], name: &str| {
+        let args = [&["render", "-o", name, "--step", "9"], more].concat();
+        let (code, _, err) = setpiece(dir.path(), &args);
+        assert_eq!(code, Some(0), "{err}");
+        std::fs::read(dir.path().join(name)).unwrap()
+    };
+    let level = draw(&["drill.pitch", "--level", "drill{gap=5m}#12:3"], "a.svg");
+    let same = ["drill.pitch", "--seed", "12", "--set", "gap=5m", "--episode", "3"];
+    assert_eq!(draw(&same, "b.svg"), level);
+}
+
+#[test]
+fn a_level_that_does_not_fit_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    for (args, code, words) in [
+        (&["--level", "drill#3"][..], 1, "SP0019"),
+        (&["--level", "drill#3"], 1, "FILE.pitch --level"),
+        (&["drill.pitch", "--level", "dril#3"], 1, "another scenario than `drill`"),
+        (&["drill.pitch", "--level", "drill{gab=5m}#3"], 1, "did you mean `gap`?"),
+        (&["drill.pitch", "--level", "drill{gap=50m}#3"], 1, "gap"),
+        (&["drill.pitch", "--level", "drill#-3"], 2, "NAME{param=value}#SEED:EPISODE"),
+        (&["drill.pitch", "--level", "{\"scenario\":\"drill\"}"], 2, "missing field `seed`"),
+        (&["drill.pitch", "--level", "drill#1:18446744073709551615"], 2, "greatest index"),
+        (&["drill.pitch", "--level", "drill#1", "--seed", "2"], 2, "cannot be used with"),
+        (&["drill.pitch", "--level", "drill#1", "-n", "2"], 2, "cannot be used with"),
+        (&["drill.pitch", "--level", "drill#1", "--format", "csv"], 1, "not a table"),
+        (&["--level", "academy#1"], 1, "`--level` has no effect on a suite"),
+        (&[], 2, "SCENARIO"),
+    ] {
+        let (found, out, err) = setpiece(dir.path(), &[&["run"], args].concat());
+        assert_eq!(found, Some(code), "{args:?}\n{out}{err}");
+        assert!(err.contains(words), "{args:?}\n{err}");
+    }
+}

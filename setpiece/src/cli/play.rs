@@ -40,7 +40,7 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     playing: Playing,
     /// The number of episodes [default: 20]
-    #[arg(short = 'n', long, value_name = "N", value_parser = RangedU64ValueParser::<u64>::new().range(1..=1_000_000_000))]
+    #[arg(short = 'n', long, value_name = "N", conflicts_with = "level", value_parser = RangedU64ValueParser::<u64>::new().range(1..=1_000_000_000))]
     episodes: Option<u64>,
     /// Pay this reward instead of the scenario's own; may be repeated or separated by commas
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
@@ -52,7 +52,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_enum, default_value_t = RunFormat::Text)]
     pub(crate) format: RunFormat,
     /// A second agent that plays the same episodes, for a table of both
-    #[arg(long, value_enum, value_name = "AGENT", conflicts_with_all = ["watch", "live"])]
+    #[arg(long, value_enum, value_name = "AGENT", conflicts_with_all = ["watch", "live", "level"])]
     beside: Option<playing::AgentName>,
     /// Show the episodes in the terminal, ten steps a second, instead of a summary
     #[arg(long, conflicts_with_all = ["format", "watch", "threads"])]
@@ -129,15 +129,26 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     if args.watch {
         return watch(args, out);
     }
-    let loaded = match crate::load_with(&args.playing.scenario, &out.loading()) {
+    let source = args.playing.source();
+    let loaded = match crate::load_with(source, &out.loading()) {
         Ok(loaded) => loaded,
         Err(error) => {
-            return run_suites(&suites_of(&args.playing.scenario, error, out)?, args, out);
+            let suites = suites_of(source, error, out);
+            return run_suites(&suites.map_err(|why| args.playing.explained(why))?, args, out);
         }
     };
     out.warnings(&loaded);
     let options = options(args, &loaded)?;
     if args.beside.is_some() || matches!(args.format, RunFormat::Csv | RunFormat::Md) {
+        if args.playing.level.is_some() {
+            let help = "write `--format json` or `--format text`";
+            out.fault(
+                &Code::NoPlans.to_string(),
+                "a level is one episode, not a table",
+                Some(help),
+            );
+            return Ok(FAULT);
+        }
         return table(&loaded, &options, args, out);
     }
     if args.live {
@@ -250,9 +261,11 @@ fn plot(path: &Path, loaded: &Loaded, options: &RunOptions, out: &Out) -> Result
 }
 
 fn options(args: &RunArgs, loaded: &Loaded) -> Result<RunOptions, Error> {
+    let first = args.playing.episode(0);
+    let last = if args.playing.level.is_some() { first + 1 } else { args.episodes() };
     Ok(RunOptions {
-        episodes: 0..args.episodes(),
-        seed: args.playing.seed,
+        episodes: first..last,
+        seed: args.playing.seed(),
         agent: args.playing.agent(),
         threads: args.threads(),
         environment: EnvironmentOptions {
@@ -280,10 +293,12 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
 /// Runs episode by episode. A changed file takes effect at the next one; a broken one leaves the
 /// last good one running.
 fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
-    let mut live = Live::open(&args.playing.scenario, out.allow_outside)?;
+    let source = args.playing.source();
+    let mut live =
+        Live::open(source, out.allow_outside).map_err(|error| args.playing.explained(error))?;
     out.warnings(live.loaded());
     if !live.is_watching() {
-        let name = args.playing.scenario.to_string_lossy();
+        let name = source.to_string_lossy();
         out.fault("SP0001", &format!("`{name}` is no file: there is nothing to watch"), None);
         return Ok(FAULT);
     }
@@ -291,7 +306,7 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let mut scenario = live.loaded().scenario.clone();
     loop {
         out.line(StyledText::default().bold(&scenario.name));
-        for index in 0..args.episodes() {
+        for index in options.episodes.clone() {
             let one = RunOptions { episodes: index..index + 1, threads: 1, ..options.clone() };
             let summary = run(&scenario, &one, |_| {})?;
             for episode in summary.episodes.iter().flatten() {

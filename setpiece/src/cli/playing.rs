@@ -3,24 +3,29 @@
 
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::{EnvironmentOptions, Physics};
+use crate::error::LevelFault;
 use crate::files::{SNAPSHOT_MAX_BYTES, read_file};
+use crate::level::Level;
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum};
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 #[derive(Args, Debug)]
 pub(crate) struct Playing {
     /// A scenario of the library, a .pitch file or a compiled .pitchc file
-    #[arg(value_name = "SCENARIO")]
-    pub(crate) scenario: OsString,
+    #[arg(value_name = "SCENARIO", required_unless_present = "level")]
+    scenario: Option<OsString>,
     /// Who controls the agents
     #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
     agent: AgentName,
     /// The seed; the same seed gives the same episodes
     #[arg(short, long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
-    pub(crate) seed: u64,
+    seed: u64,
+    /// Play the one episode of a level: 'NAME{param=value}#SEED:EPISODE', or its JSON
+    #[arg(long, value_name = "LEVEL", value_parser = level, conflicts_with_all = ["seed", "set", "from"])]
+    pub(crate) level: Option<Level>,
     /// Set a parameter of the scenario; may be repeated
     #[arg(long, value_name = "PARAM=VALUE", value_parser = pair)]
     set: Vec<(String, String)>,
@@ -62,6 +67,15 @@ fn pair(text: &str) -> Result<(String, String), String> {
     }
 }
 
+fn level(text: &str) -> Result<Level, String> {
+    let level = Level::read(text)?;
+    // The range of its one episode has an end.
+    if level.episode == u64::MAX {
+        return Err(format!("the greatest index of an episode is {}", u64::MAX - 1));
+    }
+    Ok(level)
+}
+
 impl AgentName {
     /// The engine's agent.
     pub(crate) fn agent(self) -> Agent {
@@ -75,6 +89,33 @@ impl AgentName {
 }
 
 impl Playing {
+    /// What to load: the scenario that is named, else the level's.
+    pub(crate) fn source(&self) -> &OsStr {
+        let named = self.scenario.as_deref();
+        let of_level = || self.level.as_ref().map(|level| OsStr::new(&level.scenario));
+        named.or_else(of_level).unwrap_or_default()
+    }
+
+    /// Explains that a scenario isn't found, where only a level names it.
+    pub(crate) fn explained(&self, error: Error) -> Error {
+        match (&self.level, error) {
+            (Some(level), Error::Unknown { similar: None, .. }) if self.scenario.is_none() => {
+                level.fault(LevelFault::Unknown)
+            }
+            (_, error) => error,
+        }
+    }
+
+    /// The seed.
+    pub(crate) fn seed(&self) -> u64 {
+        self.level.as_ref().map_or(self.seed, |level| level.seed)
+    }
+
+    /// The index of the level's episode, else the one that is asked for.
+    pub(crate) fn episode(&self, otherwise: u64) -> u64 {
+        self.level.as_ref().map_or(otherwise, |level| level.episode)
+    }
+
     /// The agent that plays every slot.
     pub(crate) fn agent(&self) -> Agent {
         self.agent.agent()
@@ -94,6 +135,7 @@ impl Playing {
             (self.seed != 0, "--seed"),
             (!self.set.is_empty(), "--set"),
             (self.from.is_some(), "--from"),
+            (self.level.is_some(), "--level"),
         ];
         given.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
     }
@@ -102,11 +144,20 @@ impl Playing {
     ///
     /// # Errors
     /// [`Error::Param`] for an unknown parameter or a value that isn't allowed; [`Error::File`] if
-    /// the snapshot can't be read.
+    /// the snapshot can't be read; [`Error::Level`] for a level of another scenario.
     pub(crate) fn environment(&self, loaded: &Loaded) -> Result<EnvironmentOptions, Error> {
         let pairs = self.set.iter().map(|(name, value)| (name.as_str(), value.as_str()));
+        let bindings = match &self.level {
+            Some(level) => {
+                if self.scenario.is_some() {
+                    level.check_name(&loaded.scenario)?;
+                }
+                level.bind(&loaded.scenario)?
+            }
+            None => crate::bind(&loaded.scenario, pairs)?,
+        };
         Ok(EnvironmentOptions {
-            bindings: Some(crate::bind(&loaded.scenario, pairs)?),
+            bindings: Some(bindings),
             rewards: None,
             physics: self.physics(),
             agents: None,

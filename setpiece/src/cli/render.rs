@@ -25,7 +25,14 @@ pub(crate) struct RenderArgs {
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// The episode's index under the seed
-    #[arg(short, long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+    #[arg(
+        short,
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        allow_negative_numbers = true,
+        conflicts_with = "level"
+    )]
     episode: u64,
     /// Draw one moment: the state after this many steps, 0 for the start
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
@@ -122,18 +129,20 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
         out.fault(&Code::NoPicture.to_string(), &message, Some(&help));
         return Ok(FAULT);
     };
-    let film = match crate::load_with(&args.playing.scenario, &out.loading()) {
-        Err(Error::File { path: recorded, why: FileFault::Packed(Packed::Replay) }) => {
+    let film = match crate::load_with(args.playing.source(), &out.loading()) {
+        Err(Error::File { path: recorded, why: FileFault::Packed(Packed::Replay) })
+            if args.playing.level.is_none() =>
+        {
             refuse_overwriting(path, std::slice::from_ref(&recorded))?;
             replayed(&Replay::from_bytes(&read_file(&recorded, REPLAY_MAX_BYTES)?)?)?
         }
         loaded => {
-            let loaded = loaded?;
+            let loaded = loaded.map_err(|error| args.playing.explained(error))?;
             out.warnings(&loaded);
             refuse_overwriting(path, &loaded.inputs)?;
             let options = FilmOptions {
-                seed: args.playing.seed,
-                episode: args.episode,
+                seed: args.playing.seed(),
+                episode: args.playing.episode(args.episode),
                 agent: args.playing.agent(),
                 environment: args.playing.environment(&loaded)?,
                 until_step: args.step.or(args.steps.map(|(_, to)| to)),

@@ -19,7 +19,14 @@ pub(crate) struct SnapshotArgs {
     #[arg(short, long, value_name = "OUT.pitchs")]
     output: PathBuf,
     /// The episode's index under the seed
-    #[arg(short, long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+    #[arg(
+        short,
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        allow_negative_numbers = true,
+        conflicts_with = "level"
+    )]
     episode: u64,
     /// The number of steps of 0.1 s to play
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
@@ -28,7 +35,8 @@ pub(crate) struct SnapshotArgs {
 
 /// Plays to the step and writes the snapshot.
 pub(crate) fn snapshot(args: &SnapshotArgs, out: &Out) -> Result<u8, Error> {
-    let loaded = crate::load_with(&args.playing.scenario, &out.loading())?;
+    let loaded = crate::load_with(args.playing.source(), &out.loading())
+        .map_err(|error| args.playing.explained(error))?;
     out.warnings(&loaded);
     refuse_overwriting(&args.output, &loaded.inputs)?;
     let options = args.playing.environment(&loaded)?;
@@ -36,7 +44,7 @@ pub(crate) fn snapshot(args: &SnapshotArgs, out: &Out) -> Result<u8, Error> {
         Environment::new(loaded.scenario.clone(), options).map_err(Error::Environment)?;
     let broken = |why: EpisodeError| Error::Episode(Box::new(why));
     environment
-        .reset(Some(args.playing.seed), Some(args.episode))
+        .reset(Some(args.playing.seed()), Some(args.playing.episode(args.episode)))
         .map_err(|why| broken(why.into()))?;
     play(&mut environment, args.playing.agent(), args.step).map_err(broken)?;
     if environment.steps() < args.step {

@@ -16,6 +16,7 @@ mod fields;
 pub(crate) mod hidden;
 pub(crate) mod interval;
 mod known;
+mod layouts;
 pub(crate) mod loaded_scripts;
 pub(crate) mod mirror;
 mod mirrored;

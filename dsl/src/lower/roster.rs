@@ -1,6 +1,7 @@
 //! Who plays: formations and players of both teams as one list.
 
 use super::known::StartState;
+use super::layouts::check_same;
 use super::people::{Rostered, Stand};
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, World, casting};
@@ -155,31 +156,6 @@ fn from_layouts<'w>(
         player.receiving = Some(other.stand);
     }
     kicking
-}
-
-/// Two layouts of one team have the same players; the second says where they stand, and nothing
-/// else of them.
-fn check_same(world: &World<'_>, one: &[Rostered<'_>], other: &[Rostered<'_>], at: Span) {
-    if one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.role == other.role)
-    {
-        let more = |player: &&Rostered<'_>| {
-            player.facing.is_some()
-                || player.jitter.is_some()
-                || player.when.is_some()
-                || !player.fields.is_empty()
-        };
-        if let Some(player) = other.iter().find(more) {
-            world.report(Problem::new(at, Players::SecondLayoutSaysMore { player: player.span }));
-        }
-        return;
-    }
-    let roles = |players: &[Rostered<'_>]| -> String {
-        players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
-    };
-    world.report(Problem::new(
-        at,
-        Players::LayoutsDiffer { first: roles(one), second: roles(other) },
-    ));
 }
 
 /// The players of a formation value: its name, a call with arguments, or a choice of two, which has

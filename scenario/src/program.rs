@@ -90,8 +90,8 @@ pub enum Instr {
     Binary(BinaryOp, Reg, Reg),
     /// `if 0 then 1 else 2`.
     Select(Reg, Reg, Reg),
-    /// Whether the episode terminates in this step: 1 or 0. The limit doesn't terminate it. Endings,
-    /// which decide it, and observations read 0.
+    /// Whether the episode terminates in this step: 1 or 0. The limit doesn't terminate it.
+    /// Endings, which decide it, and observations read 0.
     Terminated,
     /// The team of the agent that is judged.
     Us,

@@ -122,7 +122,7 @@ impl<'w> Lower<'_, 'w> {
 
     /// What a potential pays in a step: γ Φ(s') - Φ(s) (Ng, Harada and Russell 1999, theorem 1).
     ///
-    /// A state in which the episode terminates has the potential 0, or the policy that is best would
+    /// A state in which the episode terminates has the potential 0. Otherwise the best policy would
     /// depend on where episodes end (Grzes 2017).
     fn potential(&mut self, e: &'w Expr, gamma: &'w Expr, span: Span) -> Value<'w> {
         let now = self.want_reg(e, Ty::Number);

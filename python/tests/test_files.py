@@ -138,7 +138,7 @@ def test_a_compiled_scenario_does_not_name_its_way_out_of_a_folder(tmp_path: Pat
     raw = text[text.index('"scenario":') + len('"scenario":') : -1]
     changed = raw.replace(f'"name":"{body["name"]}"', '"name":"../../x/evil"', 1)
     checksum = zlib.crc32(changed.encode())
-    head = f'{{"format":"setpiece scenario","version":2,"checksum":"{checksum:08x}","scenario":'
+    head = text[: text.index('"checksum"')] + f'"checksum":"{checksum:08x}","scenario":'
     path.write_text(head + changed + "}")
     with pytest.raises(setpiece.FormatError, match="is not a name"):
         setpiece.load(path)

@@ -216,14 +216,7 @@ fn verify_program(
             (Instr::Event(_), _) if !open.iter().any(|body| body.3) => {
                 return Err(format!("instruction {at} reads an event outside a loop over events"));
             }
-            (
-                Instr::Held { .. }
-                | Instr::Ever { .. }
-                | Instr::Since { .. }
-                | Instr::Until { .. }
-                | Instr::Once { .. },
-                _,
-            ) if !open.is_empty() => {
+            _ if looks_back(instr) && !open.is_empty() => {
                 return Err(format!("instruction {at} looks back inside a loop"));
             }
             (Instr::Give { term, .. }, ProgramPlace::Step { terms }) => {
@@ -231,33 +224,21 @@ fn verify_program(
             }
             (Instr::Random { .. }, ProgramPlace::Start)
             | (Instr::Assign { .. }, ProgramPlace::Init | ProgramPlace::Step { .. })
-            | (
-                Instr::Held { .. } | Instr::Ever { .. } | Instr::Since { .. },
-                ProgramPlace::Step { .. },
-            )
-            | (
-                Instr::Until { .. }
-                | Instr::Once { .. }
-                | Instr::Terminated
-                | Instr::Us
-                | Instr::Me,
-                ProgramPlace::Step { .. },
-            )
+            | (Instr::Terminated | Instr::Us | Instr::Me, ProgramPlace::Step { .. })
             | (Instr::Us, ProgramPlace::Init) => {}
+            (_, ProgramPlace::Step { .. }) if looks_back(instr) => {}
             (
                 Instr::Random { .. }
                 | Instr::Give { .. }
                 | Instr::Assign { .. }
-                | Instr::Held { .. }
-                | Instr::Ever { .. }
-                | Instr::Since { .. }
-                | Instr::Until { .. }
-                | Instr::Once { .. }
                 | Instr::Terminated
                 | Instr::Us
                 | Instr::Me,
                 _,
             ) => return Err(format!("instruction {at} has no place there")),
+            _ if looks_back(instr) => {
+                return Err(format!("instruction {at} has no place there"));
+            }
             (Instr::Each(each), _) => {
                 let end = at + 1 + each.body as usize;
                 let limit = open.last().map_or(program.code.len(), |body| body.1);
@@ -280,6 +261,18 @@ fn verify_program(
         close_body(program, &mut open)?;
     }
     Ok(())
+}
+
+/// Whether an instruction remembers earlier steps.
+fn looks_back(instr: &Instr) -> bool {
+    matches!(
+        instr,
+        Instr::Held { .. }
+            | Instr::Ever { .. }
+            | Instr::Since { .. }
+            | Instr::Until { .. }
+            | Instr::Once { .. }
+    )
 }
 
 fn close_body(program: &Program, open: &mut Vec<(usize, usize, Fold, bool)>) -> Result<(), String> {

@@ -80,10 +80,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     to what the agent holds. In the last step it also has:
 
     - `outcome`: the ending's name; `records`: the scenario's own records.
-    - `setpiece`: a dict with `return` by term, `length` in steps, `seed`, `index`, `digest` of the
-      final state, `success`: whether the ending is one that the scenario calls a success, whoever
-      plays, `faults`: payments that were impossible (a division by zero) and dropped, and
-      `scenario`: the scenario's digest.
+    - `setpiece`: a dict with `return` by term, `length` in steps, `seed`, `index`, `level` (the
+      text with which `reset` begins the episode again), `digest` of the final state, `success`:
+      whether the ending is one that the scenario calls a success, whoever plays, `faults`: payments
+      that were impossible (a division by zero) and dropped, and `scenario`: the scenario's digest.
 
     With `opponents`, others play some of the scenario's agents. The caller has the remaining ones,
     and everything above refers to those.
@@ -180,18 +180,23 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             accepts, with its own parameters and the given `params`. From then on the environment is
             like one made with these two and otherwise the same arguments. The spaces must stay;
           - `{"episode": n}` sets the index;
+          - `{"level": …}` begins the episode of a level: the text of an earlier
+            `info["setpiece"]["level"]`, or a dict with the keys of its JSON (`scenario`, `params`,
+            `seed`, `episode`, `digest`). It stands for `seed`, `params` and `episode`, and is of
+            the environment's scenario, or of the `scenario` given with it;
           - `{"snapshot": bytes}` begins this episode in the state of a snapshot of this scenario,
             or of another with the same players and agents. Places, ball, everything under way,
             score, cards, fatigue and clock are the snapshot's; rules, difficulty and limit are the
             scenario's; rewards, records and random numbers start as at any reset.
 
-        Raises `ParameterError` for unknown options or parameters and for a scenario that would
-        change the spaces, what `setpiece.make` does for one that can't be read, `SnapshotError` for
-        a snapshot that doesn't fit, `DrawError` if no start meets the scenario's requirements,
-        `CallbackError` if a reward or ending in Python or `on_reload` fails. The environment then
-        keeps its scenario, but a changed watched file has still been reloaded. A `reset` that is
-        rejected because of its arguments doesn't change a running episode. One that fails with
-        `DrawError` or `CallbackError`, or that has reloaded a change, ends it.
+        Raises `LevelError` for a level of another scenario, `ParameterError` for unknown options or
+        parameters and for a scenario that would change the spaces, what `setpiece.make` does for
+        one that can't be read, `SnapshotError` for a snapshot that doesn't fit, `DrawError` if no
+        start meets the scenario's requirements, `CallbackError` if a reward or ending in Python or
+        `on_reload` fails. The environment then keeps its scenario, but a changed watched file has
+        still been reloaded. A `reset` that is rejected because of its arguments doesn't change a
+        running episode. One that fails with `DrawError` or `CallbackError`, or that has reloaded a
+        change, ends it.
         """
         with self._turn:
             begun = self._begun(seed, read_reset_options(options))
@@ -439,9 +444,16 @@ class FootballEnv(gymnasium.Env[Any, Any]):
 
     def _begun(self, seed: int | None, wanted: ResetOptions) -> tuple[Any, dict[str, Any]]:
         """Begins an episode: see `reset`."""
+        level = wanted.level
         switched = (
-            None if wanted.scenario is None else self._switched(wanted.scenario, wanted.params)
+            None
+            if wanted.scenario is None
+            else self._switched(wanted.scenario, None if level is not None else wanted.params)
         )
+        if level is not None:
+            if seed is not None:
+                raise ParameterError("`level` and `seed` exclude each other", name="seed")
+            seed = level.seed
         if seed is None and self._seed is None:
             seed = self._options.seed
         if seed is not None:
@@ -451,7 +463,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             number = int(self.np_random.integers(2**63))
         at = at if wanted.episode is None else wanted.episode
         params = self._params if wanted.params is None else wanted.params
-        if switched is not None:
+        if switched is not None and level is None:
             # Its parameters are already bound, like those of `make`.
             params = {}
         if self._watcher is not None:
@@ -460,6 +472,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             self._take_over(self._watcher, *self._watcher.at_reset(before, self._ready))
             self._playing = running and self._match is before
         match = self._match if switched is None else switched
+        if level is not None:
+            level.check(match.scenario.name, match.digest)
         if self._playing and (switched, wanted.params, wanted.snapshot) != (None, None, None):
             self._rehearse(switched, number, at, params, wanted.snapshot)
         self._playing = False

@@ -155,7 +155,7 @@ class SnapshotError(SetpieceError, ValueError):
 
 
 class LevelError(SetpieceError, ValueError):
-    """A level was taken of another version of its scenario."""
+    """A level is of another scenario, or of another version of it."""
 
 
 class ActionError(SetpieceError, ValueError):

@@ -24,7 +24,14 @@ from setpiece._env_options import RENDER_MODES, EnvOptions, VectorArguments
 from setpiece._environment import FootballEnv, Mirror
 from setpiece._errors import ActionError, ParameterError, ReplayError, UnavailableError
 from setpiece._opponents import Opponent, Table
-from setpiece._options import ParamValue, check_keys, check_number, check_params
+from setpiece._options import (
+    Level,
+    ParamValue,
+    check_keys,
+    check_number,
+    check_params,
+    read_level,
+)
 from setpiece._rows import Picker
 from setpiece._seats import Seats
 from setpiece._source import Source
@@ -44,7 +51,7 @@ THREADS_MAX = 1_024
 TOGETHER = ("threads", "autoreset_mode")
 """Arguments of a vector that a single environment doesn't have."""
 
-RESET_OPTIONS = ("reset_mask", "params", "episode")
+RESET_OPTIONS = ("reset_mask", "params", "episode", "level")
 
 
 class FootballVectorEnv(VectorEnv[Any, Any, Any]):
@@ -164,13 +171,20 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         - `seed`: an integer s (environment k gets s + k), or one for each environment.
         - `options`: `{"reset_mask": bool array}` begins only the episodes that it marks;
           `{"params": {…}}` binds parameters of all environments, from their next episodes on;
-          `{"episode": n}` sets the index.
+          `{"episode": n}` sets the index. `{"level": …}` begins the episode of a level in every
+          environment that begins, or `{"level": [...]}` one for each environment: see
+          `FootballEnv.reset`.
 
-        Raises `ParameterError` for other options, and the episodes continue; `DrawError` if no
+        Raises `ParameterError` for other options and `LevelError` for a level of another scenario,
+        and the episodes continue; `DrawError` if no
         start meets the scenario's requirements.
         """
         with self._turn:
-            mask, params, episode = self._read_options(options)
+            mask, params, episodes, levels = self._read_options(options)
+            if levels is not None:
+                if seed is not None:
+                    raise ParameterError("`level` and `seed` exclude each other", name="seed")
+                seed = [level.seed for level in levels]
             if seed is None and not self._begun:
                 seed = self._options.seed
                 if seed is None:
@@ -180,10 +194,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             with one_thread:
                 if params is not None:
                     self._batch.bind(params)
-                    self._bound = params
-                self._batch.reset(
-                    self._arrays, mask.tolist(), seeds, [episode] * self.num_envs, False
-                )
+                    self._bound = self._bound if params[0] is None else params[0]
+                self._batch.reset(self._arrays, mask.tolist(), seeds, episodes, False)
             self._begun = True
             self._over &= ~mask
             if mask[0]:
@@ -395,7 +407,13 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _read_options(
         self, options: dict[str, Any] | None
-    ) -> tuple[NDArray[np.bool_], dict[str, ParamValue] | None, int | None]:
+    ) -> tuple[
+        NDArray[np.bool_],
+        list[dict[str, ParamValue] | None] | None,
+        list[int | None],
+        list[Level] | None,
+    ]:
+        """The environments that begin, and for each of them parameters, index and level."""
         checked = check_keys(options, RESET_OPTIONS)
         mask = checked.get("reset_mask")
         if mask is None:
@@ -414,12 +432,38 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             raise ParameterError(
                 "the first `reset` begins an episode of every environment", name="reset_mask"
             )
-        episode = checked.get("episode")
-        return (
-            mask,
-            check_params(checked.get("params")),
-            None if episode is None else check_number("episode", episode),
+        levels = self._levels(checked)
+        if levels is not None:
+            marked = zip(mask.tolist(), levels, strict=True)
+            bound = [level.params if begins else None for begins, level in marked]
+            return mask, bound, [level.episode for level in levels], levels
+        params, episode = check_params(checked.get("params")), checked.get("episode")
+        episode = None if episode is None else check_number("episode", episode)
+        every: list[dict[str, ParamValue] | None] | None = (
+            None if params is None else [params] * self.num_envs
         )
+        return mask, every, [episode] * self.num_envs, None
+
+    def _levels(self, options: Mapping[str, Any]) -> list[Level] | None:
+        given = options.get("level")
+        if isinstance(given, list | tuple):
+            if len(given) != self.num_envs:
+                raise ParameterError(
+                    f"expected {self.num_envs} levels, found {len(given)}", name="level"
+                )
+            each = [{**options, "level": one} for one in given]
+        else:
+            each = [{**options}]
+        read = [read_level(one, ("episode", "params")) for one in each]
+        levels = [level for level in read if level is not None]
+        if len(levels) < len(read):
+            if given is None:
+                return None
+            raise ParameterError("`level` has None for an environment", name="level")
+        digest = self.scenario.digest
+        for level in levels:
+            level.check(self.scenario.name, digest)
+        return levels if len(levels) == self.num_envs else levels * self.num_envs
 
     def _seeds(self, seed: Any) -> list[int | None]:
         if seed is None:

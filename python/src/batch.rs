@@ -11,6 +11,7 @@ use crate::environment::{
 };
 use crate::errors;
 use crate::info::records;
+use crate::level;
 use crate::observation::{self, BlockInfo, ObservationForm, ObservationKind, Observer, Wanted};
 use crate::options::EnvOptions;
 use crate::params::bind;
@@ -22,7 +23,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use setpiece::engine::batch::Batch as Lanes;
 use setpiece::engine::environment::{ResetError, Scratch};
-use setpiece::scenario::{Action, Verdict};
+use setpiece::scenario::{Action, Bindings, Verdict};
 
 /// Several matches of one scenario that are stepped together.
 #[pyclass(module = "setpiece._native")]
@@ -83,7 +84,8 @@ impl Batch {
                 errors::parameter(py, "observation", message)
             })?;
             let engine = engine.clone();
-            Ok(BatchLane { engine, film, over: true, fault: None, broken: None })
+            let played = engine.bindings().clone();
+            Ok(BatchLane { engine, film, played, over: true, fault: None, broken: None })
         };
         let all: PyResult<Vec<BatchLane>> = (0..n).map(|_| lane()).collect();
         let lanes = Lanes::new(all?, threads)
@@ -181,13 +183,25 @@ impl Batch {
         })
     }
 
-    /// Binds parameters for all environments, from their next episodes on.
-    fn bind(&mut self, py: Python<'_>, params: &Bound<'_, PyDict>) -> PyResult<()> {
-        for lane in self.lanes.lanes_mut() {
-            let bindings = bind(py, &lane.engine.scenario().params, params)?;
-            lane.engine
-                .set_bindings(&bindings)
-                .map_err(|error| crate::environment::from_engine(py, error))?;
+    /// Binds parameters of each environment that has some, from its next episode on; of all or, if
+    /// it fails, of none.
+    fn bind(&mut self, py: Python<'_>, params: Vec<Option<Bound<'_, PyDict>>>) -> PyResult<()> {
+        let mut earlier: Vec<(usize, Bindings)> = Vec::new();
+        let lanes = self.lanes.lanes_mut();
+        for (at, params) in params.iter().enumerate() {
+            let (Some(lane), Some(params)) = (lanes.get_mut(at), params) else { continue };
+            let bound = bind(py, &lane.engine.scenario().params, params).and_then(|bindings| {
+                earlier.push((at, lane.engine.bindings().clone()));
+                let set = lane.engine.set_bindings(&bindings);
+                set.map_err(|error| crate::environment::from_engine(py, error))
+            });
+            if let Err(error) = bound {
+                for (at, bindings) in &earlier {
+                    // They were bound before, so they still can be.
+                    let _ = lanes[*at].engine.set_bindings(bindings);
+                }
+                return Err(error);
+            }
         }
         Ok(())
     }
@@ -249,7 +263,7 @@ impl Batch {
     }
 
     /// The summary of an environment's ended episode: outcome, records, success, length, seed,
-    /// index, digest, faults, return by term and agent.
+    /// index, level, digest, faults, return by term and agent.
     fn summary<'py>(&self, py: Python<'py>, at: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(lane) = self.lanes.lanes().get(at) else { return Ok(None) };
         let engine = &lane.engine;
@@ -261,6 +275,7 @@ impl Batch {
         dict.set_item("length", engine.steps())?;
         dict.set_item("seed", engine.seed())?;
         dict.set_item("index", engine.index())?;
+        dict.set_item("level", level::of_episode(engine, &lane.played))?;
         dict.set_item("digest", format!("{:016x}", engine.digest()))?;
         dict.set_item("faults", engine.faults())?;
         let sums: PyResult<Vec<_>> =

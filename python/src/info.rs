@@ -1,6 +1,7 @@
 //! `info`: the data of a step besides observation and reward.
 
 use crate::actions::ActionSet;
+use crate::level;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -82,6 +83,7 @@ impl InfoWriter {
             summary.set_item("length", engine.steps())?;
             summary.set_item("seed", engine.seed())?;
             summary.set_item("index", engine.index())?;
+            summary.set_item("level", level::of_episode(engine, engine.bindings()))?;
             summary.set_item("digest", format!("{:016x}", engine.digest()))?;
             summary.set_item("success", outcome.verdict == Some(Verdict::Success))?;
             summary.set_item("faults", engine.faults())?;

@@ -7,6 +7,7 @@ mod environment;
 mod errors;
 mod given;
 mod info;
+mod level;
 mod live;
 mod observation;
 mod options;
@@ -34,6 +35,8 @@ mod _native {
     use crate::batch::{Arrays, Batch};
     #[pymodule_export]
     use crate::environment::{AgentInfo, Environment, EpisodeKey, agents};
+    #[pymodule_export]
+    use crate::level::level;
     #[pymodule_export]
     use crate::live::Live;
     #[pymodule_export]

@@ -166,6 +166,7 @@ def test_an_ending_terminates_the_episode_with_its_label(
         "length": 4,
         "seed": 7,
         "index": 0,
+        "level": "ten#7",
         "success": success,
         "scenario": env.scenario.digest,
     }

@@ -165,6 +165,7 @@ def test_goal_ends_the_episode_and_pays() -> None:
         "seed",
         "index",
         "digest",
+        "level",
         "success",
         "faults",
         "scenario",

@@ -6,12 +6,14 @@ use crate::observation::{ByteWriter, ObservationForm, ObservationKind, Stack, wr
 use pyo3::prelude::*;
 use setpiece::engine::environment::{Environment as Engine, ResetError, Scratch, StepError};
 use setpiece::engine::observe::{Floats, ObserveError};
-use setpiece::scenario::Action;
+use setpiece::scenario::{Action, Bindings};
 
 /// One of the matches.
 pub(super) struct BatchLane {
     pub(super) engine: Engine,
     pub(super) film: NewestObservations,
+    /// The parameters of the current episode; others may be bound for the next.
+    pub(super) played: Bindings,
     /// Whether the episode has ended and no other has begun.
     pub(super) over: bool,
     /// The failure of the last step.
@@ -103,6 +105,7 @@ impl BatchLane {
             self.over = true;
             return;
         }
+        self.played.0.clone_from(&self.engine.bindings().0);
         self.over = false;
         *row.begun = true;
         if !keep {

@@ -1,0 +1,120 @@
+"""Levels: an episode begins again from the text that its last `info` has."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from gymnasium.vector import AutoresetMode
+
+import setpiece
+
+DRILL = """
+scenario drill {
+    param gap = 2m in 1m..20m
+    let y = uniform(-0.2, 0.2)
+    ball at (0.5, y)
+    team left { CF at (50m - gap, 0m) }
+    end over when elapsed > 0.5s
+}
+"""
+
+
+def last_info(env: Any) -> dict[str, Any]:
+    while True:
+        *_, terminated, truncated, info = env.step(setpiece.Action.IDLE)
+        if terminated or truncated:
+            return info["setpiece"]
+
+
+def test_a_level_begins_its_episode_again() -> None:
+    env = setpiece.make(DRILL, params={"gap": "5m"})
+    env.reset(seed=12)
+    last_info(env)
+    env.reset()
+    first = last_info(env)
+    assert first["level"] == "drill{gap=5m}#12:1"
+    # Another environment has another default.
+    other = setpiece.make(DRILL)
+    other.reset(seed=1)
+    for level in (
+        first["level"],
+        {"scenario": "drill", "params": {"gap": "5m"}, "seed": 12, "episode": 1},
+        {"scenario": "drill", "params": {"gap": 5}, "seed": np.uint64(12), "episode": 1},
+    ):
+        other.reset(options={"level": level})
+        again = last_info(other)
+        assert (again["digest"], again["level"]) == (first["digest"], first["level"])
+    other.reset()
+    assert last_info(other)["level"] == "drill{gap=5m}#12:2"
+
+
+def test_a_level_goes_with_its_scenario() -> None:
+    env = setpiece.make("academy_corner")
+    env.reset(options={"scenario": DRILL, "level": "drill{gap=7m}#3"})
+    assert last_info(env)["level"] == "drill{gap=7m}#3"
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "words"),
+    [
+        ({"level": "dril#3"}, setpiece.LevelError, "is of `dril`"),
+        ({"level": "drill"}, setpiece.ParameterError, "NAME{param=value}#SEED:EPISODE"),
+        ({"level": "drill#-3"}, setpiece.ParameterError, "NAME{param=value}#SEED:EPISODE"),
+        ({"level": "drill{gab=5m}#3"}, setpiece.ParameterError, "gap"),
+        ({"level": "drill{gap=50m}#3"}, setpiece.ParameterError, "gap"),
+        ({"level": {"scenario": "drill", "seed": -1}}, setpiece.ParameterError, "outside"),
+        ({"level": {"scenario": "drill", "sed": 1}}, setpiece.ParameterError, "`seed`"),
+        ({"level": {"scenario": "drill"}}, setpiece.ParameterError, "no `seed`"),
+        ({"level": 3}, setpiece.ParameterError, "found `3`"),
+        ({"level": "drill#3", "params": {}}, setpiece.ParameterError, "exclude"),
+        ({"level": "drill#3", "episode": 2}, setpiece.ParameterError, "exclude"),
+        (
+            {"level": {"scenario": "drill", "seed": 1, "digest": "0" * 16}},
+            setpiece.LevelError,
+            "another version",
+        ),
+    ],
+)
+def test_a_bad_level_is_refused(options: Any, error: Any, words: str) -> None:
+    for env in (setpiece.make(DRILL), setpiece.make_vec(DRILL, 2)):
+        env.reset(seed=1)
+        with pytest.raises(error) as caught:
+            env.reset(options=options)
+        assert words in str(caught.value)
+        env.step(env.action_space.sample())
+    with pytest.raises(setpiece.ParameterError, match="exclude"):
+        setpiece.make(DRILL).reset(seed=1, options={"level": "drill#3"})
+
+
+def test_a_vector_takes_a_level_for_each_environment() -> None:
+    levels = ["drill{gap=5m}#12:1", "drill{gap=2m}#3", "drill{gap=9m}#12:1"]
+    digests = []
+    for level in levels:
+        env = setpiece.make(DRILL)
+        env.reset(options={"level": level})
+        digests.append(last_info(env)["digest"])
+    envs = setpiece.make_vec(DRILL, 3, autoreset_mode=AutoresetMode.DISABLED)
+
+    def ended() -> dict[str, Any]:
+        while True:
+            _, _, terminated, truncated, infos = envs.step(np.zeros(3, np.int64))
+            if (terminated | truncated).any():
+                return infos["setpiece"]
+
+    envs.reset(options={"level": levels})
+    infos = ended()
+    assert infos["level"].tolist() == levels
+    assert infos["digest"].tolist() == digests
+    envs.reset(options={"level": levels[0]})
+    # Parameters of the next episode don't change the level of this one.
+    only = np.array([True, False, False])
+    envs.reset(options={"params": {"gap": "3m"}, "reset_mask": only, "episode": 4})
+    assert ended()["level"].tolist()[1:] == [levels[0]] * 2
+    with pytest.raises(setpiece.ParameterError, match="expected 3 levels, found 1"):
+        envs.reset(options={"level": levels[:1]})
+    # A refused list binds nothing.
+    envs.reset(seed=1, options={"params": {"gap": "4m"}})
+    with pytest.raises(setpiece.ParameterError):
+        envs.reset(options={"level": [levels[0], levels[1], "drill{gap=50m}#3"]})
+    envs.reset(seed=1)
+    assert ended()["level"].tolist() == [f"drill{{gap=4m}}#{at}" for at in (1, 2, 3)]

@@ -24,15 +24,14 @@ from setpiece._opponents import Table
 from setpiece._options import (
     NUMBER_MAX,
     ParamValue,
-    ResetOptions,
     check_flag,
     check_number,
     check_path,
     check_snapshot,
-    read_reset_options,
 )
 from setpiece._record import Record, When, read_record, write
 from setpiece._reload import Reload, Watcher, check_watch
+from setpiece._reset import ResetOptions, read_reset_options
 from setpiece._source import Source
 from setpiece._spaces import (
     PICTURE_MAX,
@@ -199,7 +198,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         change, ends it.
         """
         with self._turn:
-            begun = self._begun(seed, read_reset_options(options))
+            begun = self._begun(read_reset_options(seed, options))
         if self.render_mode == "human":
             self.render()
         return begun
@@ -442,28 +441,20 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         bound = self._options.params if params is None else params
         return match_of(scenario.with_params(**bound), self._options)
 
-    def _begun(self, seed: int | None, wanted: ResetOptions) -> tuple[Any, dict[str, Any]]:
+    def _begun(self, wanted: ResetOptions) -> tuple[Any, dict[str, Any]]:
         """Begins an episode: see `reset`."""
-        level = wanted.level
+        seed = wanted.seed
         switched = (
-            None
-            if wanted.scenario is None
-            else self._switched(wanted.scenario, None if level is not None else wanted.params)
+            None if wanted.scenario is None else self._switched(wanted.scenario, wanted.params)
         )
-        if level is not None:
-            if seed is not None:
-                raise ParameterError("`level` and `seed` exclude each other", name="seed")
-            seed = level.seed
-        if seed is None and self._seed is None:
-            seed = self._options.seed
-        if seed is not None:
-            seed = check_number("seed", seed)
+        if seed is None and self._seed is None and self._options.seed is not None:
+            seed = check_number("seed", self._options.seed)
         number, at = (self._seed, self._index) if seed is None else (seed, 0)
         if number is None:
             number = int(self.np_random.integers(2**63))
         at = at if wanted.episode is None else wanted.episode
         params = self._params if wanted.params is None else wanted.params
-        if switched is not None and level is None:
+        if switched is not None:
             # Its parameters are already bound, like those of `make`.
             params = {}
         if self._watcher is not None:
@@ -472,8 +463,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             self._take_over(self._watcher, *self._watcher.at_reset(before, self._ready))
             self._playing = running and self._match is before
         match = self._match if switched is None else switched
-        if level is not None:
-            level.check(match.scenario.name, match.digest)
+        if wanted.level is not None:
+            wanted.level.check(match.scenario)
         if self._playing and (switched, wanted.params, wanted.snapshot) != (None, None, None):
             self._rehearse(switched, number, at, params, wanted.snapshot)
         self._playing = False

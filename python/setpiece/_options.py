@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from operator import index
 from os import PathLike, fsencode, fspath
 from pathlib import Path
@@ -11,117 +10,25 @@ from typing import Any
 
 import numpy as np
 
-from setpiece import _native
-from setpiece._errors import LevelError, ParameterError
-from setpiece._source import Source
+from setpiece._errors import ParameterError
 from setpiece._words import similar
 
 ParamValue = bool | int | float | str
 """A parameter's value: SI units, or a string as in the language (`"12m"`, `"60%"`, `"left"`)."""
 
-RESET_OPTIONS = ("episode", "level", "params", "scenario", "snapshot")
-LEVEL_KEYS = ("scenario", "digest", "params", "seed", "episode")
 NUMBER_MAX = 2**64 - 1
 
 
-@dataclass(frozen=True)
-class Level:
-    """One episode of a scenario."""
-
-    scenario: str
-    seed: int
-    episode: int
-    params: dict[str, ParamValue]
-    digest: str | None
-
-    def check(self, name: str, digest: str) -> None:
-        """Raises `LevelError` if the level is of another scenario."""
-        if self.scenario != name:
-            raise LevelError(
-                f"the level is of `{self.scenario}`, and this environment plays `{name}`",
-                code="SP0019",
-                help="give its `scenario` too, or make an environment of it",
-            )
-        if self.digest not in (None, digest):
-            raise LevelError(
-                f"the level was taken of another version of `{name}`",
-                code="SP0019",
-            )
-
-
-@dataclass(frozen=True)
-class ResetOptions:
-    """The `options` of a single environment's `reset`; None if not given."""
-
-    episode: int | None
-    params: dict[str, ParamValue] | None
-    scenario: Source | None
-    snapshot: bytes | None
-    level: Level | None
-
-
-def read_reset_options(options: Mapping[str, Any] | None) -> ResetOptions:
-    """Returns the options of a `reset`, or raises `ParameterError`."""
-    options = check_keys(options, RESET_OPTIONS)
-    episode, snapshot = options.get("episode"), options.get("snapshot")
-    level = read_level(options, ("episode", "params", "snapshot"))
-    if level is not None:
-        return ResetOptions(level.episode, level.params, options.get("scenario"), None, level)
-    return ResetOptions(
-        None if episode is None else check_number("episode", episode),
-        check_params(options.get("params")),
-        options.get("scenario"),
-        None if snapshot is None else check_snapshot(snapshot),
-        None,
-    )
-
-
-def read_level(options: Mapping[str, Any], others: tuple[str, ...]) -> Level | None:
-    """Returns the level of a `reset`, or raises `ParameterError`, also if `others` are given."""
-    given = options.get("level")
-    if given is None:
-        return None
-    for other in others:
-        if options.get(other) is not None:
-            raise ParameterError(f"`level` and `{other}` exclude each other", name=other)
-    if isinstance(given, str):
-        given = _native.level(given)
-    if not isinstance(given, Mapping):
-        raise ParameterError(
-            f"expected a level as a text or a dict, found `{given!r}`", name="level"
-        )
-    for key in given:
-        if key not in LEVEL_KEYS:
-            raise ParameterError(
-                f"a level has no `{key}`; it has `{'`, `'.join(LEVEL_KEYS)}`",
-                name="level",
-                help=similar(str(key), LEVEL_KEYS),
-            )
-    for key in ("scenario", "seed"):
-        if key not in given:
-            raise ParameterError(f"the level has no `{key}`", name="level")
-    return Level(
-        given["scenario"],
-        check_number("seed", given["seed"]),
-        check_number("episode", given.get("episode", 0)),
-        check_params(given.get("params")) or {},
-        given.get("digest"),
-    )
-
-
-def check_keys(options: Mapping[str, Any] | None, known: tuple[str, ...]) -> Mapping[str, Any]:
-    """Returns the options of a `reset`, or raises `ParameterError` for an unknown one."""
-    options = {} if options is None else options
-    if not isinstance(options, Mapping):
-        raise ParameterError(
-            f"expected `options` as a mapping, found `{options!r}`", name="options"
-        )
+def check_keys(
+    options: Mapping[str, Any], known: tuple[str, ...], what: str = "reset option"
+) -> Mapping[str, Any]:
+    """Returns a mapping with known keys, or raises `ParameterError` for an unknown one."""
     for key in options:
         if key not in known:
             raise ParameterError(
-                f"no reset option `{key}`; there are `{'`, `'.join(known)}`",
+                f"no {what} `{key}`; there are `{'`, `'.join(known)}`",
                 name=str(key),
-                help=similar(key, known),
+                help=similar(str(key), known),
             )
     return options
 

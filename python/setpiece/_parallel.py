@@ -17,8 +17,8 @@ from setpiece._actions import array_of, integers
 from setpiece._environment import FootballEnv
 from setpiece._errors import ActionError, ParameterError, SetpieceError
 from setpiece._native import ACTION_SETS, Scenario
-from setpiece._options import RESET_OPTIONS
 from setpiece._record import Record
+from setpiece._reset import RESET_OPTIONS
 from setpiece._rows import Picker, split_info
 from setpiece._spaces import Layout, one_action_space
 from setpiece._state import state

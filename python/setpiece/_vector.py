@@ -24,14 +24,8 @@ from setpiece._env_options import RENDER_MODES, EnvOptions, VectorArguments
 from setpiece._environment import FootballEnv, Mirror
 from setpiece._errors import ActionError, ParameterError, ReplayError, UnavailableError
 from setpiece._opponents import Opponent, Table
-from setpiece._options import (
-    Level,
-    ParamValue,
-    check_keys,
-    check_number,
-    check_params,
-    read_level,
-)
+from setpiece._options import ParamValue
+from setpiece._reset import read_seeds, read_vector_reset
 from setpiece._rows import Picker
 from setpiece._seats import Seats
 from setpiece._source import Source
@@ -50,8 +44,6 @@ THREADS_MAX = 1_024
 
 TOGETHER = ("threads", "autoreset_mode")
 """Arguments of a vector that a single environment doesn't have."""
-
-RESET_OPTIONS = ("reset_mask", "params", "episode", "level")
 
 
 class FootballVectorEnv(VectorEnv[Any, Any, Any]):
@@ -176,26 +168,33 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
           `FootballEnv.reset`.
 
         Raises `ParameterError` for other options and `LevelError` for a level of another scenario,
-        and the episodes continue; `DrawError` if no
-        start meets the scenario's requirements.
+        and the episodes continue; `DrawError` if no start meets the scenario's requirements.
         """
         with self._turn:
-            mask, params, episodes, levels = self._read_options(options)
-            if levels is not None:
-                if seed is not None:
-                    raise ParameterError("`level` and `seed` exclude each other", name="seed")
-                seed = [level.seed for level in levels]
-            if seed is None and not self._begun:
+            wanted = read_vector_reset(seed, options, self.num_envs, self.scenario)
+            mask = wanted.mask
+            if not self._begun and not mask.all():
+                raise ParameterError(
+                    "the first `reset` begins an episode of every environment", name="reset_mask"
+                )
+            seeds = wanted.seeds
+            if seeds is None and not self._begun:
                 seed = self._options.seed
                 if seed is None:
                     seed = int(self.np_random.integers(2**62))
-            seeds = self._seeds(seed)
+                seeds = read_seeds(seed, self.num_envs)
             super().reset(seed=seed if isinstance(seed, int) and seed < 2**63 else None)
             with one_thread:
-                if params is not None:
-                    self._batch.bind(params)
-                    self._bound = self._bound if params[0] is None else params[0]
-                self._batch.reset(self._arrays, mask.tolist(), seeds, episodes, False)
+                if any(params is not None for params in wanted.params):
+                    self._batch.bind(wanted.params)
+                    self._bound = self._bound if wanted.params[0] is None else wanted.params[0]
+                self._batch.reset(
+                    self._arrays,
+                    mask.tolist(),
+                    [None] * self.num_envs if seeds is None else seeds,
+                    wanted.episodes,
+                    False,
+                )
             self._begun = True
             self._over &= ~mask
             if mask[0]:
@@ -404,78 +403,6 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _of_agents(self, array: NDArray[Any]) -> NDArray[Any]:
         """The part of the caller's agents, without their axis if there is one agent."""
         return array[:, self._pick]
-
-    def _read_options(
-        self, options: dict[str, Any] | None
-    ) -> tuple[
-        NDArray[np.bool_],
-        list[dict[str, ParamValue] | None] | None,
-        list[int | None],
-        list[Level] | None,
-    ]:
-        """The environments that begin, and for each of them parameters, index and level."""
-        checked = check_keys(options, RESET_OPTIONS)
-        mask = checked.get("reset_mask")
-        if mask is None:
-            mask = np.ones(self.num_envs, bool)
-        elif (
-            not isinstance(mask, np.ndarray)
-            or mask.dtype != np.bool_
-            or mask.shape != (self.num_envs,)
-        ):
-            raise ParameterError(
-                f"`reset_mask` is an array of {self.num_envs} truth values", name="reset_mask"
-            )
-        elif not mask.any():
-            raise ParameterError("`reset_mask` marks no environment", name="reset_mask")
-        elif not self._begun and not mask.all():
-            raise ParameterError(
-                "the first `reset` begins an episode of every environment", name="reset_mask"
-            )
-        levels = self._levels(checked)
-        if levels is not None:
-            marked = zip(mask.tolist(), levels, strict=True)
-            bound = [level.params if begins else None for begins, level in marked]
-            return mask, bound, [level.episode for level in levels], levels
-        params, episode = check_params(checked.get("params")), checked.get("episode")
-        episode = None if episode is None else check_number("episode", episode)
-        every: list[dict[str, ParamValue] | None] | None = (
-            None if params is None else [params] * self.num_envs
-        )
-        return mask, every, [episode] * self.num_envs, None
-
-    def _levels(self, options: Mapping[str, Any]) -> list[Level] | None:
-        given = options.get("level")
-        if isinstance(given, list | tuple):
-            if len(given) != self.num_envs:
-                raise ParameterError(
-                    f"expected {self.num_envs} levels, found {len(given)}", name="level"
-                )
-            each = [{**options, "level": one} for one in given]
-        else:
-            each = [{**options}]
-        read = [read_level(one, ("episode", "params")) for one in each]
-        levels = [level for level in read if level is not None]
-        if len(levels) < len(read):
-            if given is None:
-                return None
-            raise ParameterError("`level` has None for an environment", name="level")
-        digest = self.scenario.digest
-        for level in levels:
-            level.check(self.scenario.name, digest)
-        return levels if len(levels) == self.num_envs else levels * self.num_envs
-
-    def _seeds(self, seed: Any) -> list[int | None]:
-        if seed is None:
-            return [None] * self.num_envs
-        if isinstance(seed, list | tuple) or (isinstance(seed, np.ndarray) and seed.ndim > 0):
-            if len(seed) != self.num_envs:
-                raise ParameterError(
-                    f"expected {self.num_envs} seeds, found {len(seed)}", name="seed"
-                )
-            return [None if one is None else check_number("seed", one) for one in seed]
-        first = check_number("seed", seed)
-        return [(first + at) % 2**64 for at in range(self.num_envs)]
 
 
 def make_vec(

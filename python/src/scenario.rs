@@ -14,6 +14,8 @@ use std::sync::Arc;
 pub(crate) struct Scenario {
     /// The defaults of its parameters are their bound values.
     inner: Arc<compiled::Scenario>,
+    /// The same with the defaults of its text.
+    unbound: Arc<compiled::Scenario>,
     /// The compiler's warnings.
     warnings: Py<PyList>,
 }
@@ -25,18 +27,26 @@ impl Scenario {
 
     /// A scenario without warnings.
     pub(crate) fn of(py: Python<'_>, inner: compiled::Scenario) -> Scenario {
-        Scenario { inner: Arc::new(inner), warnings: PyList::empty(py).unbind() }
+        let inner = Arc::new(inner);
+        Scenario { unbound: inner.clone(), inner, warnings: PyList::empty(py).unbind() }
     }
 
     pub(crate) fn from_loaded(py: Python<'_>, loaded: Loaded) -> PyResult<Scenario> {
         let warnings = diagnostics::to_python(py, &loaded.warnings, &loaded.sources)?;
-        Ok(Scenario { inner: loaded.scenario, warnings: warnings.unbind() })
+        let (inner, unbound) = (loaded.scenario.clone(), loaded.scenario);
+        Ok(Scenario { inner, unbound, warnings: warnings.unbind() })
     }
 
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
         compiled::file::to_json(&self.inner)
             .map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))
     }
+}
+
+fn digest_of(py: Python<'_>, scenario: &compiled::Scenario) -> PyResult<String> {
+    let digest = compiled::file::digest(scenario)
+        .map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))?;
+    Ok(format!("{digest:016x}"))
 }
 
 #[pymethods]
@@ -62,9 +72,12 @@ impl Scenario {
     /// 16 hexadecimal digits that change with any part of it, including the bound values.
     #[getter]
     fn digest(&self, py: Python<'_>) -> PyResult<String> {
-        let digest = compiled::file::digest(&self.inner)
-            .map_err(|why| errors::raise_plain(py, "FormatError", &why.to_string()))?;
-        Ok(format!("{digest:016x}"))
+        digest_of(py, &self.inner)
+    }
+
+    /// Whether this is its digest, with the bound values or with the defaults of its text.
+    fn _has_digest(&self, py: Python<'_>, digest: &str) -> PyResult<bool> {
+        Ok(digest == self.digest(py)? || digest == digest_of(py, &self.unbound)?)
     }
 
     /// The parameters by name, in the file's order; the mapping is immutable.
@@ -107,7 +120,8 @@ impl Scenario {
                 param.default = value;
             }
         }
-        Ok(Scenario { inner: Arc::new(inner), warnings: self.warnings.clone_ref(py) })
+        let (unbound, warnings) = (self.unbound.clone(), self.warnings.clone_ref(py));
+        Ok(Scenario { inner: Arc::new(inner), unbound, warnings })
     }
 
     /// Writes the compiled scenario to a file (`.pitchc`): self-contained, parameters can still be

@@ -59,8 +59,9 @@ def test_a_level_goes_with_its_scenario() -> None:
     [
         ({"level": "dril#3"}, setpiece.LevelError, "is of `dril`"),
         ({"level": "drill"}, setpiece.ParameterError, "NAME{param=value}#SEED:EPISODE"),
-        ({"level": "drill#-3"}, setpiece.ParameterError, "NAME{param=value}#SEED:EPISODE"),
+        ({"level": "drill#-3"}, setpiece.ParameterError, "the seed `-3`"),
         ({"level": "drill{gab=5m}#3"}, setpiece.ParameterError, "gap"),
+        ({"level": "drill{gap=5m,gap=6m}#3"}, setpiece.ParameterError, "`gap` twice"),
         ({"level": "drill{gap=50m}#3"}, setpiece.ParameterError, "gap"),
         ({"level": {"scenario": "drill", "seed": -1}}, setpiece.ParameterError, "outside"),
         ({"level": {"scenario": "drill", "sed": 1}}, setpiece.ParameterError, "`seed`"),
@@ -118,3 +119,50 @@ def test_a_vector_takes_a_level_for_each_environment() -> None:
         envs.reset(options={"level": [levels[0], levels[1], "drill{gap=50m}#3"]})
     envs.reset(seed=1)
     assert ended()["level"].tolist() == [f"drill{{gap=4m}}#{at}" for at in (1, 2, 3)]
+
+
+def test_a_vector_takes_back_the_levels_of_its_infos() -> None:
+    envs = setpiece.make_vec(DRILL, 2, autoreset_mode=AutoresetMode.DISABLED)
+    envs.reset(seed=[5, 6])
+    levels = np.array([None, "drill{gap=4m}#9"], object)
+    envs.reset(options={"level": levels, "reset_mask": np.array([False, True])})
+    while True:
+        _, _, terminated, _, infos = envs.step(np.zeros(2, np.int64))
+        if terminated.any():
+            break
+    assert infos["setpiece"]["level"].tolist() == ["drill{gap=2m}#5", "drill{gap=4m}#9"]
+    with pytest.raises(setpiece.ParameterError, match="environment 0 begins"):
+        envs.reset(options={"level": levels})
+
+
+def test_a_digest_is_of_the_text_whatever_is_bound() -> None:
+    digest = setpiece.compile(DRILL).digest
+    level = {"scenario": "drill", "seed": 1, "digest": digest}
+    setpiece.make(DRILL, params={"gap": "5m"}).reset(options={"level": level})
+
+
+def test_the_values_of_a_level_may_have_any_sign() -> None:
+    text = """
+    scenario odd {
+        param mode = "a,k=3" in ["a", "b", "a,k=3"]
+        param k: int = 1 in 0..9
+        ball at (if mode == "a" then 0.1 else 0.2, 0.01 * k)
+        team left { CF at (0, 0) }
+        end over when elapsed > 0.5s
+    }
+    """
+    env = setpiece.make(text)
+    env.reset(seed=1)
+    first = last_info(env)
+    assert first["level"] == 'odd{k=1,mode="a,k=3"}#1'
+    env.reset(options={"level": first["level"]})
+    assert last_info(env)["digest"] == first["digest"]
+
+
+def test_a_level_of_another_scenario_may_say_who_plays() -> None:
+    grown = DRILL.replace(
+        "scenario drill {", "scenario grown {\n    param n: int = 0 in 0..1"
+    ).replace("0m) }", "0m)  CM at (0, 0) when n == 1 }")
+    env = setpiece.make(grown, params={"n": 1})
+    env.reset(options={"scenario": grown, "level": "grown{n=1}#1"})
+    assert last_info(env)["level"] == "grown{gap=2m,n=1}#1"

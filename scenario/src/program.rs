@@ -91,7 +91,7 @@ pub enum Instr {
     /// `if 0 then 1 else 2`.
     Select(Reg, Reg, Reg),
     /// Whether the episode terminates in this step: 1 or 0. The limit doesn't terminate it.
-    /// Endings, which decide it, and observations read 0.
+    /// Rewards and records know it; endings, which decide it, and everything else read 0.
     Terminated,
     /// The team of the agent that is judged.
     Us,
@@ -423,6 +423,18 @@ impl Program {
 }
 
 impl Instr {
+    /// Whether it remembers earlier steps: an operator over time.
+    pub fn looks_back(&self) -> bool {
+        matches!(
+            self,
+            Instr::Held { .. }
+                | Instr::Ever { .. }
+                | Instr::Since { .. }
+                | Instr::Until { .. }
+                | Instr::Once { .. }
+        )
+    }
+
     /// Calls `f` with every register that the instruction reads, except those of an `Each`'s fold,
     /// which are in its body.
     pub fn operands(&self, f: &mut dyn FnMut(Reg)) {

@@ -216,7 +216,7 @@ fn verify_program(
             (Instr::Event(_), _) if !open.iter().any(|body| body.3) => {
                 return Err(format!("instruction {at} reads an event outside a loop over events"));
             }
-            _ if looks_back(instr) && !open.is_empty() => {
+            _ if instr.looks_back() && !open.is_empty() => {
                 return Err(format!("instruction {at} looks back inside a loop"));
             }
             (Instr::Give { term, .. }, ProgramPlace::Step { terms }) => {
@@ -226,7 +226,8 @@ fn verify_program(
             | (Instr::Assign { .. }, ProgramPlace::Init | ProgramPlace::Step { .. })
             | (Instr::Terminated | Instr::Us | Instr::Me, ProgramPlace::Step { .. })
             | (Instr::Us, ProgramPlace::Init) => {}
-            (_, ProgramPlace::Step { .. }) if looks_back(instr) => {}
+            (_, ProgramPlace::Step { .. }) if instr.looks_back() => {}
+            _ if instr.looks_back() => return misplaced(at),
             (
                 Instr::Random { .. }
                 | Instr::Give { .. }
@@ -235,10 +236,7 @@ fn verify_program(
                 | Instr::Us
                 | Instr::Me,
                 _,
-            ) => return Err(format!("instruction {at} has no place there")),
-            _ if looks_back(instr) => {
-                return Err(format!("instruction {at} has no place there"));
-            }
+            ) => return misplaced(at),
             (Instr::Each(each), _) => {
                 let end = at + 1 + each.body as usize;
                 let limit = open.last().map_or(program.code.len(), |body| body.1);
@@ -263,16 +261,8 @@ fn verify_program(
     Ok(())
 }
 
-/// Whether an instruction remembers earlier steps.
-fn looks_back(instr: &Instr) -> bool {
-    matches!(
-        instr,
-        Instr::Held { .. }
-            | Instr::Ever { .. }
-            | Instr::Since { .. }
-            | Instr::Until { .. }
-            | Instr::Once { .. }
-    )
+fn misplaced(at: usize) -> Result<(), String> {
+    Err(format!("instruction {at} has no place there"))
 }
 
 fn close_body(program: &Program, open: &mut Vec<(usize, usize, Fold, bool)>) -> Result<(), String> {

@@ -249,6 +249,10 @@ impl Error {
             Error::Replay(ReplayError::Beginning) => {
                 Some("save the replay of an episode that `reset` began; `snapshot` keeps this one's state".to_owned())
             }
+            Error::Level { why: LevelFault::Version, .. } => Some(
+                "leave out the level's `digest` to play it all the same; the episode may differ"
+                    .to_owned(),
+            ),
             Error::Level { why: LevelFault::Unknown, .. } => Some(
                 "name the file that holds it: `setpiece run FILE.pitch --level …`".to_owned(),
             ),

@@ -1,5 +1,7 @@
 //! Levels: what decides an episode's start and chance.
 
+mod values;
+
 use crate::Error;
 use crate::error::LevelFault;
 use serde::{Deserialize, Serialize};
@@ -19,7 +21,11 @@ pub struct Level {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub digest: Option<String>,
     /// Values as the language writes them, by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(
+        default,
+        skip_serializing_if = "BTreeMap::is_empty",
+        deserialize_with = "values::deserialize"
+    )]
     pub params: BTreeMap<String, String>,
     /// The seed.
     pub seed: u64,
@@ -51,40 +57,36 @@ impl Level {
         }
     }
 
-    /// Reads `NAME{param=value,…}#SEED[:INDEX]`; `None` if a text is no level.
-    pub fn parse(text: &str) -> Option<Level> {
-        let (head, key) = text.rsplit_once('#')?;
-        let (seed, episode) = key.split_once(':').unwrap_or((key, "0"));
-        let (scenario, params) = match head.strip_suffix('}') {
-            Some(head) => head.split_once('{')?,
-            None => (head, ""),
-        };
-        if scenario.is_empty() || scenario.contains(['{', '}']) {
-            return None;
-        }
-        let pairs = params.split(',').map(str::trim).filter(|pair| !pair.is_empty());
-        let pairs = pairs.map(|pair| {
-            let (name, value) = pair.split_once('=')?;
-            Some((name.trim().to_owned(), value.trim().to_owned()))
-        });
-        Some(Level {
-            scenario: scenario.to_owned(),
-            digest: None,
-            params: pairs.collect::<Option<_>>()?,
-            seed: seed.parse().ok()?,
-            episode: episode.parse().ok()?,
-        })
-    }
-
-    /// Reads a level from its text or its JSON.
+    /// Reads `NAME{param=value,…}#SEED[:INDEX]`, or a level's JSON.
     ///
     /// # Errors
     /// What is wrong with it, in words.
     pub fn read(text: &str) -> Result<Level, String> {
-        if text.trim_start().starts_with('{') {
+        let text = text.trim();
+        if text.starts_with('{') {
             return serde_json::from_str(text).map_err(|why| why.to_string());
         }
-        Level::parse(text).ok_or_else(|| "write it as NAME{param=value}#SEED:EPISODE".to_owned())
+        let unlike = || "write it as NAME{param=value}#SEED:EPISODE".to_owned();
+        let (head, key) = text.rsplit_once('#').ok_or_else(unlike)?;
+        let (seed, episode) = key.split_once(':').unwrap_or((key, "0"));
+        let (scenario, params) = match head.strip_suffix('}') {
+            Some(head) => head.split_once('{').ok_or_else(unlike)?,
+            None => (head, ""),
+        };
+        if scenario.is_empty() || scenario.contains(['{', '}']) {
+            return Err(unlike());
+        }
+        let number = |what: &str, digits: &str| -> Result<u64, String> {
+            let most = u64::MAX;
+            digits.parse().map_err(|_| format!("the {what} `{digits}` is no number in 0..{most}"))
+        };
+        Ok(Level {
+            scenario: scenario.to_owned(),
+            digest: None,
+            params: values::read(params).ok_or_else(unlike)??,
+            seed: number("seed", seed)?,
+            episode: number("episode", episode)?,
+        })
     }
 
     /// Refuses a scenario of another name.
@@ -124,7 +126,7 @@ impl std::fmt::Display for Level {
         f.write_str(&self.scenario)?;
         if !self.params.is_empty() {
             let pairs: Vec<String> =
-                self.params.iter().map(|(name, value)| format!("{name}={value}")).collect();
+                self.params.iter().map(|(name, value)| values::written(name, value)).collect();
             write!(f, "{{{}}}", pairs.join(","))?;
         }
         write!(f, "#{}", self.seed)?;
@@ -145,19 +147,27 @@ mod tests {
             "academy_corner#0",
             "academy_corner{difficulty=0.8}#1234",
             "drills/corner.pitch{gap=12m,side=left}#7:3",
+            r#"a{k="",mode="a,k=3",said="\"}#1"}#18446744073709551615"#,
         ] {
-            let level = Level::parse(text).unwrap();
+            let level = Level::read(text).unwrap();
             assert_eq!(level.to_string(), text);
             let line = serde_json::to_string(&level).unwrap();
             assert_eq!(serde_json::from_str::<Level>(&line).unwrap(), level);
         }
-        assert_eq!(
-            Level::read(" {\"scenario\":\"a\",\"seed\":3}").unwrap(),
-            Level::read("a#3").unwrap()
-        );
-        assert!(Level::read("{\"scenario\":\"a\"}").unwrap_err().contains("seed"));
-        for text in ["academy_corner", "a{b}#1", "a{b=1#1", "a#", "a#1:x", "a#-1"] {
-            assert_eq!(Level::parse(text), None, "{text}");
+        let json = r#"{"scenario":"a","seed":3,"params":{"b":0.5,"c":true,"d":"1m"}}"#;
+        assert_eq!(Level::read(json), Level::read("a{b=0.5,c=on,d=1m}#3\n"));
+        for (text, why) in [
+            ("{\"scenario\":\"a\"}", "seed"),
+            ("academy_corner", "#SEED"),
+            ("a{b}#1", "#SEED"),
+            ("a{b=1#1", "#SEED"),
+            ("a{b=\"1}#1", "#SEED"),
+            ("a{b=1,b=2}#1", "`b` twice"),
+            ("a#", "the seed ``"),
+            ("a#1:x", "the episode `x`"),
+            ("a#-1", "the seed `-1`"),
+        ] {
+            assert!(Level::read(text).unwrap_err().contains(why), "{text}");
         }
     }
 

@@ -65,6 +65,8 @@ pub fn list() -> Vec<Entry> {
 /// Options for loading a scenario.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadOptions<'a> {
+    /// The scenario that is wanted of a text; its last that isn't abstract if absent.
+    pub scenario: Option<&'a str>,
     /// Replaces who plays some players, whatever the text says.
     pub cast: &'a [Cast],
     /// Whether imports and scripts may be outside the root file's folder (for a text from memory:
@@ -293,6 +295,7 @@ pub(crate) fn compiled(
 ) -> CompileOutcome {
     let loader = loader(&source.name, options);
     let options = CompileOptions {
+        scenario: options.scenario.map(str::to_owned),
         cast: options.cast,
         regions: options.regions,
         plans_suffice,

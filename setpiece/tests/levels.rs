@@ -191,21 +191,36 @@ fn a_level_plays_exactly_its_episode() {
 }
 
 #[test]
+fn a_level_finds_its_scenario_among_those_of_a_file() {
+    let dir = tempfile::tempdir().unwrap();
+    let one =
+        episode(dir.path(), &["run", "drill.pitch", "--level", "drill#3", "--format", "json"]);
+    let two = format!("{DRILL}\nscenario last extends drill {{ ball at (0, 0) }}\n");
+    std::fs::write(dir.path().join("two.pitch"), two).unwrap();
+    let args = ["run", "two.pitch", "--level", "drill#3", "--format", "json"];
+    assert_eq!(episode(dir.path(), &args), one);
+    // The summary and its drawing show this episode.
+    let (_, out, _) =
+        setpiece(dir.path(), &["run", "drill.pitch", "--level", "drill{gap=5m}#12:3"]);
+    assert!(out.contains("1 episode · agent bot · drill{gap=5m}#12:3"), "{out}");
+}
+
+#[test]
 fn a_level_that_does_not_fit_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     for (args, code, words) in [
         (&["--level", "drill#3"][..], 1, "SP0019"),
         (&["--level", "drill#3"], 1, "FILE.pitch --level"),
-        (&["drill.pitch", "--level", "dril#3"], 1, "another scenario than `drill`"),
+        (&["drill.pitch", "--level", "dril#3"], 1, "did you mean `drill`?"),
         (&["drill.pitch", "--level", "drill{gab=5m}#3"], 1, "did you mean `gap`?"),
         (&["drill.pitch", "--level", "drill{gap=50m}#3"], 1, "gap"),
-        (&["drill.pitch", "--level", "drill#-3"], 2, "NAME{param=value}#SEED:EPISODE"),
+        (&["drill.pitch", "--level", "drill#-3"], 2, "the seed `-3`"),
         (&["drill.pitch", "--level", "{\"scenario\":\"drill\"}"], 2, "missing field `seed`"),
         (&["drill.pitch", "--level", "drill#1:18446744073709551615"], 2, "greatest index"),
         (&["drill.pitch", "--level", "drill#1", "--seed", "2"], 2, "cannot be used with"),
         (&["drill.pitch", "--level", "drill#1", "-n", "2"], 2, "cannot be used with"),
         (&["drill.pitch", "--level", "drill#1", "--format", "csv"], 1, "not a table"),
-        (&["--level", "academy#1"], 1, "`--level` has no effect on a suite"),
+        (&["--level", "benchmarks#1"], 1, "isn't in the library"),
         (&[], 2, "SCENARIO"),
     ] {
         let (found, out, err) = setpiece(dir.path(), &[&["run"], args].concat());

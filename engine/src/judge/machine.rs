@@ -45,7 +45,7 @@ pub struct Input<'a> {
     pub index: u64,
     /// The team judged for.
     pub us: Team,
-    /// Whether the episode terminates in this step, as far as it is known.
+    /// Whether the episode terminates in this step; not yet known to endings.
     pub terminated: bool,
     /// Whether this is the start state: temporal instructions see it, but effects don't happen.
     pub silent: bool,

@@ -129,12 +129,11 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     if args.watch {
         return watch(args, out);
     }
-    let source = args.playing.source();
-    let loaded = match crate::load_with(source, &out.loading()) {
+    let loaded = match args.playing.load(out.loading()) {
         Ok(loaded) => loaded,
+        Err(error) if args.playing.level.is_some() => return Err(error),
         Err(error) => {
-            let suites = suites_of(source, error, out);
-            return run_suites(&suites.map_err(|why| args.playing.explained(why))?, args, out);
+            return run_suites(&suites_of(args.playing.source(), error, out)?, args, out);
         }
     };
     out.warnings(&loaded);

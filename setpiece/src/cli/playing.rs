@@ -6,11 +6,36 @@ use crate::engine::environment::{EnvironmentOptions, Physics};
 use crate::error::LevelFault;
 use crate::files::{SNAPSHOT_MAX_BYTES, read_file};
 use crate::level::Level;
+use crate::load::LoadOptions;
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum};
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::sync::Arc;
+
+/// One episode of what is played.
+#[derive(Args, Debug)]
+pub(crate) struct OneEpisode {
+    #[command(flatten)]
+    pub(crate) playing: Playing,
+    /// The episode's index under the seed
+    #[arg(
+        short,
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        allow_negative_numbers = true,
+        conflicts_with = "level"
+    )]
+    episode: u64,
+}
+
+impl OneEpisode {
+    /// Its seed and its index under that.
+    pub(crate) fn key(&self) -> (u64, u64) {
+        (self.playing.seed(), self.playing.episode(self.episode))
+    }
+}
 
 #[derive(Args, Debug)]
 pub(crate) struct Playing {
@@ -96,6 +121,17 @@ impl Playing {
         named.or_else(of_level).unwrap_or_default()
     }
 
+    /// Loads it; of a file with a level, the level's scenario.
+    ///
+    /// # Errors
+    /// Like [`crate::load_with`]; [`Error::Level`] if only a level names it and it isn't found.
+    pub(crate) fn load(&self, options: LoadOptions<'_>) -> Result<Loaded, Error> {
+        let level = self.level.as_ref().filter(|_| self.scenario.is_some());
+        let scenario = level.map(|level| level.scenario.as_str());
+        let loaded = crate::load_with(self.source(), &LoadOptions { scenario, ..options });
+        loaded.map_err(|error| self.explained(error))
+    }
+
     /// Explains that a scenario isn't found, where only a level names it.
     pub(crate) fn explained(&self, error: Error) -> Error {
         match (&self.level, error) {
@@ -135,7 +171,6 @@ impl Playing {
             (self.seed != 0, "--seed"),
             (!self.set.is_empty(), "--set"),
             (self.from.is_some(), "--from"),
-            (self.level.is_some(), "--level"),
         ];
         given.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
     }

@@ -1,7 +1,7 @@
 //! `setpiece render`: an episode as a video or as a sheet of frames, or one moment of it.
 
 use super::common::{FAULT, FINE};
-use super::{out::Out, playing::Playing};
+use super::{out::Out, playing::OneEpisode};
 use crate::Error;
 use crate::dsl::problem::Code;
 use crate::error::{FileFault, Packed};
@@ -20,20 +20,10 @@ use tiny_skia::Pixmap;
 #[derive(Args, Debug)]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
-    playing: Playing,
+    one: OneEpisode,
     /// Where to write it: .mp4 or .gif for a video, .png for a sheet of frames, .svg for a moment
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// The episode's index under the seed
-    #[arg(
-        short,
-        long,
-        value_name = "N",
-        default_value_t = 0,
-        allow_negative_numbers = true,
-        conflicts_with = "level"
-    )]
-    episode: u64,
     /// Draw one moment: the state after this many steps, 0 for the start
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     step: Option<u32>,
@@ -129,22 +119,24 @@ pub(crate) fn render(args: &RenderArgs, out: &Out) -> Result<u8, Error> {
         out.fault(&Code::NoPicture.to_string(), &message, Some(&help));
         return Ok(FAULT);
     };
-    let film = match crate::load_with(args.playing.source(), &out.loading()) {
+    let playing = &args.one.playing;
+    let film = match playing.load(out.loading()) {
         Err(Error::File { path: recorded, why: FileFault::Packed(Packed::Replay) })
-            if args.playing.level.is_none() =>
+            if playing.level.is_none() =>
         {
             refuse_overwriting(path, std::slice::from_ref(&recorded))?;
             replayed(&Replay::from_bytes(&read_file(&recorded, REPLAY_MAX_BYTES)?)?)?
         }
         loaded => {
-            let loaded = loaded.map_err(|error| args.playing.explained(error))?;
+            let loaded = loaded?;
             out.warnings(&loaded);
             refuse_overwriting(path, &loaded.inputs)?;
+            let (seed, episode) = args.one.key();
             let options = FilmOptions {
-                seed: args.playing.seed(),
-                episode: args.playing.episode(args.episode),
-                agent: args.playing.agent(),
-                environment: args.playing.environment(&loaded)?,
+                seed,
+                episode,
+                agent: playing.agent(),
+                environment: playing.environment(&loaded)?,
                 until_step: args.step.or(args.steps.map(|(_, to)| to)),
             };
             film(&loaded.scenario, &options)?

@@ -1,7 +1,7 @@
 //! `setpiece snapshot`: the state of an episode after some steps, as a file.
 
 use super::common::FINE;
-use super::{out::Out, playing::Playing};
+use super::{out::Out, playing::OneEpisode};
 use crate::Error;
 use crate::engine::batch::{EpisodeError, Policy, ReadyMade};
 use crate::engine::control::agents::Agent;
@@ -14,20 +14,10 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 pub(crate) struct SnapshotArgs {
     #[command(flatten)]
-    playing: Playing,
+    one: OneEpisode,
     /// Where to write it
     #[arg(short, long, value_name = "OUT.pitchs")]
     output: PathBuf,
-    /// The episode's index under the seed
-    #[arg(
-        short,
-        long,
-        value_name = "N",
-        default_value_t = 0,
-        allow_negative_numbers = true,
-        conflicts_with = "level"
-    )]
-    episode: u64,
     /// The number of steps of 0.1 s to play
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     step: u32,
@@ -35,18 +25,17 @@ pub(crate) struct SnapshotArgs {
 
 /// Plays to the step and writes the snapshot.
 pub(crate) fn snapshot(args: &SnapshotArgs, out: &Out) -> Result<u8, Error> {
-    let loaded = crate::load_with(args.playing.source(), &out.loading())
-        .map_err(|error| args.playing.explained(error))?;
+    let playing = &args.one.playing;
+    let loaded = playing.load(out.loading())?;
     out.warnings(&loaded);
     refuse_overwriting(&args.output, &loaded.inputs)?;
-    let options = args.playing.environment(&loaded)?;
+    let options = playing.environment(&loaded)?;
     let mut environment =
         Environment::new(loaded.scenario.clone(), options).map_err(Error::Environment)?;
     let broken = |why: EpisodeError| Error::Episode(Box::new(why));
-    environment
-        .reset(Some(args.playing.seed()), Some(args.playing.episode(args.episode)))
-        .map_err(|why| broken(why.into()))?;
-    play(&mut environment, args.playing.agent(), args.step).map_err(broken)?;
+    let (seed, episode) = args.one.key();
+    environment.reset(Some(seed), Some(episode)).map_err(|why| broken(why.into()))?;
+    play(&mut environment, playing.agent(), args.step).map_err(broken)?;
     if environment.steps() < args.step {
         return Err(Error::NoStep { step: args.step, length: environment.steps() });
     }

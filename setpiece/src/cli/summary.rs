@@ -6,6 +6,7 @@ use crate::drawing::{Paint, drawn};
 use crate::engine::batch::EpisodeSummary;
 use crate::engine::environment::Environment;
 use crate::engine::statistics::MatchMeans;
+use crate::level::Level;
 use crate::run::{RunOptions, Summary};
 use crate::scenario::{Scenario, Verdict};
 use std::collections::BTreeMap;
@@ -92,7 +93,8 @@ pub(crate) fn print(
     out.line(StyledText::default().bold(&scenario.name).text("  ").text(scenario.title()));
     let mut environment = Environment::new(scenario.clone(), options.environment.clone())
         .map_err(Error::Environment)?;
-    if environment.reset(Some(options.seed), Some(0)).is_ok() {
+    let first = options.episodes.start;
+    if environment.reset(Some(options.seed), Some(first)).is_ok() {
         let signs = drawn(environment.state()).into_iter();
         out.line(signs.fold(StyledText::default(), |text, (sign, paint)| {
             text.paint(&sign.to_string(), paint)
@@ -101,11 +103,13 @@ pub(crate) fn print(
     out.line(StyledText::default().dim("  left team 0-9 attacks →, right team a-k ←, ball o"));
     out.line("");
     let agent = options.agent.name();
-    out.line(format!(
-        "  {} episodes · agent {agent} · seed {}",
-        summary.episodes.len(),
-        options.seed
-    ));
+    out.line(match summary.episodes.len() {
+        1 => {
+            let level = Level::of(scenario, environment.bindings(), options.seed, first);
+            format!("  1 episode · agent {agent} · {level}")
+        }
+        n => format!("  {n} episodes · agent {agent} · seed {}", options.seed),
+    });
     out.line("");
     let outcomes = outcomes_of(scenario, summary);
     let width = outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(11);

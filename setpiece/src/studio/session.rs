@@ -113,7 +113,8 @@ impl Session {
             regions: true,
             ..LoadOptions::default()
         };
-        let level = source.to_str().filter(|_| !Path::new(source).exists()).and_then(Level::parse);
+        let named = source.to_str().filter(|_| !Path::new(source).exists());
+        let level = named.and_then(|text| Level::read(text).ok());
         let source = level.as_ref().map_or(source, |level| OsStr::new(&level.scenario));
         let mut session = match load_with(source, &loading) {
             Err(Error::File { path, why: FileFault::Packed(Packed::Replay) }) => {

@@ -177,15 +177,7 @@ impl ProgramReader<'_> {
             Instr::Assign { cell, value, guard: only } => (Op::Assign, *cell, value.0, guard(only)),
             other => {
                 self.plan.rare.push(other.clone());
-                let temporal = matches!(
-                    other,
-                    Instr::Held { .. }
-                        | Instr::Ever { .. }
-                        | Instr::Since { .. }
-                        | Instr::Until { .. }
-                        | Instr::Once { .. }
-                );
-                let op = if temporal { Op::Temporal } else { Op::Rare };
+                let op = if other.looks_back() { Op::Temporal } else { Op::Rare };
                 (op, self.plan.rare.len() as u32 - 1, 0, 0)
             }
         };

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from setpiece._errors import ParameterError
 from setpiece._level import Level, read_level
+from setpiece._native import Scenario
 from setpiece._options import (
     NUMBER_MAX,
     ParamValue,
@@ -19,7 +20,6 @@ from setpiece._options import (
     check_params,
     check_snapshot,
 )
-from setpiece._native import Scenario
 from setpiece._source import Source
 
 RESET_OPTIONS = ("episode", "level", "params", "scenario", "snapshot")

@@ -67,7 +67,7 @@ pub(crate) enum ProgramStage<'w> {
     /// The endings, at every step.
     Ending,
     /// A record, at every step.
-    Record(Remembered<'w>),
+    Record,
     /// The scenario's observation, after every step and reset.
     Observation,
     /// What a scripted player does, at every step; with the draws of the statement that is being
@@ -82,10 +82,15 @@ impl ProgramStage<'_> {
             self,
             ProgramStage::Reward
                 | ProgramStage::Ending
-                | ProgramStage::Record(_)
+                | ProgramStage::Record
                 | ProgramStage::Observation
                 | ProgramStage::Behavior(_)
         )
+    }
+
+    /// Whether it judges the match at every step, so that it may look at the whole episode.
+    pub(crate) fn judges(&self) -> bool {
+        matches!(self, ProgramStage::Reward | ProgramStage::Ending | ProgramStage::Record)
     }
 
     /// Whether it runs for an agent or a player, so that there is a `me`.
@@ -93,7 +98,7 @@ impl ProgramStage<'_> {
         matches!(
             self,
             ProgramStage::Reward
-                | ProgramStage::Record(_)
+                | ProgramStage::Record
                 | ProgramStage::Observation
                 | ProgramStage::Behavior(_)
         )
@@ -120,6 +125,8 @@ pub(crate) struct Lower<'c, 'w> {
     pub(crate) event: Option<EventKind>,
     /// The streams that draws come from.
     pub(crate) streams: Streams,
+    /// What it reads of the rewards' memory and of the records.
+    pub(crate) remembered: Remembered<'w>,
     depth: u32,
     inlining: Vec<Span>,
     inlined: u32,
@@ -189,6 +196,7 @@ impl<'c, 'w> Lower<'c, 'w> {
             when: When::Now,
             event: None,
             streams: Streams::default(),
+            remembered: Remembered::default(),
             depth: 0,
             inlining: Vec::new(),
             inlined: 0,
@@ -241,11 +249,15 @@ impl<'c, 'w> Lower<'c, 'w> {
     ) -> Option<T> {
         self.inlined += 1;
         let text = self.world.text(item);
-        if self.inlining.contains(&item) {
+        if self.world.is_circular(item) {
+            return None;
+        }
+        if let Some(begin) = self.inlining.iter().position(|outer| *outer == item) {
             self.report(Problem::new(
                 at,
                 Names::Recursion { name: text, declared: Some(item), is_behavior: false },
             ));
+            self.world.note_circle(self.inlining.get(begin..).unwrap_or_default());
             return None;
         }
         if self.inlined > INLINED_MAX {

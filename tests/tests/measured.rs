@@ -84,6 +84,73 @@ fn records_say_what_happened() {
     assert!(passes > 0.0, "nothing was measured");
 }
 
+const RONDO: &str = "scenario rondo extends academy {
+    param enough: int = 3
+    agents { left: 1 }
+    ball at (0, 0)
+    team left { CM at (-0.02, 0)  CM at (0.1, 0.2)  CM at (0.1, -0.2)  CM at (0.2, 0) }
+    team right { CB at (0.1, 0) { ai: chase } }
+    record passes = count of pass completed by left
+    record tries = count of pass by left
+    record completion = passes / max(tries, 1)
+    record quickest = max of ball.speed
+    record late = prev(passes)
+    record slower = prev(quickest)
+    reward chain { state n = 0  on pass completed by us { n = n + 1 } }
+    reward kept {
+        give delta(passes) as \"each\"
+        give passes as \"so far\"
+        give delta(quickest) / 1m/s as \"quicker\"
+        on pass completed by us { give count of pass completed by us as \"numbered\" }
+    }
+    remove end possession
+    end success kept when passes >= enough and passes == chain.n
+    end limit 400 steps
+}";
+
+#[test]
+fn records_are_read_by_endings_rewards_and_other_records() {
+    let text = format!("behavior chase {{ repeat {{ do move_to(ball) for 1s }} }}\n{RONDO}");
+    let mut environment = environment(&text);
+    let mut scratch = Scratch::default();
+    let mut kept = 0;
+    for index in 0..40 {
+        environment.reset(Some(3), Some(index)).unwrap();
+        let (mut passes, mut so_far, mut numbered) = (0.0, 0.0, 0.0);
+        while environment.is_running() {
+            let before = passes;
+            let result = environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
+            let completed = environment.events().iter().filter(|event| {
+                event.kind == EventKind::Pass
+                    && event.team == Some(Team::Left)
+                    && event.qualifier == Some(Qualifier::Completed)
+            });
+            passes += completed.count() as f64;
+            numbered += passes * (passes - before);
+            so_far += passes;
+            assert_eq!(number(&environment, "passes"), passes);
+            assert_eq!(number(&environment, "late"), before);
+            assert!(result.terminated || passes < 3.0, "passes: {passes}");
+        }
+        let tries = number(&environment, "tries");
+        assert_eq!(number(&environment, "completion"), passes / tries.max(1.0));
+        assert!(number(&environment, "slower") <= number(&environment, "quickest"));
+        let paid = |term: &str| {
+            let at = environment.term_names().iter().position(|known| known == term).unwrap();
+            environment.term_sums(0)[at]
+        };
+        assert_eq!(paid("kept/each"), passes);
+        assert_eq!(paid("kept/so far"), so_far);
+        assert_eq!(paid("kept/numbered"), numbered);
+        let quickest = number(&environment, "quickest");
+        assert!((paid("kept/quicker") - quickest).abs() < 1e-6, "the ball lay still at first");
+        let outcome = environment.outcome().unwrap();
+        assert!((&*outcome.label == "kept") == (passes >= 3.0), "{outcome:?}");
+        kept += u32::from(passes >= 3.0);
+    }
+    assert!(kept > 0, "nobody kept the ball");
+}
+
 #[test]
 fn a_run_averages_records_over_its_episodes() {
     let loaded = setpiece::compile_text(MEASURED, "<test>").unwrap();

@@ -31,6 +31,7 @@ impl<'w> World<'w> {
             scripts_loaded,
             problems: RefCell::default(),
             used: RefCell::default(),
+            circular: RefCell::default(),
             effort,
             counts: RefCell::default(),
             found: Cell::default(),

@@ -2,6 +2,7 @@
 
 mod arithmetic;
 mod call;
+mod episode;
 mod event;
 mod function;
 mod member;

@@ -4,7 +4,7 @@ use super::value::{Scope, Value};
 use crate::ast::{Arg, BehaviorItem, ScriptRef, Span};
 use crate::origins::{RegionOrigin, RequireOrigin};
 use setpiece_scenario::vocabulary::StartKind;
-use setpiece_scenario::{Distribution, Reg, Require};
+use setpiece_scenario::{Distribution, Reg, Require, When};
 use std::collections::BTreeMap;
 
 /// A player's places at kick-offs: when their team kicks off, and when the others do.
@@ -75,13 +75,17 @@ pub(crate) enum OnDemand<T> {
     Done(T),
 }
 
-/// What a record keeps of the rewards that it reads.
+/// What a program of a step keeps of the scenario's rewards and records.
 #[derive(Default)]
 pub(crate) struct Remembered<'w> {
     /// The rewards whose states it reads, each with their scope; `None` after a report.
     pub(crate) rewards: Vec<(String, Option<Scope<'w>>)>,
+    /// The records that it reads, each as it is or as it was a step ago.
+    pub(crate) records: Vec<(&'w str, When, Value<'w>)>,
     /// Whether it must be kept for each agent, whatever it reads.
     pub(crate) per_agent: bool,
+    /// Whether it has read an agent's own view: that agent or their team.
+    pub(crate) has_view: bool,
 }
 
 /// What a player's `ai` names.

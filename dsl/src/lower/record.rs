@@ -1,19 +1,17 @@
 //! Records: what is measured of an episode.
 //!
-//! `count of EVENT`, `max of E` and their like are sums in cells, so that they may stand anywhere
-//! in a record: `(count of pass completed by left) / (count of pass by left)`. `series of E` keeps
-//! every step's value and stands alone.
+//! Rewards, endings and other records read a record by its name: their programs measure it
+//! themselves, in cells of their own. `series of E` keeps every step's value and stands alone.
 
 use super::step_world::StepWorld;
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, ProgramStage};
-use crate::ast::{Binding, Expr, ExprKind, Ident, Span};
+use crate::ast::{Binding, Expr, ExprKind, Span};
 use crate::check::types::Ty;
-use crate::lower::known::Remembered;
 use crate::problem::Problem;
-use crate::problem::facts::{Instead, Scopes};
+use crate::problem::facts::{Instead, Scopes, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
-use setpiece_scenario::{BinaryOp, Fold, FoldKind, Record, Reg};
+use setpiece_scenario::{BinaryOp, Record, Reg, When};
 
 /// Lowers the records.
 pub(crate) fn lower_records(step: &StepWorld<'_, '_>) -> Vec<Record> {
@@ -21,32 +19,120 @@ pub(crate) fn lower_records(step: &StepWorld<'_, '_>) -> Vec<Record> {
 }
 
 fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Record> {
-    let mut lower = Lower::in_step(
-        step,
-        ProgramStage::Record(Remembered::default()),
-        Scope::new(true, LiteralFrame::World),
-    );
+    let mut lower =
+        Lower::in_step(step, ProgramStage::Record, Scope::new(true, LiteralFrame::World));
     if let Some(team) = step.agents {
         let team = lower.code.constant(team.index() as f64);
         lower.team = Some(team);
     }
-    let (series, expr) = match &binding.value.kind {
-        ExprKind::OverTime { kind, of } if kind.node == "series" => (true, &**of),
-        _ => (false, &binding.value),
-    };
-    let value = lower.expr(expr);
+    let series = series_of(binding);
+    let expr = series.unwrap_or(&binding.value);
+    let name = binding.name.span;
+    let value = lower.inline(name, name, |lower| lower.expr(expr))?;
     let values = lower.measured(&value, expr)?;
     // A program that reads `me` runs once per agent.
-    let per_agent =
-        matches!(&lower.stage, ProgramStage::Record(remembered) if remembered.per_agent);
-    let me = per_agent.then(|| lower.code.me());
+    let me = lower.remembered.per_agent.then(|| lower.code.me());
     let roots: Vec<Reg> = values.iter().copied().chain(me).collect();
     let (program, layout) = lower.code.finish(&roots);
     let values = values.iter().map(|&reg| layout.reg(reg)).collect();
-    Some(Record { name: binding.name.node.clone(), program, values, series })
+    Some(Record { name: binding.name.node.clone(), program, values, series: series.is_some() })
+}
+
+/// Whether a record can hold a value.
+fn is_measure(value: &Value<'_>) -> bool {
+    let ty = value.ty;
+    let is_number = matches!(ty, Ty::Bool | Ty::Team) || ty.dim().is_some();
+    ty.is_place() || is_number && matches!(value.repr, Repr::One(_))
+}
+
+/// What is kept of every step, of a `series of E`.
+fn series_of(binding: &Binding) -> Option<&Expr> {
+    match &binding.value.kind {
+        ExprKind::OverTime { kind, of } if kind.node == "series" => Some(of),
+        _ => None,
+    }
 }
 
 impl<'w> Lower<'_, 'w> {
+    /// The value of a record by its name, wherever the match is judged.
+    pub(super) fn recorded(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
+        let world = self.world;
+        let binding = world.flat.records.iter().copied().find(|known| known.name.node == name)?;
+        if !self.stage.judges() {
+            let name = name.to_owned();
+            return Some(self.fail(Problem::new(span, Scopes::MeasuredLater { name })));
+        }
+        if series_of(binding).is_some() {
+            let name = name.to_owned();
+            return Some(self.fail(Problem::new(span, Types::SeriesIsNoValue { name })));
+        }
+        let known = self.remembered.records.iter();
+        let mut known = known.filter(|(known, when, _)| *known == name && *when == self.when);
+        if let Some((.., value)) = known.next() {
+            return Some(value.clone());
+        }
+        let value = self.seen_by_all(name, span, |lower| Some(lower.measure(binding, span)));
+        let value = value.unwrap_or_else(Value::error);
+        self.remembered.records.push((&binding.name.node, self.when, value.clone()));
+        Some(value)
+    }
+
+    /// Measures a record in this program, outside every loop, as its own program does.
+    fn measure(&mut self, binding: &'w Binding, span: Span) -> Value<'w> {
+        let loops = self.code.leave_loops();
+        let us = self.side_with_agents().map(|team| self.code.constant(team.index() as f64));
+        let outer = (
+            self.event.take(),
+            std::mem::replace(&mut self.team, us),
+            std::mem::replace(&mut self.stage, ProgramStage::Record),
+        );
+        let world = self.world;
+        let read = |lower: &mut Self| {
+            let value = lower.inline(binding.name.span, span, |lower| {
+                lower.within(Scope::new(true, LiteralFrame::World), |lower| {
+                    lower.expr(&binding.value)
+                })
+            });
+            // What no record can hold is reported where the record is declared.
+            value.filter(is_measure).unwrap_or_else(Value::error)
+        };
+        let value = if self.when == When::Now {
+            read(self)
+        } else {
+            let found = world.found();
+            let value = world.tentatively(|| read(self));
+            if world.found() > found {
+                let function = binding.name.node.clone();
+                self.fail(Problem::new(span, Scopes::NotAStepAgo { function }))
+            } else {
+                value
+            }
+        };
+        (self.event, self.team, self.stage) = outer;
+        self.code.return_to(loops);
+        value
+    }
+
+    /// Reads what is kept of the episode. An ending is decided once for all agents, so it can't
+    /// read what each agent sees differently; `None` after a report.
+    pub(super) fn seen_by_all<T>(
+        &mut self,
+        name: &str,
+        span: Span,
+        read: impl FnOnce(&mut Self) -> Option<T>,
+    ) -> Option<T> {
+        let outer = std::mem::take(&mut self.remembered.has_view);
+        let value = read(self);
+        let has_view = std::mem::replace(&mut self.remembered.has_view, outer);
+        self.remembered.has_view |= has_view;
+        if has_view && matches!(self.stage, ProgramStage::Ending) {
+            let name = name.to_owned();
+            self.report(Problem::new(span, Scopes::KeptForEachAgent { name }));
+            return None;
+        }
+        value
+    }
+
     /// The registers of what a record shows: a number in SI units, or a normalised place.
     fn measured(&mut self, value: &Value<'w>, expr: &Expr) -> Option<Vec<Reg>> {
         if value.is_error() {
@@ -60,104 +146,12 @@ impl<'w> Lower<'_, 'w> {
                 self.code.binary(BinaryOp::Div, y, sy),
             ]);
         }
-        match (&value.repr, value.ty) {
-            (Repr::One(reg), Ty::Bool | Ty::Team) => Some(vec![*reg]),
-            (Repr::One(reg), ty) if ty.dim().is_some() => Some(vec![*reg]),
+        match value.repr {
+            Repr::One(reg) if is_measure(value) => Some(vec![reg]),
             _ => {
                 self.report(self.mismatch_with(value.ty, Ty::Number, expr.span, Instead::Recorded));
                 None
             }
         }
-    }
-
-    /// `count of EVENT`, `max of E`: over the episode so far.
-    pub(super) fn over_episode(&mut self, kind: &'w Ident, of: &'w Expr, span: Span) -> Value<'w> {
-        if !matches!(self.stage, ProgramStage::Record(_)) || kind.node == "series" {
-            let alone = kind.node == "series" && matches!(self.stage, ProgramStage::Record(_));
-            let kind = kind.node.clone();
-            let fact = if alone { Scopes::SeriesStandsAlone } else { Scopes::OverEpisode { kind } };
-            return self.fail(Problem::new(span, fact));
-        }
-        let loops = self.code.leave_loops();
-        let event = self.event.take();
-        let value = match kind.node.as_str() {
-            "count" => self.counted(of),
-            kind => self.gathered(kind, of),
-        };
-        self.event = event;
-        self.code.return_to(loops);
-        value
-    }
-
-    /// How many events there were, or at how many steps a condition held.
-    fn counted(&mut self, of: &'w Expr) -> Value<'w> {
-        let more = if let ExprKind::Event(event) = &of.kind {
-            let Some(matching) = self.open_events(event) else { return Value::error() };
-            let guard = matching.guard;
-            self.close_events(matching, Fold { kind: FoldKind::Count, value: None, guard })
-        } else {
-            self.condition(of)
-        };
-        let cell = self.code.new_cell();
-        let before = self.code.cell(cell);
-        let sum = self.code.binary(BinaryOp::Add, before, more);
-        self.code.assign(cell, sum, None);
-        Value::one(Ty::Int, sum)
-    }
-
-    /// `max`, `min`, `mean`, `sum`, `first` or `last` of a value.
-    fn gathered(&mut self, kind: &str, of: &'w Expr) -> Value<'w> {
-        let value = self.expr(of);
-        if value.is_error() || kind == "last" {
-            return value;
-        }
-        let Some(regs) = self.measurable(&value, of, kind) else { return Value::error() };
-        let seen = self.code.new_cell();
-        let before = self.code.cell(seen);
-        let one = self.code.constant(1.0);
-        let now = self.code.binary(BinaryOp::Add, before, one);
-        let results: Vec<Reg> =
-            regs.iter().map(|&reg| self.gather(kind, reg, before, now)).collect();
-        self.code.assign(seen, now, None);
-        match *results.as_slice() {
-            [x, y] => Value::two(value.ty, (x, y)),
-            [result] => Value::one(
-                if kind == "mean" && value.ty == Ty::Int { Ty::Number } else { value.ty },
-                result,
-            ),
-            _ => Value::error(),
-        }
-    }
-
-    fn measurable(&mut self, value: &Value<'w>, of: &'w Expr, kind: &str) -> Option<Vec<Reg>> {
-        if value.ty.is_place() && kind == "first" {
-            let (x, y) = self.place_of(value, of.span);
-            return Some(vec![x, y]);
-        }
-        match value.repr {
-            Repr::One(reg) if value.ty.dim().is_some() => Some(vec![reg]),
-            _ => {
-                let instead = Instead::Measured { kind: kind.to_owned() };
-                self.report(self.mismatch_with(value.ty, Ty::Number, of.span, instead));
-                None
-            }
-        }
-    }
-
-    /// One number over the episode: `before` and `now` count the steps.
-    fn gather(&mut self, kind: &str, reg: Reg, before: Reg, now: Reg) -> Reg {
-        let cell = self.code.new_cell();
-        let kept = self.code.cell(cell);
-        let next = match kind {
-            "max" | "min" => {
-                let op = if kind == "max" { BinaryOp::Max } else { BinaryOp::Min };
-                let further = self.code.binary(op, kept, reg);
-                self.code.select(before, further, reg)
-            }
-            "first" => self.code.select(before, kept, reg),
-            _ => self.code.binary(BinaryOp::Add, kept, reg),
-        };
-        self.code.assign(cell, next, None);
-        if kind == "mean" { self.code.binary(BinaryOp::Div, next, now) } else { next }
     }
 }

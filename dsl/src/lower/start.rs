@@ -224,7 +224,7 @@ impl<'w> Lower<'_, 'w> {
             ProgramStage::Init
             | ProgramStage::Reward
             | ProgramStage::Ending
-            | ProgramStage::Record(_)
+            | ProgramStage::Record
             | ProgramStage::Observation
             | ProgramStage::Behavior(_) => {
                 return self.step_let(name);

@@ -36,6 +36,8 @@ pub(crate) struct World<'w> {
     pub(crate) problems: RefCell<Vec<Problem>>,
     /// Declarations that something refers to.
     pub(crate) used: RefCell<BTreeSet<Span>>,
+    /// Declarations that use themselves, as was reported.
+    pub(super) circular: RefCell<BTreeSet<Span>>,
     /// What may still be lowered.
     pub(crate) effort: &'w Effort,
     /// How many problems of each code were found.
@@ -108,6 +110,18 @@ impl World<'_> {
         let result = f();
         self.is_tentative.set(outer);
         result
+    }
+
+    /// Notes that declarations use each other in a circle, which was reported.
+    pub(super) fn note_circle(&self, circle: &[Span]) {
+        if !self.is_tentative.get() {
+            self.circular.borrow_mut().extend(circle);
+        }
+    }
+
+    /// Whether a declaration is known to use itself.
+    pub(super) fn is_circular(&self, declaration: Span) -> bool {
+        self.circular.borrow().contains(&declaration)
     }
 
     /// Notes that a declaration is referred to.

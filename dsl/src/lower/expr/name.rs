@@ -30,6 +30,12 @@ impl<'w> Lower<'_, 'w> {
         {
             return value;
         }
+        if self.scope.scenario
+            && !names::is_value(name)
+            && let Some(value) = self.recorded(name, span)
+        {
+            return value;
+        }
         if let Some(value) = self.file_name(name, span) {
             return value;
         }
@@ -186,7 +192,7 @@ impl<'w> Lower<'_, 'w> {
             // A scenario or a reward may bear the name of a property; the property is meant here.
             _ if names::is_value(name) => return None,
             ItemKind::Reward(_)
-                if matches!(self.stage, ProgramStage::Record(_) | ProgramStage::Ending) =>
+                if matches!(self.stage, ProgramStage::Record | ProgramStage::Ending) =>
             {
                 self.fail(no_value(Some(Use::Recorded)))
             }
@@ -251,9 +257,13 @@ impl<'w> Lower<'_, 'w> {
                 Some(reg) if self.stage.is_step() => team(self.code.unary(UnaryOp::OtherTeam, reg)),
                 _ => self.no_view(name, span),
             },
-            "me" if self.stage.has_me() => Value::one(Ty::Player, self.code.me()),
+            "me" if self.stage.has_me() => {
+                self.remembered.has_view = true;
+                Value::one(Ty::Player, self.code.me())
+            }
             "mates" if self.stage.has_me() => match self.team {
                 Some(us) => {
+                    self.remembered.has_view = true;
                     let me = self.code.me();
                     Value { ty: Ty::Set, repr: Repr::Set(SetValue { team: us, except: Some(me) }) }
                 }
@@ -274,9 +284,7 @@ impl<'w> Lower<'_, 'w> {
 
     fn no_view(&self, name: &str, span: Span) -> Value<'w> {
         let why = match (&self.stage, name) {
-            (ProgramStage::Ending | ProgramStage::Record(_), "us" | "them") => {
-                ViewOutside::BothTeams
-            }
+            (ProgramStage::Ending | ProgramStage::Record, "us" | "them") => ViewOutside::BothTeams,
             (ProgramStage::Init, _) => ViewOutside::BeforeFirstStep,
             _ => ViewOutside::OutsideRewards,
         };
@@ -336,7 +344,10 @@ impl<'w> Lower<'_, 'w> {
                 world.roster.iter().filter_map(|player| player.name.map(|name| name.node.clone())),
             );
         }
-        if matches!(self.stage, ProgramStage::Record(_)) {
+        if self.scope.scenario && self.stage.judges() {
+            known.extend(self.world.flat.records.iter().map(|record| record.name.node.clone()));
+        }
+        if matches!(self.stage, ProgramStage::Record | ProgramStage::Ending) {
             known.extend(self.world.flat.rewards.iter().map(|(name, ..)| name.clone()));
         }
         let values = |kind: &ItemKind| {

@@ -27,9 +27,10 @@ impl<'w> Lower<'_, 'w> {
                 span,
                 Scopes::ObservationRemembersNothing { function: function.name() },
             )),
-            _ if self.when == When::Prev => {
-                self.fail(Problem::new(span, Scopes::NotAStepAgo { function: function.name() }))
-            }
+            _ if self.when == When::Prev => self.fail(Problem::new(
+                span,
+                Scopes::NotAStepAgo { function: function.name().to_owned() },
+            )),
             _ if !self.stage.is_step() => self.fail(Problem::new(
                 span,
                 Scopes::NothingToLookBackAt { function: function.name() },
@@ -39,7 +40,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// Writes code outside every loop, where no event and no element of a loop is known.
-    fn hoisted<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
+    pub(super) fn hoisted<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
         let loops = self.code.leave_loops();
         let event = self.event.take();
         let result = f(self);

@@ -96,28 +96,25 @@ impl<'w> Lower<'_, 'w> {
         self.scope.bind(&state.name.node, binding);
     }
 
-    /// `chain.n` in a record: a state of a reward that the scenario uses.
+    /// `chain.n` in a record or an ending: a state of a reward that the scenario uses.
     ///
-    /// The record's program keeps the reward's states itself: it has the reward's statements
-    /// without its payments.
+    /// The reading program keeps the reward's states itself: it has the reward's statements without
+    /// its payments.
     pub(crate) fn state_of_reward(
         &mut self,
         name: &str,
         of: Span,
         member: &'w Ident,
     ) -> Option<Value<'w>> {
-        let ProgramStage::Record(remembered) = &self.stage else { return None };
+        if !matches!(self.stage, ProgramStage::Record | ProgramStage::Ending) {
+            return None;
+        }
         let (_, used, stmt) = self.world.flat.rewards.iter().find(|(known, ..)| known == name)?;
-        let known = remembered
-            .rewards
-            .iter()
-            .find(|(known, _)| known == name)
-            .map(|(_, scope)| scope.clone());
+        let known = self.remembered.rewards.iter().find(|(known, _)| known == name);
+        let known = known.map(|(_, scope)| scope.clone());
         let scope = known.unwrap_or_else(|| {
-            let scope = self.remember(used, stmt.span);
-            if let ProgramStage::Record(remembered) = &mut self.stage {
-                remembered.rewards.push((name.to_owned(), scope.clone()));
-            }
+            let scope = self.seen_by_all(name, of, |lower| lower.remember(used, stmt.span));
+            self.remembered.rewards.push((name.to_owned(), scope.clone()));
             scope
         });
         let Some(scope) = scope else {
@@ -152,9 +149,8 @@ impl<'w> Lower<'_, 'w> {
         let loops = self.code.leave_loops();
         // Where both teams have agents, or none, it is kept for each of them.
         let for_each = self.side_with_agents().is_none();
-        if let ProgramStage::Record(remembered) = &mut self.stage {
-            remembered.per_agent |= for_each;
-        }
+        self.remembered.per_agent |= for_each;
+        self.remembered.has_view |= for_each;
         let us = self.side_with_agents().map(|team| self.code.constant(team.index() as f64));
         let us = us.unwrap_or_else(|| self.code.us());
         let outer = (
@@ -166,7 +162,7 @@ impl<'w> Lower<'_, 'w> {
         let statements = written.statements();
         let states = states(&statements);
 
-        let record = std::mem::replace(&mut self.stage, ProgramStage::Init);
+        let reader = std::mem::replace(&mut self.stage, ProgramStage::Init);
         self.scope = written.bind(self);
         let firsts: Vec<Value<'w>> = states.iter().map(|state| self.first_value(state)).collect();
         self.stage = ProgramStage::Reward;
@@ -195,7 +191,7 @@ impl<'w> Lower<'_, 'w> {
         RewardWriter::write(self, &statements, None, false, Vec::new());
         let one = self.code.constant(1.0);
         self.code.assign(begun, one, None);
-        self.stage = record;
+        self.stage = reader;
         (self.event, self.when, self.team) = outer;
         self.scope = outer_scope;
         self.code.return_to(loops);

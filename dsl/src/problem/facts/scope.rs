@@ -38,13 +38,13 @@ facts! {
             say(format!("`{function}` remembers, and an observation does not"), "")
                 .help("an observation shows the state as it is; `prev` and `delta` look one step back"),
         /// A function over time inside of `prev`.
-        NotAStepAgo { function: &'static str } = Code::WrongScope =>
+        NotAStepAgo { function: String } = Code::WrongScope =>
             say(format!("`{function}` has no value a step ago"), "inside a look at the step before")
                 .help("`prev` reads the state of the match and of the reward only"),
         /// `prev` outside of the match.
         NoEarlierStep = Code::WrongScope =>
             say("there is no earlier step here", "this is computed before the match begins")
-                .help("use it in a reward, an ending or a record"),
+                .help(JUDGES),
         /// `prev` inside of `prev`.
         OneStepRemembered = Code::WrongScope =>
             say("only one step is remembered", "inside a look at the step before")
@@ -91,13 +91,22 @@ facts! {
         /// `series of` inside of an expression.
         SeriesStandsAlone = Code::WrongScope =>
             say("`series of …` stands alone", "").help("write `record NAME = series of …`"),
-        /// `max of` and its like outside of a record.
+        /// A record outside of the match, or where nobody judges it.
+        MeasuredLater { name: String } = Code::WrongScope =>
+            say(format!("`{name}` is a record, measured while the match runs"), "can't be read here")
+                .help(JUDGES),
+        /// An ending reads what each agent sees differently.
+        KeptForEachAgent { name: String } = Code::WrongScope =>
+            say(format!("`{name}` is kept for each agent, and the episode ends for all of them"), "whose is meant?")
+                .help("name a player or a side instead of `me` and `us`"),
+        /// `max of` and its like where nobody judges the match.
         OverEpisode { kind: String } = Code::WrongScope =>
-            say(format!("`{kind} of …` looks at the whole episode"), "").help("it belongs to a `record`"),
+            say(format!("`{kind} of …` looks at the whole episode"), "").help(JUDGES),
     }
 }
 
 const IN_A_REWARD: &str = "use it in a `reward` or an `end`";
+const JUDGES: &str = "use it in a reward, an ending or a record";
 const BEFORE_THE_FIRST_STEP: &str = "a state's first value is known before the first step: begin with a number, and assign the state further down";
 
 /// Why nobody's view is taken.

@@ -104,12 +104,16 @@ facts! {
             match cure {
                 Some(Use::Called) => said.help(format!("call it: `{name}(…)`")),
                 Some(Use::Recorded) => {
-                    said.help(format!("a `record` reads its states: `record r = max of {name}.STATE`"))
+                    said.help(format!("records and endings read its states: `{name}.STATE`"))
                 }
                 Some(Use::Given) => said.help(format!("give it to a player: `ai: {name}`")),
                 None => said,
             }
         },
+        /// A series where a value is wanted.
+        SeriesIsNoValue { name: String } = Code::WrongType =>
+            say(format!("`{name}` is a series, a value for every step"), "one value is needed")
+                .help("write another record of the same, for example with `last of`"),
         /// A state of a type that is not kept from step to step.
         NoState { ty: Ty } = Code::WrongType =>
             say(format!("a state can't be {}", ty.noun()), "").help("keep numbers, players and points in states"),

@@ -1,5 +1,6 @@
 //! The compiler's entry: a root file in, a scenario and everything that is wrong with it out.
 
+mod alone;
 mod cast;
 mod plan;
 mod scripts;
@@ -129,6 +130,7 @@ pub fn compile(
     compilation.scenarios(&candidates, wanted, &casting);
     let nothing = nothing();
     let plans = if has_plans { compilation.plans(items, &nothing) } else { Plans::default() };
+    compilation.alone(items, &nothing);
     let Compilation { mut lowered, played, mut problems, unused, .. } = compilation;
     behavior::report_names(items, &mut problems);
     unused.report(items, &mut problems);
@@ -192,7 +194,7 @@ impl<'a> Compilation<'a> {
                 // What is missing, a child may bring.
                 let found = self.problems.split_off(before);
                 self.problems.extend(found.into_iter().filter(|problem| {
-                    !problem.code().may_be_echo() && problem.code() != Code::UnknownName
+                    !problem.code().may_be_echo() && !problem.fact().child_may_bring()
                 }));
             } else {
                 let is_wanted = wanted.is_some_and(|wanted| std::ptr::eq(wanted, item));

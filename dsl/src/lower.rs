@@ -6,6 +6,7 @@
 //! matter.
 
 pub(crate) mod agents;
+pub(crate) mod alone;
 mod begin;
 pub(crate) mod behavior;
 pub(crate) mod builder;

@@ -45,6 +45,11 @@ impl Unused {
         self.used.extend(used);
     }
 
+    /// Whether something refers to a declaration.
+    pub(super) fn is_used(&self, declaration: Span) -> bool {
+        self.used.contains(&declaration)
+    }
+
     /// Reports what nothing refers to.
     pub(super) fn report(mut self, items: &[Item], problems: &mut Vec<Problem>) {
         for (what, name) in std::mem::take(&mut self.declared) {

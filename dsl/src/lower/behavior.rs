@@ -9,11 +9,9 @@ mod statement;
 
 use super::builder::RegisterLayout;
 use super::step_world::StepWorld;
-use super::value::{LiteralFrame, LocalName, Scope, Value};
-use super::{Lower, ProgramStage, param};
-use crate::ast::{
-    Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ParamDecl, ScriptRef, Span,
-};
+use super::value::{LiteralFrame, Scope};
+use super::{Lower, ProgramStage};
+use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ScriptRef, Span};
 use crate::check::types::Ty;
 use crate::lower::known::{BehaviorUse, Draw};
 use crate::problem::facts::{Assigned, Behaviors, Names};
@@ -76,15 +74,16 @@ fn check_unused(step: &StepWorld<'_, '_>) {
         if behavior.name.span.file != root || world.used.borrow().contains(&behavior.name.span) {
             continue;
         }
-        let mut writer = BehaviorWriter::new(step);
-        let mut scope = Scope::new(false, LiteralFrame::Own);
-        for decl in &behavior.params {
-            let value = writer.some_value(decl);
-            writer.lower.check_hides(&decl.name.node, decl.name.span, &scope);
-            scope.bind(&decl.name.node, LocalName::Value(value));
-        }
-        writer.body(behavior, scope);
+        lower_alone(step, behavior);
     }
+}
+
+/// Lowers a behaviour that nobody plays, for what is wrong with it.
+pub(super) fn lower_alone<'w>(step: &StepWorld<'_, 'w>, behavior: &'w BehaviorItem) {
+    let mut writer = BehaviorWriter::new(step);
+    let mut scope = Scope::new(false, LiteralFrame::Own);
+    writer.drawing(|writer| writer.lower.bind_any(&behavior.params, &mut scope));
+    writer.body(behavior, scope);
 }
 
 /// Reports behaviours that hide a primitive.
@@ -242,31 +241,6 @@ impl<'c, 'w> BehaviorWriter<'c, 'w> {
             node
         {
             *to = target;
-        }
-    }
-
-    /// A value of a parameter's type of which nothing is known.
-    fn some_value(&mut self, decl: &'w ParamDecl) -> Value<'w> {
-        let declared = decl.ty.as_ref().map(|ty| param::declared_type(self.lower.world, ty));
-        let ty = match (&decl.default, declared) {
-            (Some(default), _) => {
-                let home = Scope::new(false, LiteralFrame::World);
-                return self.drawing(|writer| {
-                    writer.lower.within(home, |lower| match declared {
-                        Some(ty) => lower.want(default, ty),
-                        None => lower.expr(default),
-                    })
-                });
-            }
-            (None, Some(ty)) => ty,
-            (None, None) => return Value::error(),
-        };
-        let unknown = self.lower.code.unknown();
-        match ty {
-            Ty::Point | Ty::Vector | Ty::Velocity => Value::two(ty, (unknown, unknown)),
-            Ty::Bool | Ty::Int | Ty::Player | Ty::Team => Value::one(ty, unknown),
-            ty if ty.dim().is_some() => Value::one(ty, unknown),
-            _ => Value::error(),
         }
     }
 

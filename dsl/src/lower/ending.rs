@@ -3,7 +3,7 @@
 use super::step_world::StepWorld;
 use super::value::{LiteralFrame, Scope};
 use super::{Lower, ProgramStage, script};
-use crate::ast::{EndCondition, ItemKind};
+use crate::ast::{EndCondition, FnItem, ItemKind};
 use crate::problem::facts::{Kind, Names, Rewards};
 use crate::problem::{Guess, Problem, nearest};
 use crate::resolve::FlatEnding;
@@ -33,6 +33,15 @@ pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
         ending.when = ending.when.map(|reg| layout.reg(reg));
     }
     Endings { program, list }
+}
+
+/// Lowers an ending that no scenario uses, for what is wrong with it; some team has the agents.
+pub(super) fn lower_alone<'w>(step: &StepWorld<'_, 'w>, item: &'w FnItem) {
+    let mut scope = Scope::new(false, LiteralFrame::World);
+    let mut lower = Lower::in_step(step, ProgramStage::Ending, scope.clone());
+    lower.team = Some(lower.code.us());
+    lower.bind_any(&item.params, &mut scope);
+    lower.within(scope, |lower| lower.condition(&item.body));
 }
 
 fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Option<Ending> {

@@ -32,11 +32,13 @@ pub(super) struct WrittenReward<'w> {
     inline: &'w [RewardStmt],
     /// What uses it.
     span: Span,
+    /// Whether nothing does, so that its parameters have no values.
+    is_alone: bool,
 }
 
 impl<'w> WrittenReward<'w> {
     fn inline(body: &'w [RewardStmt], span: Span) -> WrittenReward<'w> {
-        WrittenReward { links: Vec::new(), inline: body, span }
+        WrittenReward { links: Vec::new(), inline: body, span, is_alone: false }
     }
 
     fn named(
@@ -60,7 +62,7 @@ impl<'w> WrittenReward<'w> {
         };
         let links =
             chain.into_iter().map(|(link, reference)| (link, arguments(link, reference))).collect();
-        WrittenReward { links, inline: &[], span }
+        WrittenReward { links, inline: &[], span, is_alone: false }
     }
 
     /// Its statements, parents' first.
@@ -74,6 +76,10 @@ impl<'w> WrittenReward<'w> {
         for (index, (link, args)) in self.links.iter().enumerate() {
             // Arguments are read where the reward is used: in the scenario, in the world's frame.
             let in_scenario = index + 1 == self.links.len();
+            if in_scenario && self.is_alone {
+                lower.bind_any(&link.params, &mut scope);
+                continue;
+            }
             let now = matches!(lower.stage, ProgramStage::Reward);
             lower.within(Scope::new(in_scenario, LiteralFrame::World), |lower| {
                 lower.bind_params(&link.name.node, &link.params, args, self.span, &mut scope, now);
@@ -195,6 +201,13 @@ pub(crate) fn lower_library(step: &StepWorld<'_, '_>) -> Vec<Reward> {
         }
     }
     rewards
+}
+
+/// Lowers a reward that no scenario uses, for what is wrong with it.
+pub(super) fn lower_alone<'w>(step: &StepWorld<'_, 'w>, item: &'w RewardItem) {
+    let written = WrittenReward::named(step.world, item, &[], item.name.span);
+    let written = WrittenReward { is_alone: true, ..written };
+    lower_written(step, &item.name.node, String::new(), &written, None);
 }
 
 fn lower_written<'w>(

@@ -145,3 +145,15 @@ subjects! {
     /// Brackets, strings and comments.
     Brackets,
 }
+
+impl Fact {
+    /// Whether the file has no scenario that can be run.
+    pub(crate) fn misses_scenario(&self) -> bool {
+        matches!(self, Fact::Whole(Whole::OnlyAbstract { .. } | Whole::NoScenario { .. }))
+    }
+
+    /// Whether a child of the scenario may bring what is missing.
+    pub(crate) fn child_may_bring(&self) -> bool {
+        matches!(self, Fact::Names(names) if names.child_may_bring())
+    }
+}

@@ -20,6 +20,11 @@ pub(crate) fn triage(
         problems.retain(|problem| !problem.code().may_be_echo());
     }
     drop_library(&mut problems, sources);
+    // What a file without a scenario says wrong is mended before a scenario is missed.
+    let misses_scenario = |problem: &Problem| problem.fact().misses_scenario();
+    if problems.iter().any(|problem| problem.is_error() && !misses_scenario(problem)) {
+        problems.retain(|problem| !misses_scenario(problem));
+    }
     if has_errors(&problems) {
         drop_likely_used(&mut problems, sources);
     }

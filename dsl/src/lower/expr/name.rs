@@ -53,7 +53,10 @@ impl<'w> Lower<'_, 'w> {
             return self.fail(Problem::new(span, fact));
         }
         let guess = Guess::of(name, candidates.iter().map(String::as_str));
-        self.fail(Problem::new(span, Names::NoValue { name: name.to_owned(), guess }))
+        self.fail(Problem::new(
+            span,
+            Names::NoValue { name: name.to_owned(), guess, late: self.scope.scenario },
+        ))
     }
 
     /// How a name of the scenario reaches what stands outside of it.
@@ -201,7 +204,11 @@ impl<'w> Lower<'_, 'w> {
         })
     }
 
-    fn constant_item(&mut self, binding: &'w crate::ast::Binding, span: Span) -> Value<'w> {
+    pub(crate) fn constant_item(
+        &mut self,
+        binding: &'w crate::ast::Binding,
+        span: Span,
+    ) -> Value<'w> {
         let ty = binding.ty.as_ref().map(|ty| super::super::param::declared_type(self.world, ty));
         let scope = Scope::new(false, LiteralFrame::World);
         // Whoever reads it, a constant is computed before anything else is known.

@@ -15,7 +15,9 @@ facts! {
             guess: Guess,
         } = kind.code() => unknown(*kind, name, guess),
         /// No value in sight has this name.
-        NoValue { name: String, guess: Guess } = Code::UnknownName =>
+        ///
+        /// - `late`: whether it is read in a scenario, where a child may declare it.
+        NoValue { name: String, guess: Guess, late: bool } = Code::UnknownName =>
             say(format!("nothing here is called `{name}`"), "not known").guess(guess, ""),
         /// A value of the scenario is used outside of it.
         OfTheScenario { name: String, from: Outside, is_player: bool } = Code::UnknownName => {
@@ -266,6 +268,17 @@ pub(crate) enum Kind {
     Team,
     /// The type of a parameter.
     Type,
+}
+
+impl Names {
+    /// Whether a child of the scenario may bring what is missing.
+    pub(super) fn child_may_bring(&self) -> bool {
+        match self {
+            Names::NoValue { late, .. } => *late,
+            Names::Unknown { kind, .. } => matches!(kind, Kind::Player | Kind::Reward),
+            _ => false,
+        }
+    }
 }
 
 impl Kind {

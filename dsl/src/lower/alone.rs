@@ -1,0 +1,139 @@
+//! Items of a file that nothing uses: each is lowered once, for what is wrong with it in every use.
+//!
+//! Nothing is known of their parameters but the types. What is only worth a warning depends on who
+//! uses an item, so errors alone are kept.
+
+use super::step_world::StepWorld;
+use super::value::{LiteralFrame, LocalName, Scope, Value};
+use super::{Lower, ProgramStage, behavior, ending, param, reward};
+use crate::ast::{FnItem, Item, ItemKind, ParamDecl};
+use crate::check::types::Ty;
+use crate::lower::known::StartState;
+use crate::problem::Problem;
+use setpiece_scenario::vocabulary::EventKind;
+
+/// Who may call a function or region: the stages of their programs, the likeliest first.
+#[derive(Clone, Copy)]
+enum Caller {
+    Reward,
+    /// A reward's `on` block.
+    OnEvent,
+    Behavior,
+    Start,
+}
+
+/// Lowers an item, formations aside, and gives the errors in it.
+pub(crate) fn check_alone<'w>(step: &StepWorld<'_, 'w>, item: &'w Item) -> Vec<Problem> {
+    match &item.kind {
+        ItemKind::Const(binding) => found_by(step, || {
+            let scope = Scope::new(false, LiteralFrame::World);
+            Lower::constant(step.world, scope).constant_item(binding, binding.name.span);
+        }),
+        ItemKind::Fn(item) => as_called(step, item, None, LiteralFrame::Own),
+        ItemKind::Region(item) => as_called(step, item, Some(Ty::Region), LiteralFrame::World),
+        ItemKind::Ending(item) => found_by(step, || ending::lower_alone(step, item)),
+        ItemKind::Reward(item) => found_by(step, || reward::lower_alone(step, item)),
+        ItemKind::Behavior(item) => found_by(step, || behavior::lower_alone(step, item)),
+        _ => Vec::new(),
+    }
+}
+
+/// The errors that a part reports.
+fn found_by(step: &StepWorld<'_, '_>, part: impl FnOnce()) -> Vec<Problem> {
+    let world = step.world;
+    world.counts.take();
+    let kept = world.problems.take();
+    part();
+    let mut found = world.problems.replace(kept);
+    found.retain(Problem::is_error);
+    found
+}
+
+/// The errors of a function or region: none if one of its callers finds none, else those of the
+/// caller that finds fewest.
+fn as_called<'w>(
+    step: &StepWorld<'_, 'w>,
+    item: &'w FnItem,
+    ty: Option<Ty>,
+    frame: LiteralFrame,
+) -> Vec<Problem> {
+    let mut best: Option<Vec<Problem>> = None;
+    let circular = step.world.circular.take();
+    for caller in [Caller::Reward, Caller::OnEvent, Caller::Behavior, Caller::Start] {
+        // Each caller meets a circle anew.
+        step.world.circular.replace(circular.clone());
+        let found = found_by(step, || {
+            let mut lower = caller.program(step);
+            let mut scope = Scope::new(false, frame);
+            lower.bind_any(&item.params, &mut scope);
+            let written = item.ty.as_ref().map(|ty| param::declared_type(step.world, ty));
+            lower.within(scope, |lower| match ty.or(written) {
+                Some(ty) => lower.want(&item.body, ty),
+                None => lower.expr(&item.body),
+            });
+        });
+        if best.as_ref().is_none_or(|best| found.len() < best.len()) {
+            best = Some(found);
+        }
+        if best.as_ref().is_some_and(Vec::is_empty) {
+            break;
+        }
+    }
+    best.unwrap_or_default()
+}
+
+impl Caller {
+    /// An empty program of it.
+    fn program<'c, 'w>(self, step: &'c StepWorld<'c, 'w>) -> Lower<'c, 'w> {
+        let scope = Scope::new(false, LiteralFrame::Own);
+        let stage = match self {
+            Caller::Reward | Caller::OnEvent => ProgramStage::Reward,
+            Caller::Behavior => ProgramStage::Behavior(Some(Vec::new())),
+            Caller::Start => return Lower::of_start(step.world, scope, StartState::default()),
+        };
+        let mut lower = Lower::in_step(step, stage, scope);
+        lower.team = Some(lower.code.us());
+        if matches!(self, Caller::OnEvent) {
+            // A pass has everything that an event may have.
+            lower.event = Some(EventKind::Pass);
+        }
+        lower
+    }
+}
+
+impl<'w> Lower<'_, 'w> {
+    /// Binds declared parameters to values of which the types alone are known.
+    pub(super) fn bind_any(&mut self, params: &'w [ParamDecl], scope: &mut Scope<'w>) {
+        for decl in params {
+            let value = self.any_value(decl);
+            self.check_hides(&decl.name.node, decl.name.span, scope);
+            scope.bind(&decl.name.node, LocalName::Value(value));
+        }
+    }
+
+    /// A value of a parameter's type of which nothing is known; its default where that has no
+    /// numbers.
+    fn any_value(&mut self, decl: &'w ParamDecl) -> Value<'w> {
+        let declared = decl.ty.as_ref().map(|ty| param::declared_type(self.world, ty));
+        let default = decl.default.as_ref().map(|default| {
+            self.within(Scope::new(false, LiteralFrame::World), |lower| match declared {
+                Some(ty) => lower.want(default, ty),
+                None => lower.expr(default),
+            })
+        });
+        let ty = match (declared, &default) {
+            (Some(ty), _) => ty,
+            // `= 1` leaves open whether whole numbers are meant.
+            (None, Some(value)) if value.ty == Ty::Int => Ty::Number,
+            (None, Some(value)) => value.ty,
+            (None, None) => Ty::Error,
+        };
+        let unknown = self.code.unknown();
+        match ty {
+            Ty::Point | Ty::Vector | Ty::Velocity => Value::two(ty, (unknown, unknown)),
+            Ty::Bool | Ty::Int | Ty::Player | Ty::Team => Value::one(ty, unknown),
+            ty if ty.dim().is_some() => Value::one(ty, unknown),
+            _ => default.unwrap_or_else(Value::error),
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! Items of a file that nothing uses: each is lowered once, for what is wrong with it in every use.
 //!
-//! Nothing is known of their parameters but the types. What is only worth a warning depends on who
-//! uses an item, so errors alone are kept.
+//! Nothing is known of their parameters but the types. A warning depends on how an item is used, so
+//! errors alone are kept.
 
 use super::step_world::StepWorld;
 use super::value::{LiteralFrame, LocalName, Scope, Value};

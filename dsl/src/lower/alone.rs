@@ -60,7 +60,7 @@ fn as_called<'w>(
     let mut best: Option<Vec<Problem>> = None;
     let circular = step.world.circular.take();
     for caller in [Caller::Reward, Caller::OnEvent, Caller::Behavior, Caller::Start] {
-        // Each caller meets a circle anew.
+        // What one caller found circular, the next one finds again.
         step.world.circular.replace(circular.clone());
         let found = found_by(step, || {
             let mut lower = caller.program(step);

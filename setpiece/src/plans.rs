@@ -1,15 +1,15 @@
-//! Loads the suites, checks and curricula of a file, and the suites of the library.
+//! Loads the suites, checks and curricula of a file, and those of the library.
 
 use crate::error::{Error, Failure};
 use crate::load::{self, LoadOptions};
 use crate::stdlib;
 use setpiece_dsl::problem::{Problem, Severity};
 use setpiece_dsl::source::{Source, Sources};
-use setpiece_scenario::plan::{Plans, Suite};
+use setpiece_scenario::plan::Plans;
 use std::path::{Path, PathBuf};
 
-/// The file of the library's suites.
-const SUITES: &str = "suites.pitch";
+/// The file of the library's suites and curricula.
+const PLANS: &str = "suites.pitch";
 
 /// What a file says about many episodes.
 #[derive(Clone, Debug)]
@@ -32,13 +32,22 @@ pub fn load_plans(path: &Path, options: &LoadOptions<'_>) -> Result<LoadedPlans,
     of_source(load::source_of(path)?, options)
 }
 
-/// The suites of the library.
+/// Loads the plans of a text; `name` is its name in reports.
+///
+/// # Errors
+/// [`Error::Compile`] if it has errors.
+pub fn plans_of_text(text: &str, name: &str) -> Result<LoadedPlans, Error> {
+    let source = Source { name: name.to_owned(), text: text.into() };
+    of_source(source, &LoadOptions::default())
+}
+
+/// The suites and curricula of the library.
 ///
 /// # Errors
 /// [`Error::Compile`] if the library has errors.
-pub fn library_suites() -> Result<Vec<Suite>, Error> {
-    let Some(source) = stdlib::file(SUITES) else { return Ok(Vec::new()) };
-    Ok(of_source(source, &LoadOptions::default())?.plans.suites)
+pub fn library_plans() -> Result<Plans, Error> {
+    let Some(source) = stdlib::file(PLANS) else { return Ok(Plans::default()) };
+    Ok(of_source(source, &LoadOptions::default())?.plans)
 }
 
 fn of_source(source: Source, options: &LoadOptions<'_>) -> Result<LoadedPlans, Error> {

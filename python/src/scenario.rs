@@ -26,8 +26,8 @@ impl Scenario {
     }
 
     /// A scenario without warnings.
-    pub(crate) fn of(py: Python<'_>, inner: compiled::Scenario) -> Scenario {
-        let inner = Arc::new(inner);
+    pub(crate) fn of(py: Python<'_>, inner: impl Into<Arc<compiled::Scenario>>) -> Scenario {
+        let inner = inner.into();
         Scenario { unbound: inner.clone(), inner, warnings: PyList::empty(py).unbind() }
     }
 

@@ -17,7 +17,6 @@ pub use randomized::RandomizedLevels;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use setpiece_engine::batch::EpisodeSummary;
 use setpiece_scenario::{Bindings, Scenario};
 use std::sync::Arc;
@@ -61,14 +60,14 @@ pub trait LevelSource: Send {
     /// How it numbers its levels.
     fn numbering(&mut self) -> &mut Numbering;
 
-    /// Everything that it remembers.
-    fn save(&self) -> Value;
+    /// Everything that it remembers, as JSON.
+    fn save(&self) -> String;
 
     /// Takes back what [`Self::save`] has returned.
     ///
     /// # Errors
     /// Why it can't, in words; then nothing has changed.
-    fn restore(&mut self, state: &Value) -> Result<(), String>;
+    fn restore(&mut self, state: &str) -> Result<(), String>;
 }
 
 /// The seed of a source, and how many levels it has chosen under it.
@@ -95,7 +94,13 @@ impl Numbering {
     }
 }
 
-/// Reads a part of a saved state.
-fn read<T: DeserializeOwned>(state: &Value) -> Result<T, String> {
-    T::deserialize(state).map_err(|why| why.to_string())
+/// A state as JSON.
+fn write(state: &impl Serialize) -> String {
+    // Numbers, texts and lists of them always have a form.
+    serde_json::to_string(state).unwrap_or_default()
+}
+
+/// Reads a saved state.
+fn read<T: DeserializeOwned>(state: &str) -> Result<T, String> {
+    serde_json::from_str(state).map_err(|why| why.to_string())
 }

@@ -2,10 +2,9 @@
 
 mod phase;
 
-use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario, read};
+use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario, read, write};
 use phase::{StagePhase, StageVerdict};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use setpiece_engine::batch::EpisodeSummary;
 use setpiece_engine::random::{Purpose, Stream};
 use setpiece_scenario::plan::{Adapt, Curriculum, CurriculumStage, StageHow};
@@ -149,11 +148,11 @@ impl LevelSource for CurriculumRun {
         &mut self.state.numbering
     }
 
-    fn save(&self) -> Value {
-        serde_json::json!(self.state)
+    fn save(&self) -> String {
+        write(&self.state)
     }
 
-    fn restore(&mut self, state: &Value) -> Result<(), String> {
+    fn restore(&mut self, state: &str) -> Result<(), String> {
         let state: CurriculumState = read(state)?;
         if state.stages != self.state.stages {
             let names = |stages: &[String]| format!("`{}`", stages.join("`, `"));

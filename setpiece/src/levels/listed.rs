@@ -1,7 +1,6 @@
 //! The levels of a list, one after the other.
 
-use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario, read};
-use serde_json::Value;
+use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario, read, write};
 use setpiece_engine::batch::EpisodeSummary;
 
 /// Plays a list of levels in its order, again and again.
@@ -38,11 +37,11 @@ impl LevelSource for ListedLevels {
         &mut self.numbering
     }
 
-    fn save(&self) -> Value {
-        serde_json::json!(self.numbering)
+    fn save(&self) -> String {
+        write(&self.numbering)
     }
 
-    fn restore(&mut self, state: &Value) -> Result<(), String> {
+    fn restore(&mut self, state: &str) -> Result<(), String> {
         self.numbering = read(state)?;
         Ok(())
     }

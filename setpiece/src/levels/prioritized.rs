@@ -4,9 +4,8 @@
 //! et al., No Regrets, 2024 (learnability); J. Parker-Holder et al., Evolving Curricula
 //! with Regret-Based Environment Design, 2022 (edited levels).
 
-use super::{ChosenLevel, LevelSource, Numbering, RandomizedLevels, SourcedScenario, read};
+use super::{ChosenLevel, LevelSource, Numbering, RandomizedLevels, SourcedScenario, read, write};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use setpiece_engine::batch::EpisodeSummary;
 use setpiece_engine::draw::mutate_params;
 use setpiece_engine::math::pow;
@@ -217,11 +216,11 @@ impl LevelSource for PrioritizedLevels {
         &mut self.state.numbering
     }
 
-    fn save(&self) -> Value {
-        serde_json::json!(self.state)
+    fn save(&self) -> String {
+        write(&self.state)
     }
 
-    fn restore(&mut self, state: &Value) -> Result<(), String> {
+    fn restore(&mut self, state: &str) -> Result<(), String> {
         let state: ReplayState = read(state)?;
         let params = self.fresh.params();
         let allowed = |kept: &KeptLevel| {

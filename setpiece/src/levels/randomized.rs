@@ -1,7 +1,6 @@
 //! Domain randomisation: every level draws parameters from what they may be.
 
-use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario, read};
-use serde_json::Value;
+use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario, read, write};
 use setpiece_engine::batch::EpisodeSummary;
 use setpiece_engine::draw::draw_params;
 use setpiece_scenario::plan::Played;
@@ -67,11 +66,11 @@ impl LevelSource for RandomizedLevels {
         &mut self.numbering
     }
 
-    fn save(&self) -> Value {
-        serde_json::json!(self.numbering)
+    fn save(&self) -> String {
+        write(&self.numbering)
     }
 
-    fn restore(&mut self, state: &Value) -> Result<(), String> {
+    fn restore(&mut self, state: &str) -> Result<(), String> {
         self.numbering = read(state)?;
         Ok(())
     }

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece._errors import Diagnostic
+from setpiece._parameter_space import ParameterSpace
 
 __all__ = [
     "ACTIONS",
@@ -159,6 +160,8 @@ class Scenario:
     def _has_digest(self, digest: str) -> bool: ...
     @property
     def params(self) -> MappingProxyType[str, Param]: ...
+    @property
+    def parameter_space(self) -> ParameterSpace: ...
     @property
     def rewards(self) -> list[str]: ...
     @property

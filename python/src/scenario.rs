@@ -90,6 +90,12 @@ impl Scenario {
         Ok(PyMappingProxy::new(py, params.as_mapping()))
     }
 
+    /// The space of the parameters that have a range or a list of values: a `ParameterSpace`.
+    #[getter]
+    fn parameter_space<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("setpiece._parameter_space")?.getattr("ParameterSpace")?.call1((slf,))
+    }
+
     /// The names of the rewards it pays, in the file's order.
     #[getter]
     fn rewards(&self) -> Vec<&str> {

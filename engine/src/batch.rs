@@ -88,6 +88,30 @@ pub struct EpisodeSummary {
     pub statistics: MatchStatistics,
 }
 
+impl EpisodeSummary {
+    /// The result of the episode that an environment has just played.
+    pub fn of(environment: &Environment) -> EpisodeSummary {
+        let outcome = environment.outcome();
+        let terms: Vec<Vec<f64>> = (0..environment.n_agents())
+            .map(|agent| environment.term_sums(agent).to_vec())
+            .collect();
+        EpisodeSummary {
+            index: environment.index(),
+            outcome: outcome.map(|outcome| outcome.label.to_string()).unwrap_or_default(),
+            verdict: outcome.and_then(|outcome| outcome.verdict),
+            truncated: outcome.is_some_and(|outcome| outcome.truncated),
+            length: environment.steps(),
+            score: environment.score(),
+            returns: terms.iter().map(|terms| terms.iter().sum()).collect(),
+            terms,
+            faults: environment.faults(),
+            records: environment.records().map(|(name, value)| (name.to_owned(), value)).collect(),
+            digest: environment.digest(),
+            statistics: environment.statistics().summary(),
+        }
+    }
+}
+
 /// Why an episode was not played to its end.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EpisodeError {
@@ -147,23 +171,7 @@ pub fn run_episode(
             return Err(EpisodeError::Endless(STEPS_MAX));
         }
     }
-    let outcome = environment.outcome();
-    let terms: Vec<Vec<f64>> =
-        (0..n_agents).map(|agent| environment.term_sums(agent).to_vec()).collect();
-    Ok(EpisodeSummary {
-        index,
-        outcome: outcome.map(|outcome| outcome.label.to_string()).unwrap_or_default(),
-        verdict: outcome.and_then(|outcome| outcome.verdict),
-        truncated: outcome.is_some_and(|outcome| outcome.truncated),
-        length: environment.steps(),
-        score: environment.score(),
-        returns: terms.iter().map(|terms| terms.iter().sum()).collect(),
-        terms,
-        faults: environment.faults(),
-        records: environment.records().map(|(name, value)| (name.to_owned(), value)).collect(),
-        digest: environment.digest(),
-        statistics: environment.statistics().summary(),
-    })
+    Ok(EpisodeSummary::of(environment))
 }
 
 /// Plays episodes on a new pool of threads.

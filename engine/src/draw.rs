@@ -8,7 +8,7 @@ mod params;
 mod place;
 mod roster;
 
-pub use params::draw_params;
+pub use params::{draw_params, mutate_params};
 pub(crate) use roster::player_name;
 pub use roster::{AgentsChoice, Roster, RosterError, SideChoice};
 

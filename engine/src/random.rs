@@ -26,6 +26,8 @@ pub enum Purpose {
     Params = 7,
     /// Resampling of results.
     Resample = 8,
+    /// What a source of levels chooses.
+    Level = 9,
 }
 
 /// The most proposals of one draw. That all of them are rejected is less likely than a hardware

@@ -12,6 +12,7 @@ Importing the package registers every scenario of the library with Gymnasium:
 >>> env = gymnasium.make("setpiece/academy_3_vs_1_with_keeper-v0")
 """
 
+from setpiece import samplers
 from setpiece._callbacks import Step
 from setpiece._environment import FootballEnv
 from setpiece._errors import (
@@ -37,6 +38,7 @@ from setpiece._errors import (
     UnavailableError,
     UnknownScenarioError,
 )
+from setpiece._levels import Curriculum, LevelResult, curriculum
 from setpiece._library import Entry, list, register_envs
 from setpiece._make import make
 from setpiece._native import Param, Scenario, __version__, compile
@@ -57,6 +59,7 @@ __all__ = [
     "ActionError",
     "CallbackError",
     "CompileError",
+    "Curriculum",
     "Diagnostic",
     "DrawError",
     "Entry",
@@ -69,6 +72,7 @@ __all__ = [
     "InUseError",
     "Label",
     "LevelError",
+    "LevelResult",
     "MissingPackageError",
     "Moment",
     "OpponentError",
@@ -92,6 +96,7 @@ __all__ = [
     "UnknownScenarioError",
     "__version__",
     "compile",
+    "curriculum",
     "list",
     "load",
     "make",
@@ -102,6 +107,7 @@ __all__ = [
     "play",
     "register_envs",
     "register_pettingzoo",
+    "samplers",
     "studio",
 ]
 

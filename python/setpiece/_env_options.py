@@ -46,7 +46,6 @@ class VectorArguments(TypedDict, total=False):
     opponents: Mapping[str, Opponent] | None
     observation: str
     rewards: Rewards
-    params: Mapping[str, ParamValue] | None
     seed: int | None
     copy: bool
     render_mode: str | None
@@ -60,7 +59,13 @@ class VectorArguments(TypedDict, total=False):
     allow_outside: bool
 
 
-class EnvArguments(VectorArguments, total=False):
+class SharedArguments(VectorArguments, total=False):
+    """The same with parameters, which a vector may have for each environment."""
+
+    params: Mapping[str, ParamValue] | None
+
+
+class EnvArguments(SharedArguments, total=False):
     """A single environment's arguments, except those for files."""
 
     ends: Ends

@@ -155,7 +155,7 @@ class SnapshotError(SetpieceError, ValueError):
 
 
 class LevelError(SetpieceError, ValueError):
-    """A level is of another scenario, or of another version of it."""
+    """A level is of another scenario, of another version of it, or doesn't fit its vector."""
 
 
 class ActionError(SetpieceError, ValueError):
@@ -201,7 +201,7 @@ class OpponentError(SetpieceError, RuntimeError):
 
 
 class CallbackError(SetpieceError, RuntimeError):
-    """A reward or ending in Python failed.
+    """A reward, an ending or a function of levels in Python failed.
 
     It raised (`__cause__`), returned something that isn't a payment or verdict, or can't be copied
     with its environment; or an `on_reload` raised. `function` names it; `agent` is the agent whose

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from setpiece._errors import ParameterError
 from setpiece._level import Level, read_level
-from setpiece._native import Scenario
 from setpiece._options import (
     NUMBER_MAX,
     ParamValue,
@@ -63,37 +62,52 @@ class VectorReset:
 
     mask: NDArray[np.bool_]
     seeds: list[int | None] | None
-    episodes: list[int | None]
-    params: list[dict[str, ParamValue] | None]
+    episode: int | None
+    params: list[dict[str, ParamValue] | None] | None
+    levels: list[Level | None] | None
 
 
-def read_vector_reset(
-    seed: object, options: object, num_envs: int, scenario: Scenario
-) -> VectorReset:
-    """Returns what the `reset` of a vector that plays a scenario is asked for.
+def read_vector_reset(seed: object, options: object, num_envs: int, *, levels: bool) -> VectorReset:
+    """Returns what a vector's `reset` is asked for, or raises `ParameterError`.
 
-    Raises `ParameterError`, or `LevelError` for a level of another scenario.
+    `levels`: whether the vector has a source of levels, which chooses parameters and episodes.
     """
     given = check_keys(_mapping(options), VECTOR_RESET_OPTIONS)
     mask = _mask(given.get("reset_mask"), num_envs)
     if given.get("level") is None:
+        if levels:
+            _sourced(seed, given)
         return VectorReset(
             mask,
             None if seed is None else read_seeds(seed, num_envs),
-            [_episode(given)] * num_envs,
-            [check_params(given.get("params"))] * num_envs,
+            _episode(given),
+            read_each_params(given.get("params"), num_envs),
+            None,
         )
     _alone(seed, given, ("episode", "params"))
-    levels = _levels(given["level"], mask)
-    for level in levels:
-        if level is not None:
-            level.check(scenario)
-    return VectorReset(
-        mask,
-        [None if level is None else level.seed for level in levels],
-        [None if level is None else level.episode for level in levels],
-        [None if level is None else level.params for level in levels],
-    )
+    return VectorReset(mask, None, None, None, _levels(given["level"], mask))
+
+
+def _sourced(seed: object, given: Mapping[str, Any]) -> None:
+    """Refuses what a source of levels chooses."""
+    if seed is not None and not isinstance(seed, int | np.integer):
+        raise ParameterError("the levels of a vector have one seed", name="seed")
+    for name in ("episode", "params"):
+        if given.get(name) is not None:
+            raise ParameterError(f"`levels` of the vector chooses `{name}`", name=name)
+
+
+def read_each_params(params: object, num_envs: int) -> list[dict[str, ParamValue] | None] | None:
+    """Returns parameters for each environment, None without any, or raises `ParameterError`."""
+    if not isinstance(params, list | tuple):
+        one = check_params(params)
+        return None if one is None else [one] * num_envs
+    each = [check_params(one) for one in params]
+    if len(each) != num_envs:
+        raise ParameterError(
+            f"expected parameters of {num_envs} environments, found {len(each)}", name="params"
+        )
+    return each
 
 
 def _mapping(options: object) -> Mapping[str, Any]:

@@ -20,12 +20,21 @@ from setpiece._callbacks import Rewards, refuse_functions
 from setpiece._casting import scripted_scenario
 from setpiece._crowd import Crowd
 from setpiece._endings import endings
-from setpiece._env_options import RENDER_MODES, EnvOptions, VectorArguments
+from setpiece._env_options import RENDER_MODES, EnvOptions, SharedArguments, VectorArguments
 from setpiece._environment import FootballEnv, Mirror
 from setpiece._errors import ActionError, ParameterError, ReplayError, UnavailableError
+from setpiece._level import Level
+from setpiece._levels import (
+    FunctionLevels,
+    GivenLevel,
+    LevelsArgument,
+    LevelSource,
+    read_levels,
+)
+from setpiece._native import Scenario
 from setpiece._opponents import Opponent, Table
 from setpiece._options import ParamValue
-from setpiece._reset import read_seeds, read_vector_reset
+from setpiece._reset import read_each_params, read_seeds, read_vector_reset
 from setpiece._rows import Picker
 from setpiece._seats import Seats
 from setpiece._source import Source
@@ -42,8 +51,11 @@ ENVS_MAX = 65_536
 THREADS_MAX = 1_024
 """The most threads of a vector."""
 
-TOGETHER = ("threads", "autoreset_mode")
+TOGETHER = ("threads", "autoreset_mode", "levels")
 """Arguments of a vector that a single environment doesn't have."""
+
+Params = Mapping[str, ParamValue] | Sequence[Mapping[str, ParamValue]] | None
+"""Parameters of all environments, or of each."""
 
 
 class FootballVectorEnv(VectorEnv[Any, Any, Any]):
@@ -82,15 +94,17 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         threads: int | None = None,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         record: str | PathLike[str] | None = None,
+        levels: LevelsArgument | None = None,
+        params: Params = None,
         **arguments: Unpack[VectorArguments],
     ) -> None:
         """Makes the environments; the arguments are those of `setpiece.make_vec`."""
-        options = EnvOptions.read(arguments, VectorArguments)
+        each = isinstance(params, list | tuple)
+        shared = {} if each else {"params": params}
+        options = EnvOptions.read({**arguments, **shared}, SharedArguments)
         self.source = scenario
         self.mirrors: list[Mirror] = []
         self._acts: list[Any] | None = None
-        self._bound: dict[str, ParamValue] = {}
-        self._began: dict[str, ParamValue] = {}
         refuse_functions(options.reward_functions)
         if record is not None:
             raise UnavailableError(
@@ -112,13 +126,18 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self.scenario = scripted_scenario(scenario, options, options.params).with_params(
             **options.params
         )
+        self.level_source: LevelSource | None = None
+        chosen = self._read_levels(levels, params)
         self._batch = _native.Batch(
             self.scenario,
             self.num_envs,
             options,
             threads=threads,
             next_step=self.autoreset_mode == AutoresetMode.NEXT_STEP,
+            levels=chosen,
         )
+        if each:
+            self._batch.bind(read_each_params(params, self.num_envs) or [])
         agents, self._n_actions = self._batch.agents, _native.ACTION_SETS[options.action_set]
         mine = [*range(len(agents))]
         self._crowd = None
@@ -171,28 +190,33 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         and the episodes continue; `DrawError` if no start meets the scenario's requirements.
         """
         with self._turn:
-            wanted = read_vector_reset(seed, options, self.num_envs, self.scenario)
-            mask = wanted.mask
+            wanted = read_vector_reset(seed, options, self.num_envs, levels=self._chosen)
+            mask, seeds = wanted.mask, wanted.seeds
             if not self._begun and not mask.all():
                 raise ParameterError(
                     "the first `reset` begins an episode of every environment", name="reset_mask"
                 )
-            seeds = wanted.seeds
-            if seeds is None and not self._begun:
+            if wanted.levels is not None:
+                self._batch.assign(self._given(wanted.levels))
+            elif seed is None and self._unseeded():
                 seed = self._options.seed
                 if seed is None:
                     seed = int(self.np_random.integers(2**62))
                 seeds = read_seeds(seed, self.num_envs)
             super().reset(seed=seed if isinstance(seed, int) and seed < 2**63 else None)
+            if self._chosen and seeds is not None:
+                # The source numbers all levels under one seed.
+                if self.level_source is not None:
+                    self.level_source.reseed(seeds[0] or 0)
+                seeds = None
             with one_thread:
-                if any(params is not None for params in wanted.params):
+                if wanted.params is not None:
                     self._batch.bind(wanted.params)
-                    self._bound = self._bound if wanted.params[0] is None else wanted.params[0]
                 self._batch.reset(
                     self._arrays,
                     mask.tolist(),
                     [None] * self.num_envs if seeds is None else seeds,
-                    wanted.episodes,
+                    [wanted.episode] * self.num_envs,
                     False,
                 )
             self._begun = True
@@ -258,6 +282,17 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         with one_thread:
             return observation_layout(self._batch, self._options.observation, self._options.stack)
 
+    @property
+    def levels(self) -> list[str]:
+        """The level that each environment plays, as text.
+
+        Raises `ResetNeeded` before the first `reset`.
+        """
+        if not self._begun:
+            raise gymnasium.error.ResetNeeded("call `reset` first: no level is being played")
+        with one_thread:
+            return self._batch.levels
+
     def action_masks(self) -> NDArray[np.int8]:
         """Returns the current `infos["action_mask"]`."""
         masks: NDArray[np.int8] = self._of_agents(self._arrays.masks)[..., : self._n_actions].copy()
@@ -285,6 +320,50 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             self._window = Window(self.scenario.name, self.metadata["render_fps"])
         self._window.show(mosaic([*frames]))
         return None
+
+    def _read_levels(
+        self, levels: LevelsArgument | None, params: Params
+    ) -> _native.Levels | FunctionLevels | None:
+        """Where the levels come from; `level_source` is set if it is one of the package."""
+        self._chosen = levels is not None
+        if levels is None:
+            return None
+        options = self._options
+        chosen = read_levels(levels, self.source, self._load, options.allow_outside)
+        if isinstance(chosen, FunctionLevels):
+            if isinstance(params, list | tuple):
+                raise ParameterError("the function chooses the parameters", name="params")
+            return chosen
+        if params is not None and not isinstance(levels, list | tuple):
+            raise ParameterError(
+                "`levels` chooses the parameters",
+                name="params",
+                help="bind them in the curriculum, or in the scenario of the sampler",
+            )
+        self.level_source = chosen
+        return chosen.native
+
+    def _load(self, name: str) -> Scenario:
+        """The scenario of a level's name: the vector's own, or one of the library."""
+        if name == self.scenario.name:
+            return self.scenario
+        return scripted_scenario(name, self._options, {})
+
+    def _given(self, levels: Sequence[Level | None]) -> list[GivenLevel | None]:
+        """Levels with their scenarios, which the vector knows."""
+        known: dict[str, Scenario] = {}
+        for scenario in self._batch.scenarios:
+            known.setdefault(scenario.name, scenario)
+        return [
+            None
+            if level is None
+            else GivenLevel.of(level, known.get(level.scenario, self.scenario))
+            for level in levels
+        ]
+
+    def _unseeded(self) -> bool:
+        """Whether nobody has given a seed yet."""
+        return not self._begun if self.level_source is None else self.level_source.seed is None
 
     def _read(self, given: Any) -> NDArray[Any]:
         """Everyone's actions: the caller's and the opponents'; the batch reads the numbers."""
@@ -331,18 +410,18 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _tell(self, infos: dict[str, Any], over: NDArray[np.bool_]) -> None:
         """Adds how episodes have ended."""
         ended = endings(self._batch, over, self._part, self._n_actions)
-        ended["setpiece"]["scenario"] = np.full(self.num_envs, self.scenario.digest, dtype=object)
         for key, value in ended.items():
             infos[key], infos[f"_{key}"] = value, over.copy()
         if over[0] and self.mirrors:
             acts = self._acts
             seed, index = ended["setpiece"]["seed"][0], ended["setpiece"]["index"][0]
+            played = self._batch.played(0)
             for mirror in self.mirrors:
-                mirror(lambda: self._replay(acts, seed, index))
+                mirror(lambda: self._replay(acts, played, seed, index))
 
     def _watch(self) -> None:
         """Begins an episode of the first environment, for those who watch it."""
-        self._acts, self._began = ([] if self.mirrors else None), self._bound
+        self._acts = [] if self.mirrors else None
 
     def _keep(self, actions: Any) -> None:
         """Keeps the actions of the first environment while somebody watches it."""
@@ -355,16 +434,23 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         elif self._acts is not None:
             self._acts.append(np.asarray(actions)[0].copy())
 
-    def _replay(self, acts: list[Any] | None, seed: int, index: int) -> bytes:
+    def _replay(
+        self,
+        acts: list[Any] | None,
+        played: tuple[Scenario, dict[str, ParamValue]] | None,
+        seed: int,
+        index: int,
+    ) -> bytes:
         """Plays an episode of the first environment again; returns its replay.
 
         Raises `ReplayError` if its beginning has not been seen.
         """
-        if acts is None:
+        if acts is None or played is None:
             raise ReplayError("the episode began before it was watched")
-        native = _native.Environment(self.scenario, self._options)
+        scenario, params = played
+        native = _native.Environment(scenario, self._options)
         with one_thread:
-            native.reset(int(seed), int(index), self._began, None)
+            native.reset(int(seed), int(index), params, None)
             for action in acts:
                 native.step(action)
             return native.replay()
@@ -413,7 +499,8 @@ def make_vec(
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     observation: str = "simple115v2",
     rewards: Rewards = None,
-    params: Mapping[str, ParamValue] | None = None,
+    params: Params = None,
+    levels: LevelsArgument | None = None,
     seed: int | None = None,
     copy: bool = True,
     action_set: str = "default",
@@ -437,6 +524,20 @@ def make_vec(
     - `copy`: False returns the same array of observations every time, overwritten by the next
       `step`.
     - `record`: only for single environments; here it raises `UnavailableError`.
+    - `params`: as in `setpiece.make`, or a list with those of each environment.
+    - `levels`: what chooses the scenario, the parameters and the seed of every episode. An
+      environment that begins takes the next level; which environment has which doesn't depend on
+      the threads. `levels` of the vector names those that are played.
+      - a curriculum: its name in the scenario's file or in the library, the path of a file, or
+        `setpiece.curriculum(…)`;
+      - a sampler of `setpiece.samplers`;
+      - a list of levels, as texts or dicts, which begins again after its end;
+      - a function from the `LevelResult` of an environment's last level, None before the first, to
+        its next level.
+
+      `level_source` is the curriculum or the sampler, with `state_dict`. All scenarios must have the
+      same spaces (`LevelError`); their reward terms are listed together. An integer `reset(seed=s)`
+      seeds the source, which keeps what it has measured; `seed` is for a source that has none.
     - `opponents`: called once for all environments: a policy with batches sees `num_envs` rows for
       each of its agents.
     - The rest is as in `setpiece.make`. Raw observations, and rewards and endings in Python, are
@@ -471,7 +572,10 @@ def one_of(**kwargs: Any) -> FootballEnv:
 
     `envs.spec.make()` calls it.
     """
-    return FootballEnv(**{name: value for name, value in kwargs.items() if name not in TOGETHER})
+    arguments = {name: value for name, value in kwargs.items() if name not in TOGETHER}
+    if isinstance(arguments.get("params"), list | tuple):
+        arguments["params"] = arguments["params"][0]
+    return FootballEnv(**arguments)
 
 
 def _count(name: str, value: object, most: int) -> int:

@@ -184,7 +184,7 @@ def make_vec(
     threads: int | None = None,
     **kwargs: Any,
 ) -> Sb3VecEnv:
-    """Makes a `VecEnv` of n environments; `kwargs` are those of `setpiece.make`.
+    """Makes a `VecEnv` of n environments; `kwargs` are those of `setpiece.make`, and `levels`.
 
     - `seed`: the seed of the first environment's first episode; the others have consecutive ones.
     - `threads`: the number of threads; None: one per core. Results don't depend on it.
@@ -203,13 +203,18 @@ def make_vec(
             f"`num_envs` is {num_envs!r}; expected a count of at least 1", name="num_envs"
         )
     envs: VectorEnv[Any, Any, Any]
-    # A file that is watched, or played by behaviours, must stay a file.
-    if not kwargs.get("watch") and not behaviors(kwargs.get("opponents")):
+    # A file that is watched, played by behaviours, or asked for a curriculum must stay a file.
+    levels = kwargs.get("levels")
+    if not kwargs.get("watch") and not behaviors(kwargs.get("opponents")) and levels is None:
         scenario = load(
             scenario, allow_outside=check_flag("allow_outside", kwargs.get("allow_outside", False))
         )
     alone = any(kwargs.get(name) for name in ALONE) or bool(read_rewards(kwargs.get("rewards"))[1])
     if kwargs.get("observation") == "raw" or alone:
+        if levels is not None:
+            raise ParameterError(
+                "only a batch takes `levels`, and single environments are needed", name="levels"
+            )
         envs = SyncVectorEnv(
             [lambda: _alone(scenario, kwargs)] * num_envs, autoreset_mode=AutoresetMode.SAME_STEP
         )

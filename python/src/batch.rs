@@ -4,6 +4,8 @@
 //! place, on a few threads, without the interpreter.
 
 mod lane;
+mod levels;
+mod stage;
 
 use crate::actions::{self, ActionSet, GivenAction};
 use crate::environment::{
@@ -14,21 +16,25 @@ use crate::info::records;
 use crate::level;
 use crate::observation::{self, BlockInfo, ObservationForm, ObservationKind, Observer, Wanted};
 use crate::options::EnvOptions;
-use crate::params::bind;
+use crate::params::{bind, to_python};
 use crate::picture::Frames;
 use crate::scenario::Scenario;
-use lane::{BatchLane, BatchRow, NewestObservations, Rows};
+use lane::{BatchLane, BatchRow, LaneFailure, NewestObservations, Rows};
+use levels::{BatchStages, GivenLevel, LevelsArgument, LevelsOfBatch, from_unfit};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use setpiece::engine::batch::Batch as Lanes;
-use setpiece::engine::environment::{ResetError, Scratch};
+use setpiece::engine::batch::{Batch as Lanes, EpisodeSummary};
+use setpiece::engine::environment::Scratch;
 use setpiece::scenario::{Action, Bindings, Verdict};
+use std::sync::PoisonError;
 
 /// Several matches of one scenario that are stepped together.
 #[pyclass(module = "setpiece._native")]
 pub(crate) struct Batch {
     lanes: Lanes<BatchLane>,
+    stages: BatchStages,
+    source: Option<LevelsOfBatch>,
     kind: ObservationKind,
     stack: usize,
     action_set: ActionSet,
@@ -65,17 +71,20 @@ pub(crate) struct Arrays {
 #[pymethods]
 impl Batch {
     #[new]
-    #[pyo3(signature = (scenario, n, options, *, threads, next_step))]
+    #[pyo3(signature = (scenario, n, options, *, threads, next_step, levels = None))]
     fn new(
         py: Python<'_>,
         scenario: &Scenario,
         n: usize,
-        options: EnvOptions<'_>,
+        options: &Bound<'_, PyAny>,
         threads: usize,
         next_step: bool,
+        levels: Option<LevelsArgument<'_>>,
     ) -> PyResult<Batch> {
-        let Prepared { engine, kind, action_set } = prepare(py, scenario, &options)?;
-        let shown = options.shown();
+        let given: EnvOptions<'_> = options.extract()?;
+        let Prepared { engine, kind, action_set } = prepare(py, scenario.inner(), &given)?;
+        let shown = given.shown();
+        let (stages, source) = BatchStages::new(py, engine.clone(), kind, options, levels)?;
         let acts = vec![GivenAction::IDLE; n * engine.n_agents()];
         let lane = || {
             let film = NewestObservations::new(py, kind, &engine, shown)?.ok_or_else(|| {
@@ -85,13 +94,17 @@ impl Batch {
             })?;
             let engine = engine.clone();
             let played = engine.bindings().clone();
-            Ok(BatchLane { engine, film, played, over: true, fault: None, broken: None })
+            let stage = stages.first().clone();
+            let (upcoming, chosen, failure) = (None, None, None);
+            Ok(BatchLane { engine, stage, upcoming, chosen, film, played, over: true, failure })
         };
         let all: PyResult<Vec<BatchLane>> = (0..n).map(|_| lane()).collect();
         let lanes = Lanes::new(all?, threads)
             .map_err(|why| errors::raise_plain(py, "SetpieceError", &why.to_string()))?;
         Ok(Batch {
             lanes,
+            stages,
+            source,
             kind,
             stack: shown.stack,
             action_set,
@@ -153,7 +166,7 @@ impl Batch {
     /// The names of the reward terms, in the order of the arrays.
     #[getter]
     fn terms(&self) -> Vec<String> {
-        self.lanes.lanes().first().map(|lane| lane.engine.term_names().to_vec()).unwrap_or_default()
+        self.stages.terms().to_vec()
     }
 
     /// New arrays for this batch.
@@ -169,7 +182,7 @@ impl Batch {
             ObservationKind::Floats(_) => PyArrayDyn::<f32>::zeros(py, shape, false).into_any(),
             _ => PyArrayDyn::<u8>::zeros(py, shape, false).into_any(),
         };
-        let terms = lane.engine.term_names().len();
+        let terms = self.stages.terms().len();
         Ok(Arrays {
             observations: observations.unbind(),
             rewards: PyArray2::zeros(py, [n, agents], false).unbind(),
@@ -206,9 +219,57 @@ impl Batch {
         Ok(())
     }
 
-    /// Begins episodes of the environments that `which` marks, each with its seed, or with its next
-    /// index. With `keep` the arrays still show how the last episode ended, next to the first
-    /// observation of the new one.
+    /// The scenarios that have been named so far; the first is the one that it was made of.
+    #[getter]
+    fn scenarios(&self, py: Python<'_>) -> Vec<Scenario> {
+        self.stages.scenarios(py)
+    }
+
+    /// The levels that are played, as text.
+    #[getter]
+    fn levels(&self) -> Vec<String> {
+        let text = |lane: &BatchLane| level::of_episode(&lane.engine, &lane.played);
+        self.lanes.lanes().iter().map(text).collect()
+    }
+
+    /// The scenario and the parameters of an environment's episode.
+    fn played<'py>(
+        &self,
+        py: Python<'py>,
+        at: usize,
+    ) -> PyResult<Option<(Scenario, Bound<'py, PyDict>)>> {
+        let Some(lane) = self.lanes.lanes().get(at) else { return Ok(None) };
+        let scenario = lane.engine.scenario().clone();
+        let values = PyDict::new(py);
+        for (param, &value) in scenario.params.iter().zip(&lane.played.0) {
+            values.set_item(&param.name, to_python(py, param, value)?)?;
+        }
+        Ok(Some((Scenario::of(py, scenario), values)))
+    }
+
+    /// Sets the levels that environments begin next; of all or, if it fails, of none.
+    fn assign(&mut self, py: Python<'_>, levels: Vec<Option<GivenLevel<'_>>>) -> PyResult<()> {
+        let mut upcoming = Vec::with_capacity(levels.len());
+        for given in &levels {
+            let level = given.as_ref().map(|given| self.stages.upcoming(py, given)).transpose()?;
+            if let Some(level) = &level {
+                let mut engine = level.stage.engine.clone();
+                let bound = level.stage.bind(&mut engine, &level.bindings);
+                bound.map_err(|why| from_unfit(py, &engine, why))?;
+            }
+            upcoming.push(level);
+        }
+        for (lane, level) in self.lanes.lanes_mut().iter_mut().zip(upcoming) {
+            if level.is_some() {
+                lane.upcoming = level;
+            }
+        }
+        Ok(())
+    }
+
+    /// Begins episodes of the environments that `which` marks, each with its level if one is set,
+    /// with its seed, with the next level of the source, or with its next index. With `keep` the
+    /// arrays still show how the last episode ended, next to the first observation of the new one.
     fn reset(
         &mut self,
         py: Python<'_>,
@@ -232,6 +293,7 @@ impl Batch {
             ));
         }
         let action_set = self.action_set;
+        self.ask(py, |at, _| matches!(order[at], (true, None, None)))?;
         self.each(py, arrays, |at, lane, row, _| {
             let (which, seed, index) = order[at];
             if which {
@@ -253,12 +315,16 @@ impl Batch {
             );
             return Err(errors::raise_plain(py, "SetpieceError", &message));
         }
+        if next_step {
+            self.ask(py, |_, lane| lane.over)?;
+        }
         let acts = std::mem::take(&mut self.acts);
         let played = self.each(py, arrays, |at, lane, row, scratch| {
             lane.step(&acts[at * agents..(at + 1) * agents], next_step, action_set, row, scratch);
         });
         self.acts = acts;
         played?;
+        self.report();
         self.raise_failure(py)
     }
 
@@ -276,10 +342,15 @@ impl Batch {
         dict.set_item("seed", engine.seed())?;
         dict.set_item("index", engine.index())?;
         dict.set_item("level", level::of_episode(engine, &lane.played))?;
+        dict.set_item("scenario", format!("{:016x}", engine.scenario_digest()))?;
         dict.set_item("digest", format!("{:016x}", engine.digest()))?;
         dict.set_item("faults", engine.faults())?;
-        let sums: PyResult<Vec<_>> =
-            (0..engine.n_agents()).map(|agent| PyList::new(py, engine.term_sums(agent))).collect();
+        let sums = |agent| {
+            let mut row = vec![0.0; self.stages.terms().len()];
+            lane.stage.enter(engine.term_sums(agent), &mut row);
+            PyList::new(py, row)
+        };
+        let sums: PyResult<Vec<_>> = (0..engine.n_agents()).map(sums).collect();
         dict.set_item("return", PyList::new(py, sums?)?)?;
         Ok(Some(dict))
     }
@@ -442,17 +513,57 @@ impl Batch {
         Ok(())
     }
 
+    /// Asks the source for the levels of some environments that have none yet.
+    fn ask(&mut self, py: Python<'_>, which: impl Fn(usize, &BatchLane) -> bool) -> PyResult<()> {
+        let Some(source) = self.source.take() else { return Ok(()) };
+        let lanes = self.lanes.lanes().iter().enumerate();
+        let begin: Vec<usize> = lanes
+            .filter(|(at, lane)| lane.upcoming.is_none() && which(*at, lane))
+            .map(|(at, _)| at)
+            .collect();
+        let results: PyResult<Vec<Py<PyAny>>> = match &source {
+            LevelsOfBatch::Ours(..) => Ok(Vec::new()),
+            LevelsOfBatch::Function(_) => begin.iter().map(|&at| self.result(py, at)).collect(),
+        };
+        let lanes = self.lanes.lanes_mut();
+        let asked = results.and_then(|results| {
+            let begun = |at: usize, level| lanes[at].upcoming = Some(level);
+            source.ask(py, &mut self.stages, &begin, &results, begun)
+        });
+        self.source = Some(source);
+        asked
+    }
+
+    /// How an environment's episode has ended, None before it has.
+    fn result(&self, py: Python<'_>, at: usize) -> PyResult<Py<PyAny>> {
+        Ok(self.summary(py, at)?.map_or_else(|| py.None(), |dict| dict.into_any().unbind()))
+    }
+
+    /// Tells the source how levels have ended, in the order of the environments.
+    fn report(&mut self) {
+        let Some(LevelsOfBatch::Ours(source, _)) = &self.source else { return };
+        let ended = self.lanes.lanes_mut().iter_mut().filter(|lane| lane.over);
+        let mut source = source.lock().unwrap_or_else(PoisonError::into_inner);
+        for lane in ended {
+            // An episode that has failed has no outcome, and says nothing.
+            if let (Some(chosen), Some(_)) = (lane.chosen.take(), lane.engine.outcome()) {
+                let episode = EpisodeSummary::of(&lane.engine);
+                source.report(&chosen, &episode, lane.engine.term_names());
+            }
+        }
+    }
+
     /// Raises the failure of the first environment that failed in a step. Its episode has ended;
     /// the others have been played.
     fn raise_failure(&mut self, py: Python<'_>) -> PyResult<()> {
         let mut first = None;
         for lane in self.lanes.lanes_mut() {
-            let broken = lane.broken.take().map(|why| from_episode(py, why.into()));
-            let fault = lane.fault.take().map(|why| match why {
-                ResetError::Draw(why) => from_episode(py, why.into()),
-                ResetError::Snapshot(why) => crate::environment::from_snapshot(py, why),
+            let failure = lane.failure.take().map(|why| match why {
+                LaneFailure::Step(why) => from_episode(py, why.into()),
+                LaneFailure::Draw(why) => from_episode(py, why.into()),
+                LaneFailure::Level(why) => from_unfit(py, &lane.engine, why),
             });
-            first = first.or(broken).or(fault);
+            first = first.or(failure);
         }
         first.map_or(Ok(()), Err)
     }

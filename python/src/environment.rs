@@ -26,7 +26,8 @@ use setpiece::engine::snapshot::SnapshotError;
 use setpiece::engine::state::PlayerId;
 use setpiece::replay::{Recorder, Replay as Recording};
 use setpiece::scenario::pitch::TEAM_MAX;
-use setpiece::scenario::{Action, Team, Verdict};
+use setpiece::scenario::{self as compiled, Action, Team, Verdict};
+use std::sync::Arc;
 
 /// Width and height of GRF's super mini map.
 pub(crate) const SMM_SIZE: (usize, usize) = (SMM_WIDTH, SMM_HEIGHT);
@@ -74,7 +75,7 @@ pub(crate) struct Environment {
 impl Environment {
     #[new]
     fn new(py: Python<'_>, scenario: &Scenario, options: EnvOptions<'_>) -> PyResult<Environment> {
-        let Prepared { engine, kind, action_set } = prepare(py, scenario, &options)?;
+        let Prepared { engine, kind, action_set } = prepare(py, scenario.inner(), &options)?;
         let info = InfoOptions {
             actions: action_set,
             events: options.events,
@@ -444,12 +445,12 @@ pub(crate) struct Prepared {
 /// Creates the validated engine of a scenario with its agents, observation and action set.
 pub(crate) fn prepare(
     py: Python<'_>,
-    scenario: &Scenario,
+    scenario: &Arc<compiled::Scenario>,
     options: &EnvOptions<'_>,
 ) -> PyResult<Prepared> {
     let (rewards, agents) = (options.rewards.clone(), read_seats(py, &options.seats())?);
     let engine = Engine::new(
-        scenario.inner().clone(),
+        scenario.clone(),
         EnvironmentOptions { rewards, agents, ..EnvironmentOptions::default() },
     )
     .map_err(|error| from_engine(py, error))?;

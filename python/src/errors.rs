@@ -113,6 +113,10 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
             fields.set_item("name", "opponents")?;
             "ParameterError"
         }
+        Error::NoPlan { .. } => {
+            fields.set_item("name", "levels")?;
+            "ParameterError"
+        }
         Error::Level { .. } => "LevelError",
         Error::Threads(_) | Error::NoStep { .. } => "SetpieceError",
         Error::Format { .. } | Error::Compile(_) => "FormatError",
@@ -161,6 +165,18 @@ pub(crate) fn parameter(py: Python<'_>, name: &str, message: &str) -> PyErr {
         .and_then(|()| fields.set_item("code", Code::BadParameter.to_string()))
     {
         Ok(()) => raise(py, "ParameterError", message, &fields),
+        Err(error) => error,
+    }
+}
+
+/// A `LevelError` for a level that doesn't fit its vector.
+pub(crate) fn level(py: Python<'_>, message: &str, help: &str) -> PyErr {
+    let fields = PyDict::new(py);
+    let made = fields
+        .set_item("help", help)
+        .and_then(|()| fields.set_item("code", Code::OtherSpaces.to_string()));
+    match made {
+        Ok(()) => raise(py, "LevelError", message, &fields),
         Err(error) => error,
     }
 }

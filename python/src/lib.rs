@@ -8,6 +8,7 @@ mod errors;
 mod given;
 mod info;
 mod level;
+mod levels;
 mod live;
 mod observation;
 mod options;
@@ -37,6 +38,8 @@ mod _native {
     use crate::environment::{AgentInfo, Environment, EpisodeKey, agents};
     #[pymodule_export]
     use crate::level::level;
+    #[pymodule_export]
+    use crate::levels::Levels;
     #[pymodule_export]
     use crate::live::Live;
     #[pymodule_export]

@@ -26,8 +26,8 @@ impl Scenario {
     }
 
     /// A scenario without warnings.
-    pub(crate) fn of(py: Python<'_>, inner: compiled::Scenario) -> Scenario {
-        let inner = Arc::new(inner);
+    pub(crate) fn of(py: Python<'_>, inner: impl Into<Arc<compiled::Scenario>>) -> Scenario {
+        let inner = inner.into();
         Scenario { unbound: inner.clone(), inner, warnings: PyList::empty(py).unbind() }
     }
 
@@ -88,6 +88,12 @@ impl Scenario {
             params.set_item(&param.name, Param::new(param.clone()).into_pyobject(py)?)?;
         }
         Ok(PyMappingProxy::new(py, params.as_mapping()))
+    }
+
+    /// The space of the parameters that have a range or a list of values: a `ParameterSpace`.
+    #[getter]
+    fn parameter_space<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("setpiece._parameter_space")?.getattr("ParameterSpace")?.call1((slf,))
     }
 
     /// The names of the rewards it pays, in the file's order.

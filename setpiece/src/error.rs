@@ -64,6 +64,17 @@ pub enum Error {
         /// How the scenario differs.
         why: LevelFault,
     },
+    /// There is no such suite or curriculum.
+    NoPlan {
+        /// What is wanted: `suite`, `curriculum`.
+        what: &'static str,
+        /// The requested name; none for the only one of a file.
+        name: Option<String>,
+        /// The names that exist.
+        known: Vec<String>,
+        /// A similar name, if any.
+        similar: Option<String>,
+    },
     /// A parameter can't be bound.
     Param {
         /// The reason.
@@ -205,6 +216,7 @@ impl Error {
             Error::NoStep { .. } => Code::NoStep,
             Error::Threads(_) => Code::NoThreads,
             Error::Level { .. } => Code::OtherLevel,
+            Error::NoPlan { .. } => Code::NoPlans,
         }
     }
 
@@ -217,7 +229,8 @@ impl Error {
                 Some("`setpiece list` shows the scenarios; a file's path ends in .pitch".to_owned())
             }
             Error::File { why: FileFault::Missing { similar }, .. }
-            | Error::Param { similar, .. } => {
+            | Error::Param { similar, .. }
+            | Error::NoPlan { similar, name: Some(_), .. } => {
                 similar.as_ref().map(meant)
             }
             Error::File { why: FileFault::Directory, .. } => Some("name a file in it".to_owned()),
@@ -253,6 +266,9 @@ impl Error {
                 "leave out the level's `digest` to play it all the same; the episode may differ"
                     .to_owned(),
             ),
+            Error::NoPlan { name: None, known, .. } if known.len() > 1 => {
+                Some("name one of them".to_owned())
+            }
             Error::Level { why: LevelFault::Unknown, .. } => Some(
                 "name the file that holds it: `setpiece run FILE.pitch --level …`".to_owned(),
             ),
@@ -333,6 +349,16 @@ impl std::fmt::Display for Error {
                 write!(f, "there is no step {step}: the episode has {length} steps")
             }
             Error::Threads(why) => f.write_str(why),
+            Error::NoPlan { what, name, known, .. } => {
+                match name {
+                    Some(name) => write!(f, "no {what} is called `{name}`")?,
+                    None => write!(f, "expected one {what}, found {}", known.len())?,
+                }
+                match known.as_slice() {
+                    [] => Ok(()),
+                    known => write!(f, "; there is `{}`", known.join("`, `")),
+                }
+            }
             Error::Level { level, why } => match why {
                 LevelFault::Version => {
                     write!(f, "the level `{level}` was taken of another version of its scenario")

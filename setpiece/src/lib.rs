@@ -17,6 +17,7 @@ pub mod explain;
 pub mod files;
 pub mod film;
 pub mod level;
+pub mod levels;
 pub mod live;
 pub mod load;
 pub mod measure;

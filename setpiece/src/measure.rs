@@ -46,24 +46,41 @@ pub fn measure(
     if episodes.is_empty() {
         return None;
     }
-    let of = |quantity: &Quantity| -> Vec<f64> {
-        episodes.iter().filter_map(|episode| number(quantity, episode, terms)).collect()
-    };
+    let samples: Vec<f64> =
+        episodes.iter().filter_map(|episode| sample(measure, episode, terms)).collect();
     match measure {
-        Measure::SuccessRate => {
-            Some(rate(episodes, |episode| episode.verdict == Some(Verdict::Success)))
+        Measure::SuccessRate | Measure::Rate(_) => {
+            let successes = samples.iter().filter(|sample| **sample > 0.0).count();
+            Some(wilson(successes, samples.len()))
         }
-        Measure::Rate(outcome) => Some(rate(episodes, |episode| episode.outcome == *outcome)),
-        Measure::Mean(quantity) => resampled(&of(quantity), mean),
-        Measure::Min(quantity) => resampled(&of(quantity), |sorted| quantile(sorted, 0.0)),
-        Measure::Max(quantity) => resampled(&of(quantity), |sorted| quantile(sorted, 1.0)),
-        Measure::Quantile(quantity, share) => {
-            resampled(&of(quantity), |sorted| quantile(sorted, *share))
-        }
-        Measure::Steps => {
-            Some(exactly(episodes.iter().map(|episode| f64::from(episode.length)).sum()))
-        }
-        Measure::Episodes => Some(exactly(episodes.len() as f64)),
+        Measure::Steps | Measure::Episodes => Some(exactly(samples.iter().sum())),
+        _ => resampled(&samples, |sorted| statistic(measure, sorted)),
+    }
+}
+
+/// What a measure takes of one episode: 1 or 0 for a rate. `None` if it could not be computed.
+pub fn sample(measure: &Measure, episode: &EpisodeSummary, terms: &[String]) -> Option<f64> {
+    let truth = |holds: bool| Some(f64::from(u8::from(holds)));
+    match measure {
+        Measure::SuccessRate => truth(episode.verdict == Some(Verdict::Success)),
+        Measure::Rate(outcome) => truth(episode.outcome == *outcome),
+        Measure::Mean(quantity)
+        | Measure::Min(quantity)
+        | Measure::Max(quantity)
+        | Measure::Quantile(quantity, _) => number(quantity, episode, terms),
+        Measure::Steps => Some(f64::from(episode.length)),
+        Measure::Episodes => Some(1.0),
+    }
+}
+
+/// A measure of what it took of some episodes, sorted.
+pub fn statistic(measure: &Measure, sorted: &[f64]) -> f64 {
+    match measure {
+        Measure::SuccessRate | Measure::Rate(_) | Measure::Mean(_) => mean(sorted),
+        Measure::Min(_) => quantile(sorted, 0.0),
+        Measure::Max(_) => quantile(sorted, 1.0),
+        Measure::Quantile(_, share) => quantile(sorted, *share),
+        Measure::Steps | Measure::Episodes => sorted.iter().sum(),
     }
 }
 
@@ -99,17 +116,6 @@ pub fn worst(goal: &MeasureGoal, episodes: &[&EpisodeSummary], terms: &[String])
     use setpiece_scenario::plan::Comparison::{
         Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual,
     };
-    let score = |episode: &EpisodeSummary| -> Option<f64> {
-        Some(match &goal.measure {
-            Measure::SuccessRate => f64::from(u8::from(episode.verdict == Some(Verdict::Success))),
-            Measure::Rate(outcome) => f64::from(u8::from(episode.outcome == *outcome)),
-            Measure::Mean(quantity)
-            | Measure::Min(quantity)
-            | Measure::Max(quantity)
-            | Measure::Quantile(quantity, _) => number(quantity, episode, terms)?,
-            Measure::Steps | Measure::Episodes => f64::from(episode.length),
-        })
-    };
     // How far it is on the wrong side.
     let against = |value: f64| match goal.comparison {
         Less | LessEqual => value,
@@ -118,17 +124,13 @@ pub fn worst(goal: &MeasureGoal, episodes: &[&EpisodeSummary], terms: &[String])
         NotEqual => -(value - goal.bound).abs(),
     };
     let scored = episodes.iter().enumerate();
-    let scored = scored.filter_map(|(at, episode)| Some((at, against(score(episode)?))));
+    let scored = scored
+        .filter_map(|(at, episode)| Some((at, against(sample(&goal.measure, episode, terms)?))));
     scored.reduce(|worst, next| if next.1 > worst.1 { next } else { worst }).map(|(at, _)| at)
 }
 
 fn exactly(value: f64) -> Estimate {
     Estimate { value, low: value, high: value, episodes: 0 }
-}
-
-/// The share of episodes for which something holds.
-fn rate(episodes: &[&EpisodeSummary], holds: impl Fn(&EpisodeSummary) -> bool) -> Estimate {
-    wilson(episodes.iter().filter(|episode| holds(episode)).count(), episodes.len())
 }
 
 /// A rate with Wilson's interval.

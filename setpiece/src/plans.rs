@@ -1,15 +1,16 @@
-//! Loads the suites, checks and curricula of a file, and the suites of the library.
+//! Loads the suites, checks and curricula of a file, and those of the library.
 
 use crate::error::{Error, Failure};
 use crate::load::{self, LoadOptions};
 use crate::stdlib;
+use setpiece_dsl::problem::nearest;
 use setpiece_dsl::problem::{Problem, Severity};
 use setpiece_dsl::source::{Source, Sources};
-use setpiece_scenario::plan::{Plans, Suite};
+use setpiece_scenario::plan::{Curriculum, Plans, Suite};
 use std::path::{Path, PathBuf};
 
-/// The file of the library's suites.
-const SUITES: &str = "suites.pitch";
+/// The file of the library's suites and curricula.
+const PLANS: &str = "suites.pitch";
 
 /// What a file says about many episodes.
 #[derive(Clone, Debug)]
@@ -24,6 +25,72 @@ pub struct LoadedPlans {
     pub inputs: Vec<PathBuf>,
 }
 
+/// Where plans stand.
+#[derive(Clone, Debug)]
+pub enum PlansOf {
+    /// In the library.
+    Library,
+    /// In a text.
+    Text(String),
+    /// In a `.pitch` file.
+    File(PathBuf),
+}
+
+/// A curriculum by its name, which the library may have too; without a name the only one that
+/// stands there.
+///
+/// # Errors
+/// Those of [`load_plans`], and [`Error::NoPlan`].
+pub fn curriculum_of(
+    of: &PlansOf,
+    name: Option<&str>,
+    allow_outside: bool,
+) -> Result<Curriculum, Error> {
+    let name_of = |curriculum: &Curriculum| curriculum.name.clone();
+    find("curriculum", of, name, allow_outside, |plans| plans.curricula, name_of)
+}
+
+/// A suite by its name, like [`curriculum_of`].
+///
+/// # Errors
+/// Like [`curriculum_of`].
+pub fn suite_of(of: &PlansOf, name: Option<&str>, allow_outside: bool) -> Result<Suite, Error> {
+    find("suite", of, name, allow_outside, |plans| plans.suites, |suite: &Suite| suite.name.clone())
+}
+
+fn find<T>(
+    what: &'static str,
+    of: &PlansOf,
+    name: Option<&str>,
+    allow_outside: bool,
+    items: impl Fn(Plans) -> Vec<T>,
+    name_of: impl Fn(&T) -> String,
+) -> Result<T, Error> {
+    let options = LoadOptions { allow_outside, ..LoadOptions::default() };
+    let mut found = match of {
+        PlansOf::Library => Vec::new(),
+        PlansOf::Text(text) => {
+            let source = Source { name: "<text>".to_owned(), text: text.as_str().into() };
+            items(of_source(source, &options)?.plans)
+        }
+        PlansOf::File(path) => items(load_plans(path, &options)?.plans),
+    };
+    if name.is_some() || matches!(of, PlansOf::Library) {
+        found.extend(items(library_plans()?));
+    }
+    let known: Vec<String> = found.iter().map(name_of).collect();
+    let place = match name {
+        Some(name) => known.iter().position(|known| known == name),
+        None => (known.len() == 1).then_some(0),
+    };
+    if let Some(at) = place {
+        return Ok(found.swap_remove(at));
+    }
+    let similar = name.and_then(|name| nearest(name, known.iter().map(String::as_str)));
+    let similar = similar.map(str::to_owned);
+    Err(Error::NoPlan { what, name: name.map(str::to_owned), known, similar })
+}
+
 /// Loads the plans of a `.pitch` file.
 ///
 /// # Errors
@@ -32,13 +99,22 @@ pub fn load_plans(path: &Path, options: &LoadOptions<'_>) -> Result<LoadedPlans,
     of_source(load::source_of(path)?, options)
 }
 
-/// The suites of the library.
+/// Loads the plans of a text; `name` is its name in reports.
+///
+/// # Errors
+/// [`Error::Compile`] if it has errors.
+pub fn plans_of_text(text: &str, name: &str) -> Result<LoadedPlans, Error> {
+    let source = Source { name: name.to_owned(), text: text.into() };
+    of_source(source, &LoadOptions::default())
+}
+
+/// The suites and curricula of the library.
 ///
 /// # Errors
 /// [`Error::Compile`] if the library has errors.
-pub fn library_suites() -> Result<Vec<Suite>, Error> {
-    let Some(source) = stdlib::file(SUITES) else { return Ok(Vec::new()) };
-    Ok(of_source(source, &LoadOptions::default())?.plans.suites)
+pub fn library_plans() -> Result<Plans, Error> {
+    let Some(source) = stdlib::file(PLANS) else { return Ok(Plans::default()) };
+    Ok(of_source(source, &LoadOptions::default())?.plans)
 }
 
 fn of_source(source: Source, options: &LoadOptions<'_>) -> Result<LoadedPlans, Error> {

@@ -61,17 +61,21 @@ fn texts(folder: &Path) -> String {
 }
 
 /// Every report of the compiler and the dry run has a case of the specification. A report of only
-/// the command has a console on its page or a test.
+/// the command has a console on its page or a test, one of only vectors in Python a test there.
 #[test]
 fn every_code_is_earned_somewhere() {
     let root = folder().join("../..");
     let (cases, commands) = (texts(&root.join("tests/spec")), texts(&root.join("setpiece/tests")));
+    let vectors = std::fs::read_to_string(root.join("python/tests/test_levels.py")).unwrap();
     for code in Code::ALL {
         let name = code.to_string();
         let of_the_command = name.starts_with("SP00") || name.starts_with("SP07");
         let console = || setpiece::explain::page(*code).unwrap().contains("```console");
         // A test can't make a system refuse threads.
-        let shown = *code == Code::NoThreads || commands.contains(&name) || console();
+        let shown = *code == Code::NoThreads
+            || commands.contains(&name)
+            || (*code == Code::OtherSpaces && vectors.contains(&name))
+            || console();
         assert!(cases.contains(&name) || (of_the_command && shown), "{code} is earned nowhere");
     }
 }

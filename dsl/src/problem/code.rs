@@ -59,7 +59,8 @@ codes! {
     FileNotRegular = 17 Error "a pipe or device stands for a file";
     NoStudio = 18 Error "the studio can't be served";
     OtherLevel = 19 Error "a level is of another scenario";
-    NoPlans = 20 Error "a file has no suite or check to play";
+    NoPlans = 20 Error "there is no such suite, check or curriculum";
+    OtherSpaces = 21 Error "a level doesn't fit its vector";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

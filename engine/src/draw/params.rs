@@ -17,6 +17,32 @@ pub fn draw_params(params: &[Param], bindings: &Bindings, seed: u64, index: u64)
     Bindings(values.map(|(param, &value)| draw(param, value, &mut stream)).collect())
 }
 
+/// Changes some parameters a little: a value with a range by a normal step of `scale` times its
+/// width, another with a chance of `scale` to any that is allowed. `varied` are the places of those
+/// that may change.
+pub fn mutate_params(
+    params: &[Param],
+    bindings: &Bindings,
+    varied: &[usize],
+    scale: f64,
+    stream: &mut Stream,
+) -> Bindings {
+    let mut changed = bindings.clone();
+    for &at in varied {
+        let (Some(param), Some(value)) = (params.get(at), changed.0.get_mut(at)) else { continue };
+        *value = match param.range {
+            Some((low, high)) if param.values.is_empty() => {
+                let moved = *value + scale * (high - low) * stream.normal();
+                let parts = if param.ty == Type::Int { 1.0 } else { PARTS };
+                ((moved * parts).round() / parts).clamp(low, high)
+            }
+            _ if stream.unit_f64() < scale => draw(param, *value, stream),
+            _ => *value,
+        };
+    }
+    changed
+}
+
 fn draw(param: &Param, value: f64, stream: &mut Stream) -> f64 {
     if !param.values.is_empty() {
         let index = stream.below(param.values.len() as u32) as usize;

@@ -23,6 +23,11 @@ impl Environment {
         &self.scenario
     }
 
+    /// The scenario's digest; 0 if no file could hold the scenario.
+    pub fn scenario_digest(&self) -> u64 {
+        self.scenario_digest
+    }
+
     /// The user's choices besides the scenario.
     pub fn options(&self) -> &EnvironmentOptions {
         &self.options

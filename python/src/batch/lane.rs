@@ -1,24 +1,40 @@
 //! One match of a batch, and the row that it writes into.
 
+use super::stage::{BatchStage, Unfit, Upcoming};
 use crate::actions::{ActionSet, GivenAction};
 use crate::info::write_mask;
 use crate::observation::{ByteWriter, ObservationForm, ObservationKind, Stack, write_floats};
 use pyo3::prelude::*;
-use setpiece::engine::environment::{Environment as Engine, ResetError, Scratch, StepError};
+use setpiece::engine::draw::DrawError;
+use setpiece::engine::environment::{Environment as Engine, Scratch, StepError};
 use setpiece::engine::observe::{Floats, ObserveError};
+use setpiece::levels::ChosenLevel;
 use setpiece::scenario::{Action, Bindings};
+use std::sync::Arc;
 
 /// One of the matches.
 pub(super) struct BatchLane {
     pub(super) engine: Engine,
+    /// The scenario that it plays.
+    pub(super) stage: Arc<BatchStage>,
+    /// The level that begins next, if it is chosen.
+    pub(super) upcoming: Option<Upcoming>,
+    /// The level that is played, if its source wants to know the result.
+    pub(super) chosen: Option<ChosenLevel>,
     pub(super) film: NewestObservations,
     /// The parameters of the current episode; others may be bound for the next.
     pub(super) played: Bindings,
     /// Whether the episode has ended and no other has begun.
     pub(super) over: bool,
-    /// The failure of the last step.
-    pub(super) fault: Option<ResetError>,
-    pub(super) broken: Option<StepError>,
+    /// The failure of the last step or reset.
+    pub(super) failure: Option<LaneFailure>,
+}
+
+/// Why an episode has failed.
+pub(super) enum LaneFailure {
+    Step(StepError),
+    Draw(DrawError),
+    Level(Unfit),
 }
 
 /// The latest observations of a match.
@@ -100,8 +116,8 @@ impl BatchLane {
         keep: bool,
         mut row: BatchRow<'_>,
     ) {
-        if let Err(why) = self.engine.reset(seed, index) {
-            self.fault = Some(why.into());
+        if let Err(why) = self.draw(seed, index) {
+            self.failure = Some(why);
             self.over = true;
             return;
         }
@@ -114,6 +130,22 @@ impl BatchLane {
             (*row.terminated, *row.truncated) = (false, false);
         }
         self.show(action_set, &mut row, true);
+    }
+
+    /// Draws the start of the upcoming level, or of another episode of the same scenario.
+    fn draw(&mut self, mut seed: Option<u64>, mut index: Option<u64>) -> Result<(), LaneFailure> {
+        self.chosen = None;
+        if let Some(level) = self.upcoming.take() {
+            if !Arc::ptr_eq(&self.stage, &level.stage) {
+                self.engine.clone_from(&level.stage.engine);
+                self.stage = level.stage;
+            }
+            let stage = &self.stage;
+            stage.bind(&mut self.engine, &level.bindings).map_err(LaneFailure::Level)?;
+            self.chosen = level.chosen;
+            (seed, index) = (Some(level.seed), Some(level.episode));
+        }
+        self.engine.reset(seed, index).map_err(LaneFailure::Draw)
     }
 
     /// Plays a step, or begins the next episode.
@@ -138,7 +170,7 @@ impl BatchLane {
         let result = match self.engine.step(&pressed[..acts.len()], scratch) {
             Ok(result) => result,
             Err(why) => {
-                (self.broken, self.over) = (Some(why), true);
+                (self.failure, self.over) = (Some(LaneFailure::Step(why)), true);
                 return;
             }
         };
@@ -147,9 +179,9 @@ impl BatchLane {
         for (out, paid) in row.rewards.iter_mut().zip(self.engine.rewards()) {
             *out = f64::from(*paid);
         }
-        let n_terms = self.engine.term_names().len();
+        let n_terms = row.terms.len() / acts.len().max(1);
         for (agent, out) in row.terms.chunks_exact_mut(n_terms.max(1)).enumerate() {
-            out.copy_from_slice(self.engine.terms(agent));
+            self.stage.enter(self.engine.terms(agent), out);
         }
         self.over = result.terminated || result.truncated;
         self.show(action_set, &mut row, false);

@@ -15,7 +15,7 @@ use crate::error::FileFault;
 #[cfg(feature = "render")]
 use crate::files::{refuse_overwriting, write};
 use crate::live::Live;
-use crate::plans::{library_suites, load_plans};
+use crate::plans::{library_plans, load_plans};
 #[cfg(feature = "render")]
 use crate::plot;
 use crate::run::{RunOptions, Summary, first_error, run};
@@ -178,7 +178,7 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
 
 /// The suites that a name stands for; the error is why it stands for no scenario.
 fn suites_of(name: &OsStr, error: Error, out: &Out) -> Result<Vec<Suite>, Error> {
-    let mut library = library_suites()?;
+    let mut library = library_plans()?.suites;
     if let Some(at) = library.iter().position(|suite| name == suite.name.as_str()) {
         return Ok(vec![library.swap_remove(at)]);
     }

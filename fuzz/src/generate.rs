@@ -18,6 +18,8 @@ struct Writer<'a, 'b> {
     squads: [Vec<String>; 2],
     /// Names of numbers: parameters and `let`s.
     numbers: Vec<String>,
+    /// Names of records that are numbers.
+    records: Vec<String>,
     /// Names of regions.
     regions: Vec<String>,
     /// Names of behaviours that take no arguments.
@@ -47,6 +49,11 @@ impl View {
         matches!(self, View::Own | View::Behavior | View::Observed | View::Inner { own: true })
     }
 
+    /// Whether the match is judged: records are read, and sums over the episode.
+    fn judges(self) -> bool {
+        matches!(self, View::World | View::Own)
+    }
+
     /// Whether temporal functions are allowed.
     fn knows_time(self) -> bool {
         matches!(self, View::World | View::Own | View::Behavior)
@@ -55,9 +62,15 @@ impl View {
 
 /// Generates the text of a scenario from choices.
 pub fn scenario(choices: &mut Choices<'_>) -> String {
-    let (squads, numbers) = (Default::default(), Vec::new());
-    let mut writer =
-        Writer { choices, out: String::new(), squads, numbers, regions: vec![], behaviors: vec![] };
+    let mut writer = Writer {
+        choices,
+        out: String::new(),
+        squads: Default::default(),
+        numbers: vec![],
+        records: vec![],
+        regions: vec![],
+        behaviors: vec![],
+    };
     writer.file();
     writer.out
 }
@@ -90,14 +103,14 @@ impl Writer<'_, '_> {
         self.start();
         self.teams();
         self.agents();
+        for n in 0..self.choices.below(4) {
+            self.record(n);
+        }
         for n in 0..self.choices.below(3) {
             self.reward(n);
         }
         for n in 0..self.choices.below(4) {
             self.ending(n);
-        }
-        for n in 0..self.choices.below(4) {
-            self.record(n);
         }
         if self.choices.rarely(3) {
             self.observation();

@@ -61,7 +61,7 @@ impl Writer<'_, '_> {
         if depth == 0 {
             return self.leaf(view);
         }
-        match self.choices.below(14) {
+        match self.choices.below(16) {
             0 | 1 => self.leaf(view),
             2 => {
                 let sign = self.choices.one(&["+", "-", "*", "/"]);
@@ -104,12 +104,17 @@ impl Writer<'_, '_> {
             }
             11 if view.knows_time() => format!("(closing(ball, {}) / 1m)", self.point(inner(view))),
             12 => format!("offside_line({})", self.team(view)),
+            13 if view.judges() => format!("(count of {})", self.event(view)),
+            14 if view.judges() => {
+                let fold = self.choices.one(&["max", "min", "mean", "sum", "first", "last"]);
+                format!("({fold} of {})", self.leaf(view))
+            }
             _ => format!("(angle({}, {}) / 1rad)", self.point(view), self.point(view)),
         }
     }
 
     fn leaf(&mut self, view: View) -> String {
-        match self.choices.below(9) {
+        match self.choices.below(10) {
             0 => format!("{:.2}", self.choices.between(0.0, 3.0)),
             1 => "ball.x".to_owned(),
             2 if !self.numbers.is_empty() && view != View::Behavior => {
@@ -121,6 +126,10 @@ impl Writer<'_, '_> {
             5 => format!("{}.fatigue", self.player(view)),
             6 => "(elapsed / 1s)".to_owned(),
             7 => "(remaining / 1s)".to_owned(),
+            8 if view.judges() && !self.records.is_empty() => {
+                let at = self.choices.below(self.records.len());
+                self.records[at].clone()
+            }
             _ => "(ball.height / 1m)".to_owned(),
         }
     }

@@ -37,7 +37,8 @@ impl Writer<'_, '_> {
 
     pub(super) fn record(&mut self, n: usize) {
         let view = View::World;
-        let value = match self.choices.below(6) {
+        let kind = self.choices.below(6);
+        let value = match kind {
             0 => format!("count of ({})", self.condition(view)),
             1 => format!(
                 "{} of ({})",
@@ -50,6 +51,9 @@ impl Writer<'_, '_> {
             _ => self.number(view),
         };
         self.line(&format!("record m{n} = {value}"));
+        if !matches!(kind, 3 | 4) {
+            self.records.push(format!("m{n}"));
+        }
     }
 
     pub(super) fn observation(&mut self) {

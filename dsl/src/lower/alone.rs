@@ -123,8 +123,6 @@ impl<'w> Lower<'_, 'w> {
         });
         let ty = match (declared, &default) {
             (Some(ty), _) => ty,
-            // `= 1` leaves open whether whole numbers are meant.
-            (None, Some(value)) if value.ty == Ty::Int => Ty::Number,
             (None, Some(value)) => value.ty,
             (None, None) => Ty::Error,
         };

@@ -241,6 +241,11 @@ impl<'c, 'w> Lower<'c, 'w> {
         result
     }
 
+    /// Whether a definition is being written.
+    pub(crate) fn is_inlining(&self, item: Span) -> bool {
+        self.inlining.contains(&item)
+    }
+
     /// Guards against definitions that use themselves, and against programs without bounds.
     pub(crate) fn inline<T>(
         &mut self,

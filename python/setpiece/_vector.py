@@ -198,7 +198,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
                 )
             if wanted.levels is not None:
                 self._batch.assign(self._given(wanted.levels))
-            elif seed is None and self._unseeded():
+            if seed is None and self._unseeded() and (self._chosen or wanted.levels is None):
                 seed = self._options.seed
                 if seed is None:
                     seed = int(self.np_random.integers(2**62))
@@ -330,15 +330,20 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             return None
         options = self._options
         chosen = read_levels(levels, self.source, self._load, options.allow_outside)
-        if isinstance(chosen, FunctionLevels):
-            if isinstance(params, list | tuple):
-                raise ParameterError("the function chooses the parameters", name="params")
-            return chosen
-        if params is not None and not isinstance(levels, list | tuple):
+        is_given = isinstance(chosen, FunctionLevels) or isinstance(levels, list | tuple)
+        if isinstance(params, list | tuple) or (params is not None and not is_given):
             raise ParameterError(
                 "`levels` chooses the parameters",
                 name="params",
-                help="bind them in the curriculum, or in the scenario of the sampler",
+                help="bind them in the level, the curriculum, or the scenario of the sampler",
+            )
+        if isinstance(chosen, FunctionLevels):
+            return chosen
+        if options.scripted and not is_given:
+            raise ParameterError(
+                "behaviours play against the vector's scenario, and `levels` brings its own",
+                name="opponents",
+                help="give them to players in the text: `ai: NAME`",
             )
         self.level_source = chosen
         return chosen.native
@@ -351,7 +356,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _given(self, levels: Sequence[Level | None]) -> list[GivenLevel | None]:
         """Levels with their scenarios, which the vector knows."""
-        known: dict[str, Scenario] = {}
+        # The vector's own knows its digest without bound parameters.
+        known = {self.scenario.name: self.scenario}
         for scenario in self._batch.scenarios:
             known.setdefault(scenario.name, scenario)
         return [

@@ -313,6 +313,28 @@ def test_what_the_levels_choose_is_refused_elsewhere() -> None:
             setpiece.make_vec(COURSE, 2, levels=wrong)  # type: ignore[arg-type]
 
 
+def test_a_digest_is_of_the_text_whatever_a_vector_binds() -> None:
+    envs = setpiece.make_vec(COURSE, 2, params={"gap": "5m"})
+    envs.reset()
+    scenario = setpiece.load(COURSE)
+    envs.reset(options={"level": {"scenario": "far", "seed": 3, "digest": scenario.digest}})
+
+
+def test_a_first_level_leaves_the_source_its_seed() -> None:
+    envs = setpiece.make_vec(COURSE, 2, levels="course", seed=7)
+    envs.reset(options={"level": "far#3"})
+    assert envs.level_source is not None
+    assert envs.level_source.seed == 7
+
+
+def test_what_levels_would_ignore_is_refused() -> None:
+    with pytest.raises(setpiece.ParameterError, match="chooses the parameters"):
+        setpiece.make_vec(COURSE, 2, levels=["far#1"], params=[{"gap": 3}, {"gap": 4}])
+    text = "behavior press_on { repeat { do press for 1s } }" + COURSE
+    with pytest.raises(setpiece.ParameterError, match="brings its own"):
+        setpiece.make_vec(text, 2, levels="course", opponents={"right": "press_on"})
+
+
 def test_an_explicit_level_comes_between() -> None:
     envs = setpiece.make_vec(
         COURSE, 2, levels="course", seed=1, autoreset_mode=AutoresetMode.DISABLED

@@ -6,7 +6,7 @@ use crate::stdlib;
 use setpiece_dsl::problem::nearest;
 use setpiece_dsl::problem::{Problem, Severity};
 use setpiece_dsl::source::{Source, Sources};
-use setpiece_scenario::plan::{Curriculum, Plans, Suite};
+use setpiece_scenario::plan::{Curriculum, Plans};
 use std::path::{Path, PathBuf};
 
 /// The file of the library's suites and curricula.
@@ -46,39 +46,19 @@ pub fn curriculum_of(
     name: Option<&str>,
     allow_outside: bool,
 ) -> Result<Curriculum, Error> {
-    let name_of = |curriculum: &Curriculum| curriculum.name.clone();
-    find("curriculum", of, name, allow_outside, |plans| plans.curricula, name_of)
-}
-
-/// A suite by its name, like [`curriculum_of`].
-///
-/// # Errors
-/// Like [`curriculum_of`].
-pub fn suite_of(of: &PlansOf, name: Option<&str>, allow_outside: bool) -> Result<Suite, Error> {
-    find("suite", of, name, allow_outside, |plans| plans.suites, |suite: &Suite| suite.name.clone())
-}
-
-fn find<T>(
-    what: &'static str,
-    of: &PlansOf,
-    name: Option<&str>,
-    allow_outside: bool,
-    items: impl Fn(Plans) -> Vec<T>,
-    name_of: impl Fn(&T) -> String,
-) -> Result<T, Error> {
     let options = LoadOptions { allow_outside, ..LoadOptions::default() };
     let mut found = match of {
         PlansOf::Library => Vec::new(),
         PlansOf::Text(text) => {
             let source = Source { name: "<text>".to_owned(), text: text.as_str().into() };
-            items(of_source(source, &options)?.plans)
+            of_source(source, &options)?.plans.curricula
         }
-        PlansOf::File(path) => items(load_plans(path, &options)?.plans),
+        PlansOf::File(path) => load_plans(path, &options)?.plans.curricula,
     };
     if name.is_some() || matches!(of, PlansOf::Library) {
-        found.extend(items(library_plans()?));
+        found.extend(library_plans()?.curricula);
     }
-    let known: Vec<String> = found.iter().map(name_of).collect();
+    let known: Vec<String> = found.iter().map(|curriculum| curriculum.name.clone()).collect();
     let place = match name {
         Some(name) => known.iter().position(|known| known == name),
         None => (known.len() == 1).then_some(0),
@@ -88,7 +68,7 @@ fn find<T>(
     }
     let similar = name.and_then(|name| nearest(name, known.iter().map(String::as_str)));
     let similar = similar.map(str::to_owned);
-    Err(Error::NoPlan { what, name: name.map(str::to_owned), known, similar })
+    Err(Error::NoPlan { what: "curriculum", name: name.map(str::to_owned), known, similar })
 }
 
 /// Loads the plans of a `.pitch` file.

@@ -58,6 +58,11 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn recorded(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
         let world = self.world;
         let binding = world.flat.records.iter().copied().find(|known| known.name.node == name)?;
+        // In the record itself its name means what it means in the file, as before the match.
+        let is_elsewhere = !self.stage.judges() || self.is_inlining(binding.name.span);
+        if is_elsewhere && world.library.find(span.file, name).is_some() {
+            return None;
+        }
         if !self.stage.judges() {
             let name = name.to_owned();
             return Some(self.fail(Problem::new(span, Scopes::MeasuredLater { name })));

@@ -188,9 +188,11 @@ impl LevelSource for PrioritizedLevels {
         let KeptLevel { tag, bindings, seed, episode, .. } = level.clone();
         if stream.unit_f64() < self.options.edit {
             let (params, varied) = (self.fresh.params(), self.fresh.varied());
-            let bindings =
-                mutate_params(params, &bindings, varied, self.options.scale, &mut stream);
-            return ChosenLevel { scenario: 0, bindings, seed, episode, tag: 0 };
+            let edited = mutate_params(params, &bindings, varied, self.options.scale, &mut stream);
+            // An edit that changes nothing plays the level again.
+            if edited != bindings {
+                return ChosenLevel { scenario: 0, bindings: edited, seed, episode, tag: 0 };
+            }
         }
         level.chosen = number;
         ChosenLevel { scenario: 0, bindings, seed, episode, tag }

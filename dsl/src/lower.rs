@@ -280,7 +280,7 @@ impl<'c, 'w> Lower<'c, 'w> {
 
     /// Lowers an expression of a wanted type.
     pub(crate) fn want(&mut self, expr: &'w Expr, wanted: Ty) -> Value<'w> {
-        let value = self.expr(expr);
+        let value = self.beside(wanted, expr);
         self.convert(value, wanted, expr)
     }
 

@@ -84,6 +84,50 @@ fn records_say_what_happened() {
     assert!(passes > 0.0, "nothing was measured");
 }
 
+const EFFORT: &str = "scenario effort extends academy {
+    ball at (0, 0)
+    team left { CM at (-0.02, 0) }
+    team right { GK at (-1, 0)  CB at (-0.5, 0) }
+    record shots = count of (me.action == shot)
+    record switches = count of (me.action changes)
+    record sprints = count of me.sprinting
+    record close = count of me.dribbling
+    record theirs = count of any(p.action != idle for p in right)
+    reward cost {
+        give 1 when me.action == shot as \"shot\"
+        give 1 when prev(me.action) == shot as \"shot before\"
+    }
+    end limit 8 steps
+}";
+
+#[test]
+fn actions_are_read_as_they_were_pressed() {
+    let mut environment = environment(EFFORT);
+    let mut scratch = Scratch::default();
+    environment.reset(Some(1), Some(0)).unwrap();
+    let pressed = [
+        Action::Idle,
+        Action::Sprint,
+        Action::Left,
+        Action::Left,
+        Action::ReleaseSprint,
+        Action::Dribble,
+        Action::Shot,
+        Action::Idle,
+    ];
+    for action in pressed {
+        environment.step(&[action], &mut scratch).unwrap();
+    }
+    assert!(!environment.is_running());
+    assert_eq!(number(&environment, "shots"), 1.0);
+    // Nobody has acted before the first step, which counts as idle.
+    assert_eq!(number(&environment, "switches"), 6.0);
+    assert_eq!(number(&environment, "sprints"), 3.0);
+    assert_eq!(number(&environment, "close"), 3.0);
+    assert!(number(&environment, "theirs") > 0.0, "the bots press nothing");
+    assert_eq!(environment.term_sums(0)[environment.term_names().len() - 2..], [1.0, 1.0]);
+}
+
 const RONDO: &str = "scenario rondo extends academy {
     param enough: int = 3
     agents { left: 1 }

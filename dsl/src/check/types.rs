@@ -85,6 +85,8 @@ pub(crate) enum Ty {
     Mode,
     /// A role.
     Role,
+    /// A player's action.
+    Action,
     /// A list of values.
     List,
     /// The goals of both teams.
@@ -125,6 +127,7 @@ impl Ty {
             Type::String => Ty::String,
             Type::Mode => Ty::Mode,
             Type::Role => Ty::Role,
+            Type::Action => Ty::Action,
         }
     }
 
@@ -226,6 +229,7 @@ impl Ty {
             Ty::String => "a string",
             Ty::Mode => "a game mode",
             Ty::Role => "a role",
+            Ty::Action => "an action",
             Ty::List => "a list",
             Ty::Score => "the score",
             Ty::Event => "an event",

@@ -68,7 +68,7 @@ impl<'w> Lower<'_, 'w> {
             (Repr::Two(x, y) | Repr::Three(x, y, _), Ty::Vector | Ty::Velocity) => {
                 both(self.turned((*x, *y)))
             }
-            (Repr::One(reg), Ty::Bool | Ty::Team | Ty::Mode | Ty::Role) => {
+            (Repr::One(reg), Ty::Bool | Ty::Team | Ty::Mode | Ty::Role | Ty::Action) => {
                 vec![(name.to_owned(), *reg)]
             }
             (Repr::One(reg), ty) if ty.dim().is_some() => vec![(name.to_owned(), *reg)],

@@ -5,7 +5,7 @@ use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 pub use setpiece_scenario::operators::{player_index, team_of_number};
 use setpiece_scenario::pitch::{PLAYERS_MAX, STEPS_PER_S, TEAM_MAX};
-use setpiece_scenario::vocabulary::{Field, GameMode, Owner, Role, Team};
+use setpiece_scenario::vocabulary::{Action, Field, GameMode, Owner, Role, StickyAction, Team};
 use setpiece_scenario::{Instr, Program, When};
 use std::ops::Range;
 
@@ -30,6 +30,12 @@ pub struct PlayerView {
     pub active: bool,
     /// Whether an agent controls them.
     pub controlled: bool,
+    /// Their action of the last step; idle before the first.
+    pub action: Action,
+    /// Whether they hold sprint.
+    pub sprinting: bool,
+    /// Whether they hold dribble.
+    pub dribbling: bool,
 }
 
 /// The readable data of a match; world frame, SI.
@@ -74,6 +80,9 @@ impl MatchView {
             present: false,
             active: false,
             controlled: false,
+            action: Action::Idle,
+            sprinting: false,
+            dribbling: false,
         }; PLAYERS_MAX],
         score: [0; 2],
         mode: GameMode::Normal,
@@ -317,6 +326,9 @@ impl Sight<'_> {
             }
             Field::PlayerActive => self.player(of).map_or(f64::NAN, |player| player.active.into()),
             Field::PlayerControlled => self.is_controlled(of),
+            Field::PlayerAction | Field::PlayerSprinting | Field::PlayerDribbling => {
+                self.load_of_acting(field, of)
+            }
             Field::Possession
             | Field::Score
             | Field::TeamHasBall
@@ -325,6 +337,17 @@ impl Sight<'_> {
             | Field::Remaining
             | Field::GameMode
             | Field::BallDead => self.load_of_match(field, of),
+        }
+    }
+
+    /// What a player does.
+    #[inline(never)]
+    fn load_of_acting(self, field: Field, of: f64) -> f64 {
+        let Some(player) = self.player(of) else { return f64::NAN };
+        match field {
+            Field::PlayerAction => player.action.index() as f64,
+            Field::PlayerSprinting => player.sprinting.into(),
+            _ => player.dribbling.into(),
         }
     }
 
@@ -365,6 +388,8 @@ impl PlayerView {
     #[inline]
     fn of(game: &Match, id: PlayerId) -> PlayerView {
         let player = game.player(id);
+        let acting = &game.play.acting[id.index()];
+        let holds = |key: StickyAction| acting.sticky >> key.index() & 1 == 1;
         PlayerView {
             pos: player.pos.into(),
             vel: player.vel.into(),
@@ -375,6 +400,9 @@ impl PlayerView {
             present: game.squad.has(id),
             active: player.active,
             controlled: false,
+            action: acting.played.unwrap_or(Action::Idle),
+            sprinting: holds(StickyAction::Sprint),
+            dribbling: holds(StickyAction::Dribble),
         }
     }
 }

@@ -181,12 +181,16 @@ impl Writer<'_, '_> {
 
     /// A condition on the player of a loop.
     fn of_player(&mut self, view: View, p: &str) -> String {
-        match self.choices.below(6) {
+        match self.choices.below(7) {
             0 => format!("{p}.x > ball.x"),
             1 => format!("{p}.speed > {}m/s", self.choices.below(8)),
             2 => format!("{p} in {}", self.area(view)),
             3 => format!("pressed({p}, within: 5m)"),
-            4 => format!("{p}.role != GK and {p}.active"),
+            4 => format!("{p}.role != GK and {p}.active and not {p}.sprinting"),
+            5 => format!(
+                "{p}.action {}",
+                self.choices.one(&["== shot", "!= idle", "in [left, short_pass]", "changes"])
+            ),
             _ => format!("count(o in players where distance(o, {p}) < 9m) > 1"),
         }
     }

@@ -23,6 +23,9 @@ words! {
         PlayerRole = "player_role", "index of the role";
         PlayerActive = "player_active", "1 while on the pitch";
         PlayerControlled = "player_controlled", "1 while an agent controls the player";
+        PlayerAction = "player_action", "index of the action of the last step";
+        PlayerSprinting = "player_sprinting", "1 while the player holds sprint";
+        PlayerDribbling = "player_dribbling", "1 while the player holds dribble";
         Score = "score", "goals of a team";
         TeamHasBall = "team_has_ball", "1 while a player of the team has the ball";
         OffsideLine = "offside_line", "world x of the line beyond which the team's players are offside, metres";
@@ -46,7 +49,10 @@ impl Field {
             | Field::PlayerYellowCards
             | Field::PlayerRole
             | Field::PlayerActive
-            | Field::PlayerControlled => Owner::Player,
+            | Field::PlayerControlled
+            | Field::PlayerAction
+            | Field::PlayerSprinting
+            | Field::PlayerDribbling => Owner::Player,
             Field::Score | Field::TeamHasBall | Field::OffsideLine => Owner::Team,
             Field::BallX
             | Field::BallY
@@ -112,6 +118,9 @@ pub const PROPERTIES: &[Property] = &[
     property(Owner::Player, "team", Type::Team, "the player's team"),
     property(Owner::Player, "active", Type::Bool, "still on the pitch"),
     property(Owner::Player, "controlled", Type::Bool, "whether an agent controls the player now"),
+    property(Owner::Player, "action", Type::Action, "the player's action of the last step"),
+    property(Owner::Player, "sprinting", Type::Bool, "holds sprint"),
+    property(Owner::Player, "dribbling", Type::Bool, "holds dribble"),
     property(Owner::Match, "possession", Type::Team, "the team that had the ball last"),
     property(Owner::Match, "elapsed", Type::Duration, "since the episode's start"),
     property(Owner::Match, "remaining", Type::Duration, "until the episode's limit"),

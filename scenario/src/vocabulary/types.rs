@@ -24,6 +24,7 @@ words! {
         String = "string", "a word";
         Mode = "game_mode", "a game mode";
         Role = "role", "a player's role";
+        Action = "action", "a player's action of one step";
     }
 }
 
@@ -50,6 +51,7 @@ impl Type {
             Type::String => "a word",
             Type::Mode => "a game mode",
             Type::Role => "a role",
+            Type::Action => "an action",
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::ast::{self, Expr, ExprKind, Span, Spanned};
 use crate::check::types::{Dim, Ty};
 use crate::problem::facts::{Kind, Names, Operand, Scopes, Types, Verb};
 use crate::problem::{Guess, Problem};
-use setpiece_scenario::vocabulary::{Field, GameMode};
+use setpiece_scenario::vocabulary::{Action, Field, GameMode};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
 use std::sync::Arc;
 
@@ -324,28 +324,40 @@ impl<'w> Lower<'_, 'w> {
 
     fn equality(&mut self, is_eq: bool, a: &'w Expr, b: &'w Expr) -> Value<'w> {
         let x = self.expr(a);
-        let y = if x.ty == Ty::Mode { self.mode(b) } else { self.expr(b) };
+        let y = self.beside(x.ty, b);
         self.equal(is_eq, (&x, a), (&y, b))
     }
 
-    /// A game mode; its words are no names elsewhere.
-    fn mode(&mut self, expr: &'w Expr) -> Value<'w> {
+    /// What stands where a value of this type is expected. Game modes and actions are words that
+    /// are no names elsewhere.
+    pub(crate) fn beside(&mut self, ty: Ty, expr: &'w Expr) -> Value<'w> {
         let word = match &expr.kind {
             ExprKind::Name(name) => name.as_str(),
             ExprKind::Event(event) => event.name.node.as_str(),
             _ => return self.expr(expr),
         };
-        // `kickoff` is the event's name, `kick_off` GRF's for the mode.
-        let found = GameMode::from_name(word).or((word == "kickoff").then_some(GameMode::KickOff));
-        if let Some(mode) = found {
-            return Value::one(Ty::Mode, self.code.constant(mode.index() as f64));
+        let (found, kind, known): (Option<usize>, Kind, Vec<&str>) = match ty {
+            Ty::Mode => {
+                // `kickoff` is the event's name, `kick_off` GRF's for the mode.
+                let word = if word == "kickoff" { GameMode::KickOff.name() } else { word };
+                let found = GameMode::from_name(word).map(GameMode::index);
+                (found, Kind::Mode, GameMode::ALL.iter().map(|mode| mode.name()).collect())
+            }
+            Ty::Action => {
+                let found = Action::from_name(word).map(Action::index);
+                let default = &Action::ALL[..Action::DEFAULT_SET];
+                (found, Kind::Action, default.iter().map(|action| action.name()).collect())
+            }
+            _ => return self.expr(expr),
+        };
+        if let Some(index) = found {
+            return Value::one(ty, self.code.constant(index as f64));
         }
-        let known: Vec<&str> = GameMode::ALL.iter().map(|mode| mode.name()).collect();
+        if self.scope.find(word).is_some() || self.world.declares(word) {
+            return self.expr(expr);
+        }
         let guess = Guess::similar_or_all(word, &known);
-        self.fail(Problem::new(
-            expr.span,
-            Names::Unknown { kind: Kind::Mode, name: word.to_owned(), guess },
-        ))
+        self.fail(Problem::new(expr.span, Names::Unknown { kind, name: word.to_owned(), guess }))
     }
 
     /// Whether two values are equal.
@@ -377,6 +389,7 @@ impl<'w> Lower<'_, 'w> {
             | (Ty::Player, Ty::Player)
             | (Ty::Role, Ty::Role)
             | (Ty::Mode, Ty::Mode)
+            | (Ty::Action, Ty::Action)
             | (Ty::Bool, Ty::Bool) => true,
             (left, right) => left.dim().is_some() && left.dim() == right.dim(),
         };
@@ -508,7 +521,7 @@ impl<'w> Lower<'_, 'w> {
             reg = self.code.binary(BinaryOp::And, reg, somebody);
         }
         if let Some(to) = to {
-            let wanted = if now.ty == Ty::Mode { self.mode(to) } else { self.expr(to) };
+            let wanted = self.beside(now.ty, to);
             let reached = self.equal(true, (&now, what), (&wanted, to));
             let reached = self.reg(&reached);
             reg = self.code.binary(BinaryOp::And, reg, reached);
@@ -535,8 +548,8 @@ impl<'w> Lower<'_, 'w> {
     fn membership(&mut self, a: &'w Expr, b: &'w Expr) -> Value<'w> {
         let x = self.expr(a);
         let y = match &b.kind {
-            ExprKind::List(modes) if x.ty == Ty::Mode => {
-                let list = modes.iter().map(|mode| self.mode(mode)).collect();
+            ExprKind::List(words) if matches!(x.ty, Ty::Mode | Ty::Action) => {
+                let list = words.iter().map(|word| self.beside(x.ty, word)).collect();
                 Value { ty: Ty::List, repr: Repr::List(list) }
             }
             _ => self.expr(b),

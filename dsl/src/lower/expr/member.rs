@@ -242,6 +242,9 @@ impl<'w> Lower<'_, 'w> {
             "role" => (Field::PlayerRole, Ty::Role),
             "active" => (Field::PlayerActive, Ty::Bool),
             "controlled" => (Field::PlayerControlled, Ty::Bool),
+            "action" => (Field::PlayerAction, Ty::Action),
+            "sprinting" => (Field::PlayerSprinting, Ty::Bool),
+            "dribbling" => (Field::PlayerDribbling, Ty::Bool),
             _ => return self.no_property(of, Owner::Player, Ty::Player, member.span, name),
         };
         self.load(field, Some(reg), name, span).map_or_else(Value::error, |r| Value::one(ty, r))

@@ -5,7 +5,7 @@ use crate::parse::reader::Reader;
 use crate::problem::facts::{Kind, Names, Syntax};
 use crate::problem::{Guess, Problem, nearest};
 use setpiece_grammar::Rule;
-use setpiece_scenario::vocabulary::{EventKind, Owner, PROPERTIES, Qualifier, Type};
+use setpiece_scenario::vocabulary::{EventKind, Owner, PROPERTIES, Property, Qualifier, Type};
 
 /// Words before `of` that look at a whole episode.
 const OVER_TIME: &[&str] = &["count", "max", "min", "mean", "sum", "first", "last", "series"];
@@ -46,6 +46,12 @@ fn no_event(name: &str, span: crate::source::Span) -> Problem {
     };
     if state(name) {
         return Problem::new(span, Syntax::StateNoEvent { name: name.to_owned() });
+    }
+    let lasts = |p: &&Property| matches!(p.ty, Type::Bool | Type::Action);
+    let mut of_player = PROPERTIES.iter().filter(|p| p.owner == Owner::Player).filter(lasts);
+    if let Some(property) = of_player.find(|p| p.name == name) {
+        let is_action = property.ty == Type::Action;
+        return Problem::new(span, Syntax::PropertyNoEvent { name: name.to_owned(), is_action });
     }
     let guess = Guess::or_all(name, &names().collect::<Vec<_>>());
     Problem::new(span, Names::Unknown { kind: Kind::Event, name: name.to_owned(), guess })

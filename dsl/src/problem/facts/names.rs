@@ -250,6 +250,8 @@ pub(crate) enum Kind {
     Ending,
     /// An event of the match.
     Event,
+    /// What is compared with a player's `action`.
+    Action,
     /// What is compared with `game_mode`.
     Mode,
     /// A player of a team.
@@ -296,6 +298,7 @@ impl Kind {
             Kind::Ai => "no player's `ai`",
             Kind::Ending => "no `ending`",
             Kind::Event => "no event",
+            Kind::Action => "no action",
             Kind::Mode => "no game mode",
             Kind::Player => "no player of this team",
             Kind::Region => "no region",
@@ -310,7 +313,13 @@ impl Kind {
 
     fn label(self) -> &'static str {
         match self {
-            Kind::Ending | Kind::Mode | Kind::Player | Kind::Start | Kind::Team | Kind::Type => "",
+            Kind::Action
+            | Kind::Ending
+            | Kind::Mode
+            | Kind::Player
+            | Kind::Start
+            | Kind::Team
+            | Kind::Type => "",
             _ => "not known",
         }
     }
@@ -318,6 +327,7 @@ impl Kind {
 
 fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
     let listed = match kind {
+        Kind::Action => "the actions are",
         Kind::Mode => "the modes are",
         Kind::Region => "there is",
         Kind::Reward => &format!("declare it, `reward {name} {{ give … }}`, or use one of"),

@@ -56,6 +56,15 @@ facts! {
         /// A state of the match where an event is wanted.
         StateNoEvent { name: String } = Code::UnknownEvent =>
             say(format!("`{name}` is a state, no event"), "lasts").help(format!("write `when {name}`")),
+        /// Behind `on`, a property of a player.
+        PropertyNoEvent { name: String, is_action: bool } = Code::UnknownEvent =>
+            say(format!("`{name}` is a property of a player, no event"), "read at every step").help(
+                if *is_action {
+                    format!("write `when me.{name} == shot`")
+                } else {
+                    format!("write `when me.{name}`")
+                },
+            ),
         /// Digits with `_` between them.
         DigitsAlone { number: String, rest: String } = Code::Syntax =>
             say(format!("`{number}{rest}` is no number"), "digits alone")

@@ -334,7 +334,7 @@ fn agree(verb: Verb, left: &Operand, right: &Operand) -> String {
             let verb = if is_compared { "compare it with" } else { "both must be" };
             format!("{verb} {}, for example `{example}`", x.noun())
         }
-        (Ty::Role | Ty::Mode, _, _) if right.is_quoted => {
+        (Ty::Role | Ty::Mode | Ty::Action, _, _) if right.is_quoted => {
             format!("write it without quotes: `{}`", text_b.trim_matches('"'))
         }
         (Ty::Player | Ty::Team | Ty::Set, _, _) if right.is_quoted => {

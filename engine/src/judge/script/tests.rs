@@ -82,6 +82,12 @@ fn properties_bear_the_languages_names() {
     near(pay("now.players.len + now.them.players.len"), 4.0);
     assert_eq!(pay("now.remaining"), f64::INFINITY);
     near(pay("if now.game_mode == \"normal\" && now.me.role == \"CM\" { 1 } else { 0 }"), 1.0);
+    near(
+        pay(
+            "if now.me.action == \"idle\" && !now.me.sprinting && !now.me.dribbling { 1 } else { 0 }",
+        ),
+        1.0,
+    );
 }
 
 #[test]

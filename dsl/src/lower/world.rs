@@ -5,7 +5,7 @@ use super::loaded_scripts::LoadedScripts;
 use super::mirror::Mirror;
 use super::param_info::ParamInfo;
 use super::people::{Casting, Rostered};
-use crate::ast::Span;
+use crate::ast::{Binding, Span};
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
 use crate::resolve::{Flat, Library, Named};
@@ -74,7 +74,7 @@ impl Effort {
     }
 }
 
-impl World<'_> {
+impl<'w> World<'w> {
     /// Reports a problem, unless there are enough of its kind.
     pub(crate) fn report(&self, problem: Problem) {
         self.found.set(self.found.get() + 1);
@@ -144,8 +144,18 @@ impl World<'_> {
 
     /// Whether the scenario has a value or player of this name.
     pub(crate) fn declares(&self, name: &str) -> bool {
-        self.declaration(name).is_some()
-            || self.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
+        self.declaration(name).or_else(|| self.player(name)).is_some()
+    }
+
+    /// Where the scenario names a player so.
+    pub(crate) fn player(&self, name: &str) -> Option<Span> {
+        let named = self.roster.iter().filter_map(|player| player.name);
+        named.into_iter().find(|known| known.node == name).map(|known| known.span)
+    }
+
+    /// Its record of this name.
+    pub(crate) fn record(&self, name: &str) -> Option<&'w Binding> {
+        self.flat.records.iter().copied().find(|known| known.name.node == name)
     }
 
     /// The ranges of the parameters, in order.

@@ -199,6 +199,11 @@ impl Code {
         )
     }
 
+    /// Whether what is wrong is wrong where it is used, and may be right elsewhere.
+    pub const fn depends_on_caller(self) -> bool {
+        matches!(self, Code::WrongScope | Code::NotConstant)
+    }
+
     /// The code that a text names: `SP0203`, `sp0203` or `203`.
     pub fn from_text(text: &str) -> Option<Code> {
         let text = text.trim();

@@ -200,7 +200,8 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn check_domain(
+    /// Reports a number outside of the range that a parameter declares.
+    pub(crate) fn check_domain(
         &mut self,
         value: &Value<'w>,
         domain: &'w crate::ast::Domain,

@@ -103,11 +103,22 @@ facts! {
             let said = say(format!("`{name}` is {noun}, not a value"), "");
             match cure {
                 Some(Use::Called) => said.help(format!("call it: `{name}(…)`")),
-                Some(Use::Recorded) => {
-                    said.help(format!("records and endings read its states: `{name}.STATE`"))
-                }
                 Some(Use::Given) => said.help(format!("give it to a player: `ai: {name}`")),
                 None => said,
+            }
+        },
+        /// A reward where a value is wanted.
+        ///
+        /// - `states`: how those that it keeps are read here, `None` where none can be.
+        RewardIsNoValue { name: String, states: Option<Vec<String>> } = Code::WrongType => {
+            let said = say(format!("`{name}` is a reward, not a value"), "");
+            match states.as_deref() {
+                None => said.help("a record or an ending of its scenario reads a reward's states"),
+                Some([]) => said.help(format!(
+                    "it keeps nothing to read: give it a state, `state n = 0`, and read `{name}.n`"
+                )),
+                Some([state]) => said.help(format!("read its state: `{state}`")),
+                Some(all) => said.help(format!("read one of its states: `{}`", all.join("`, `"))),
             }
         },
         /// A series where a value is wanted.
@@ -164,8 +175,6 @@ const PITCH_SIZE: &str = "the pitch is 110m by 72m: write less";
 pub(crate) enum Use {
     /// A function.
     Called,
-    /// A reward, in a record.
-    Recorded,
     /// A behavior.
     Given,
 }

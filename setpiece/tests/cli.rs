@@ -328,7 +328,7 @@ fn values_that_are_not_finite_are_reported() {
         CLOSE.replace("ball at", "reward x { state n = 0  give 1 / n as \"broken\" }\n    ball at");
     let path = write(folder.path(), "faulty.pitch", source);
     let output = text(&setpiece(&["run", &path, "--episodes", "2"]).stdout);
-    assert!(output.contains("values were not finite"), "{output}");
+    assert!(output.contains("values in `x` were not finite"), "{output}");
     assert!(
         json(&["run", &path, "--episodes", "2", "--format", "json"])["faults"].as_u64().unwrap()
             > 0
@@ -561,6 +561,8 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
         }
         panic!("no line with `{word}` came");
     };
+    wait_for("mean score");
+    wait_for("scoring/goal");
     wait_for("waiting for a change");
     // A save by renaming, as editors do.
     let rename = |content: &str| {
@@ -574,8 +576,37 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
     wait_for("waiting for a change");
     std::fs::write(&path, CLOSE.replace("scenario close", "scenario closest")).unwrap();
     wait_for("closest");
+    wait_for("waiting for a change");
+    std::fs::remove_file(&path).unwrap();
+    wait_for("is gone");
     child.kill().unwrap();
     let _ = child.wait();
+}
+
+#[test]
+fn agents_of_both_sides_have_a_mean_each() {
+    let folder = folder();
+    let both = CLOSE.replace("ball at", "agents { left: 1, right: 1 }\n    ball at");
+    let path = write(folder.path(), "both.pitch", both);
+    let output = text(&setpiece(&["run", &path, "--episodes", "3"]).stdout);
+    let line = output.lines().find(|line| line.contains("mean return")).unwrap();
+    assert!(line.contains(" : "), "{output}");
+    let result = json(&["run", &path, "--episodes", "3", "--format", "json"]);
+    let (left, right) = (&result["mean_returns"]["left"], &result["mean_returns"]["right"]);
+    let mean = (left.as_f64().unwrap() + right.as_f64().unwrap()) / 2.0;
+    assert!((result["mean_return"].as_f64().unwrap() - mean).abs() < 1e-9, "{result}");
+    let one = write(folder.path(), "close.pitch", CLOSE);
+    let result = json(&["run", &one, "--episodes", "1", "--format", "json"]);
+    assert!(result["mean_returns"].is_null(), "{result}");
+}
+
+#[test]
+fn a_level_that_stands_for_a_scenario_is_recognised() {
+    fails(
+        &["run", "academy_corner{difficulty=0.8}#3"],
+        1,
+        &["SP0005", "`--level 'academy_corner{difficulty=0.8}#3'`"],
+    );
 }
 
 #[test]

@@ -18,7 +18,9 @@ use setpiece_scenario::{BinaryOp, Record, Reg, When};
 /// Lowers the records.
 pub(crate) fn lower_records(step: &StepWorld<'_, '_>) -> Vec<Record> {
     let records = &step.world.flat.records;
-    records.iter().for_each(|binding| check_name(step.world, &binding.name));
+    for binding in records {
+        check_name(step.world, &binding.name);
+    }
     records.iter().filter_map(|binding| lower_record(step, binding)).collect()
 }
 

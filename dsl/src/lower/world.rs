@@ -44,6 +44,8 @@ pub(crate) struct World<'w> {
     pub(super) counts: RefCell<BTreeMap<Code, usize>>,
     /// How many problems were found, also those that are not reported.
     pub(super) found: Cell<usize>,
+    /// How many errors were reported.
+    pub(super) errors: Cell<usize>,
     /// Whether something is tried out.
     pub(super) is_tentative: Cell<bool>,
 }
@@ -81,6 +83,7 @@ impl<'w> World<'w> {
         if self.is_tentative.get() {
             return;
         }
+        self.errors.set(self.errors.get() + usize::from(problem.is_error()));
         let mut counts = self.counts.borrow_mut();
         let count = counts.entry(problem.code()).or_default();
         *count += 1;
@@ -100,6 +103,12 @@ impl<'w> World<'w> {
     /// between is wrong.
     pub(crate) fn found(&self) -> usize {
         self.found.get()
+    }
+
+    /// How many errors were reported so far. More of them afterwards say that no scenario comes
+    /// out, and that what was read in between has no value of its own.
+    pub(crate) fn errors(&self) -> usize {
+        self.errors.get()
     }
 
     /// Runs `f` and reports no problem that it finds. The caller only tries something out that is

@@ -140,15 +140,12 @@ impl<'w> Planner<'_, 'w> {
             }
             (other, _) => {
                 let named = other.to_owned();
-                let fact = match kept_as(other, scenario) {
-                    Some(kind) => {
-                        let form = format!("mean({kind} {other})");
-                        Facts::KindOfQuantity { kind, name: named, form }
-                    }
-                    None => {
-                        let guess = Guess::similar_or_all(other, &MEASURES);
-                        Facts::NoMeasure { name: named, guess }
-                    }
+                let fact = if let Some(kind) = kept_as(other, scenario) {
+                    let form = format!("mean({kind} {other})");
+                    Facts::KindOfQuantity { kind, name: named, form }
+                } else {
+                    let guess = Guess::similar_or_all(other, &MEASURES);
+                    Facts::NoMeasure { name: named, guess }
                 };
                 self.report(name.span, fact);
                 return None;

@@ -593,7 +593,7 @@ fn agents_of_both_sides_have_a_mean_each() {
     assert!(line.contains(" : "), "{output}");
     let result = json(&["run", &path, "--episodes", "3", "--format", "json"]);
     let (left, right) = (&result["mean_returns"]["left"], &result["mean_returns"]["right"]);
-    let mean = (left.as_f64().unwrap() + right.as_f64().unwrap()) / 2.0;
+    let mean = f64::midpoint(left.as_f64().unwrap(), right.as_f64().unwrap());
     assert!((result["mean_return"].as_f64().unwrap() - mean).abs() < 1e-9, "{result}");
     let one = write(folder.path(), "close.pitch", CLOSE);
     let result = json(&["run", &one, "--episodes", "1", "--format", "json"]);

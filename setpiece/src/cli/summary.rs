@@ -157,22 +157,19 @@ pub(crate) fn print(
 pub(crate) fn means(summary: &Summary, faulty: &[String], width: usize, out: &Out) {
     let [left, right] = summary.score;
     out.line(format!("  {:width$}  {left:.2} : {right:.2}", "mean score"));
-    match &summary.by_side {
-        // Of two sides that play each other the mean says little.
-        Some([left, right]) => {
-            let both = |left: f64, right: f64| format!("{left:+.3} : {right:+.3}");
-            let paid = both(left.mean_return, right.mean_return);
-            out.line(format!("  {:width$}  {paid}", "mean return"));
-            let terms = summary.terms.iter().zip(left.terms.iter().zip(&right.terms));
-            for ((name, _), (left, right)) in terms {
-                out.line(format!("  {:width$}    {}  {name}", "", both(*left, *right)));
-            }
+    // Of two sides that play each other the mean says little.
+    if let Some([left, right]) = &summary.by_side {
+        let both = |left: f64, right: f64| format!("{left:+.3} : {right:+.3}");
+        let paid = both(left.mean_return, right.mean_return);
+        out.line(format!("  {:width$}  {paid}", "mean return"));
+        let terms = summary.terms.iter().zip(left.terms.iter().zip(&right.terms));
+        for ((name, _), (left, right)) in terms {
+            out.line(format!("  {:width$}    {}  {name}", "", both(*left, *right)));
         }
-        None => {
-            out.line(format!("  {:width$}  {:+.3}", "mean return", summary.mean_return));
-            for (name, mean) in &summary.terms {
-                out.line(format!("  {:width$}    {mean:+.3}  {name}", ""));
-            }
+    } else {
+        out.line(format!("  {:width$}  {:+.3}", "mean return", summary.mean_return));
+        for (name, mean) in &summary.terms {
+            out.line(format!("  {:width$}    {mean:+.3}  {name}", ""));
         }
     }
     if summary.faults > 0 {

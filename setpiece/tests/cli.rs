@@ -533,7 +533,7 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
     let folder = folder();
     let path = write(folder.path(), "close.pitch", CLOSE);
     let mut child = Command::new(env!("CARGO_BIN_EXE_setpiece"))
-        .args(["run", &path, "--watch", "--episodes", "1", "--agent", "idle"])
+        .args(["run", &path, "--watch", "--episodes", "2", "--agent", "idle"])
         .stdout(std::process::Stdio::piped())
         .stderr(std::process::Stdio::piped())
         .spawn()
@@ -564,6 +564,12 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
     wait_for("mean score");
     wait_for("scoring/goal");
     wait_for("waiting for a change");
+    // Lines with a word before the first one with another.
+    let lines_with = |word: &str, last: &str| {
+        let patience = std::time::Duration::from_secs(30);
+        let lines = std::iter::from_fn(|| lines.recv_timeout(patience).ok());
+        lines.take_while(|line| !line.contains(last)).filter(|line| line.contains(word)).count()
+    };
     // A save by renaming, as editors do.
     let rename = |content: &str| {
         let temporary = write(folder.path(), ".close.pitch.swp", content);
@@ -577,6 +583,11 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
     std::fs::write(&path, CLOSE.replace("scenario close", "scenario closest")).unwrap();
     wait_for("closest");
     wait_for("waiting for a change");
+    // A script that fails in every episode is reported once.
+    let script = "fn reward(ctx, now, prev, events) { let none = []; none[3] * 1.0 }";
+    let failing = format!("reward script rhai \"\"\"{script}\"\"\"\n    ball at");
+    std::fs::write(&path, CLOSE.replace("ball at", &failing)).unwrap();
+    assert_eq!(lines_with("SP0702", "waiting for a change"), 1);
     std::fs::remove_file(&path).unwrap();
     wait_for("is gone");
     child.kill().unwrap();

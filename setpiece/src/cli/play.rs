@@ -305,8 +305,8 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let mut scenario = live.loaded().scenario.clone();
     out.line(StyledText::default().bold(&scenario.name));
     loop {
-        // Those since the last change, and the fault that was reported.
-        let (mut played, mut known_fault) = (Vec::new(), None);
+        // Those since the last change, and whether a fault among them was reported.
+        let (mut played, mut is_reported) = (Vec::new(), false);
         for index in options.episodes.clone() {
             let one = RunOptions { episodes: index..index + 1, threads: 1, ..options.clone() };
             let summary = run(&scenario, &one, |_| {})?;
@@ -314,21 +314,23 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
                 out.line(summary::episode_line(episode));
             }
             if let Some(error) = first_error(&summary)
-                && known_fault.replace(error.to_string()) != Some(error.to_string())
+                && !std::mem::replace(&mut is_reported, true)
             {
                 out.error(&error);
             }
             played.extend(summary.episodes);
             if let Some(fresh) = reload(args, &mut live, Duration::ZERO, out) {
                 (scenario, options) = fresh;
-                (played, known_fault) = (Vec::new(), None);
+                (played, is_reported) = (Vec::new(), false);
             }
         }
-        let environment = Environment::new(scenario.clone(), options.environment.clone())
-            .map_err(Error::Environment)?;
-        let summary = summarise(played, &environment, 0.0);
-        let faulty = faulty_rewards(&scenario, &options, &summary)?;
-        summary::means(&summary, &faulty, summary::WIDTH, out);
+        if played.iter().any(Result::is_ok) {
+            let environment = Environment::new(scenario.clone(), options.environment.clone())
+                .map_err(Error::Environment)?;
+            let summary = summarise(played, &environment, 0.0);
+            let faulty = faulty_rewards(&scenario, &options, &summary)?;
+            summary::means(&summary, &faulty, summary::WIDTH, out);
+        }
         out.line(StyledText::default().dim("waiting for a change; Ctrl-C ends"));
         let mut is_missing = false;
         (scenario, options) = loop {

@@ -401,13 +401,16 @@ fn is_enough(effort: &Effort, item: &ScenarioItem, problems: &mut Vec<Problem>) 
 
 /// Points from a problem in what is inherited to what the scenario itself declares and is named
 /// there.
-fn located_in_child(world: &World<'_>, problem: Problem) -> Problem {
+fn located_in_child<'w>(world: &World<'w>, problem: Problem) -> Problem {
     let span = problem.place();
     if !world.flat.is_inherited(span) {
         return problem;
     }
-    let text = world.library.sources.text(span);
-    let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    // What disagrees with a value may be what the child declares.
+    let labels = problem.words().labels;
+    let texts = labels.iter().map(|label| world.library.sources.text(label.span));
+    let split = |text: &'w str| text.split(|c: char| !c.is_alphanumeric() && c != '_');
+    let words: Vec<&str> = texts.flat_map(split).collect();
     // What a child hands in is what can't be drawn, not what the parent does with it.
     let mut bound = world.params.iter().filter_map(|param| Some((param.name, param.bound?)));
     if let Some((name, argument)) = bound.find(|(name, _)| words.contains(&name.node.as_str()))
@@ -419,9 +422,10 @@ fn located_in_child(world: &World<'_>, problem: Problem) -> Problem {
             Chance::ArgumentDrawn { name: name.node.clone(), because, used: span },
         );
     }
+    let record = |word| world.record(word).map(|record| record.name.span);
     let own = words
         .into_iter()
-        .filter_map(|word| world.declaration(word))
+        .filter_map(|word| world.declaration(word).or_else(|| record(word)))
         .find(|at| world.flat.is_own(*at));
     match own {
         Some(at) => problem.declared_at(at),

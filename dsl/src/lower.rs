@@ -15,12 +15,14 @@ pub(crate) mod ending;
 pub(crate) mod expr;
 mod fields;
 pub(crate) mod hidden;
+mod implies;
 pub(crate) mod interval;
 mod known;
 mod layouts;
 pub(crate) mod loaded_scripts;
 pub(crate) mod mirror;
 mod mirrored;
+mod never;
 pub(crate) mod observation;
 pub(crate) mod param;
 pub(crate) mod param_info;
@@ -381,11 +383,6 @@ impl<'c, 'w> Lower<'c, 'w> {
     /// The interval of a register, where it is known.
     pub(crate) fn interval(&self, reg: Reg) -> Option<Interval> {
         interval::interval(&self.code, reg, &self.world.ranges())
-    }
-
-    /// Whether a condition never holds, whatever happens in the match.
-    pub(crate) fn never_holds(&self, reg: Reg) -> bool {
-        interval::never_holds(&self.code, reg, &self.world.ranges(), self.longest())
     }
 
     /// Reports a value that may be outside its range; what isn't known now becomes a requirement of

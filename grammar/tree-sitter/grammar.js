@@ -27,12 +27,7 @@ module.exports = grammar({
   word: ($) => $.identifier,
   extras: ($) => [/[\s;\uFEFF\u00A0]/, $.line_comment, $.block_comment, $.doc_comment],
   conflicts: ($) => [
-    [$._name, $.event],
-    [$.event],
-    [$._expression, $.give],
-    [$.argument, $._expression],
     [$.give],
-    [$.on_block, $.give],
     [$._key, $.player],
     [$._name, $.argument],
     [$._expression, $.parameter],
@@ -71,7 +66,9 @@ module.exports = grammar({
       $.if_expression, $.binary_expression, $.unary_expression, $.has_ball, $.changes, $.member, $.own, $.tuple,
       $.list, $.call, $.over_time, $.event, $.quantity, $.boolean, $.string, $.role, $._name,
     ),
-    _name: ($) => choice($.identifier, alias("left", $.identifier), alias("right", $.identifier), alias("ball", $.identifier)),
+    _name: ($) => choice(
+      $.identifier, alias(choice("left", "right", "ball", "all", ...OVER_TIME), $.identifier),
+    ),
     if_expression: ($) => prec.right(seq(
       "if", $._expression, "then", $._expression, "else", $._expression,
     )),
@@ -93,10 +90,9 @@ module.exports = grammar({
     tuple: ($) => seq("(", $._expression, repeat(seq(",", $._expression)), ")"),
     list: ($) => seq("[", optional(list($._expression)), "]"),
     call: ($) => prec(PREC.member + 1, seq(
-      field("function", $.callee), token.immediate("("), optional(list($.argument)), ")",
+      field("function", choice($.callee, $.member)), token.immediate("("), optional(list($.argument)), ")",
     )),
-    callee: ($) => seq($._callee, repeat(seq(token.immediate("."), $.identifier))),
-    _callee: ($) => choice($.identifier, alias("all", $.identifier), alias("until", $.identifier)),
+    callee: ($) => choice($.identifier, alias(choice("all", "until", ...OVER_TIME), $.identifier)),
     argument: ($) => choice(
       seq(field("name", $.identifier), ":", $._value),
       seq($._expression, optional(choice(
@@ -264,14 +260,15 @@ module.exports = grammar({
     _reward_statement: ($) => choice($.state, $.let, $.give, $.on_block, $.when_block, $.assign),
     state: ($) => seq("state", field("name", $.identifier), optional($._annotation), "=", $._value),
     assign: ($) => seq(field("name", $.identifier), "=", $._value),
-    give: ($) => prec.right(seq(
+    // `on` and `when` behind a `give` may begin a block of their own, which its brace decides.
+    give: ($) => seq(
       "give", choice($.script, $._expression), optional(seq("per", "second")), optional("once"), optional($.label),
       optional(choice(
         seq("on", $._events, optional(seq("when", $._expression))),
         seq("when", $._expression, optional(seq("on", $._events))),
       )),
       optional($.label),
-    )),
+    ),
     on_block: ($) => seq("on", $._events, optional(seq("when", $._expression)), $._body),
     when_block: ($) => prec.right(seq(
       "when", $._expression, $._body, repeat(seq("else", "when", $._expression, $._body)), optional(seq("else", $._body)),

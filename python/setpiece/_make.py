@@ -110,7 +110,8 @@ def make(
       the last 50 ms or so may wait for the next `reset` or `step`. A broken file leaves the last
       good scenario in place, and one that would change the spaces is held back.
     - `on_reload`: called with the `Reload` of every change, in the `reset` or `step` that found it,
-      which raises `CallbackError` if the call fails; see also `env.unwrapped.last_reload`.
+      which raises `CallbackError` if the call fails; see also `env.unwrapped.last_reload`. Without
+      it a change that can't be applied is a warning.
     - `action_set`: `"default"` (19 actions), `"v2"` (20: `Action.BUILTIN_AI` hands the step over to
       the bot), `"full"` (33: also orders to teammates) or `"continuous"`, a `Box` of float32
       `(4,)`: x and y of the direction to run, whose length is the pace; what to do with the ball,

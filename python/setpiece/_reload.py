@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -100,9 +101,16 @@ class Watcher:
         )
 
     def tell(self, reload: Reload) -> None:
-        """Reports a change, applied or not; raises `CallbackError` if `on_reload` fails."""
+        """Reports a change, applied or not; raises `CallbackError` if `on_reload` fails.
+
+        Without an `on_reload` a change that isn't applied is a warning.
+        """
         self.last = reload
         if self._on_reload is None:
+            if reload.state != "applied":
+                cause = reload.why if reload.error is None else str(reload.error)
+                message = f"the changed file is {reload.state}, the scenario in use stays: {cause}"
+                warnings.warn(message, stacklevel=2)
             return
         try:
             self._on_reload(reload)

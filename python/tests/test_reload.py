@@ -144,10 +144,14 @@ def test_scripts_are_taken_over_at_once_if_asked(pitch_file: Callable[[str], Pat
         env.save_replay(path.with_suffix(".pitchr"))
     # A broken script is reported at once, and the last good one stays in use.
     path.write_text(scripted("100.0 +"))
-    assert (
-        step_until(env, lambda: env.last_reload is not None and env.last_reload.state == "broken")
-        > 101.0
-    )
+    with pytest.warns(UserWarning, match="the changed file is broken") as warned:
+        paid = step_until(
+            env, lambda: env.last_reload is not None and env.last_reload.state == "broken"
+        )
+    assert paid > 101.0
+    # The next step would raise a second warning.
+    assert env.step(0)[1] > 101.0
+    assert len(warned) == 1
     # Any other change waits for the next episode.
     path.write_text(scripted("5.0", limit=7))
     for _ in range(30):

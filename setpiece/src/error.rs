@@ -1,5 +1,6 @@
 //! Errors before an episode runs, each with a stable code and a help line.
 
+use crate::level::Level;
 use crate::replay::ReplayError;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::Sources;
@@ -224,6 +225,9 @@ impl Error {
     pub fn help(&self) -> Option<String> {
         let meant = |name: &String| format!("did you mean `{name}`?");
         match self {
+            Error::Unknown { name, .. } if Level::read(name).is_ok() => {
+                Some(format!("a level is given by an option: `--level '{name}'`"))
+            }
             Error::Unknown { similar: Some(name), .. } => Some(meant(name)),
             Error::Unknown { .. } => {
                 Some("`setpiece list` shows the scenarios; a file's path ends in .pitch".to_owned())

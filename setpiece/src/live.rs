@@ -4,12 +4,13 @@ use crate::error::Error;
 use crate::load::{LoadOptions, Loaded, load_with};
 use crate::watch::Watcher;
 use std::ffi::{OsStr, OsString};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// A scenario and a watcher on all its files: its own, imports and scripts.
 pub struct Live {
     source: OsString,
+    scenario: Option<String>,
     allow_outside: bool,
     loaded: Loaded,
     watcher: Watcher,
@@ -23,10 +24,24 @@ impl Live {
     /// # Errors
     /// Like [`load_with`].
     pub fn open(source: impl AsRef<OsStr>, allow_outside: bool) -> Result<Live, Error> {
+        Live::open_scenario(source, None, allow_outside)
+    }
+
+    /// The same of one scenario of a file.
+    ///
+    /// # Errors
+    /// Like [`load_with`].
+    pub fn open_scenario(
+        source: impl AsRef<OsStr>,
+        scenario: Option<&str>,
+        allow_outside: bool,
+    ) -> Result<Live, Error> {
         let source = source.as_ref().to_owned();
-        let loaded = load_with(&source, &LoadOptions { allow_outside, ..LoadOptions::default() })?;
+        let options = LoadOptions { scenario, allow_outside, ..LoadOptions::default() };
+        let loaded = load_with(&source, &options)?;
         let watcher = Watcher::new(&loaded.inputs);
-        Ok(Live { source, allow_outside, loaded, watcher })
+        let scenario = scenario.map(str::to_owned);
+        Ok(Live { source, scenario, allow_outside, loaded, watcher })
     }
 
     /// The last good scenario.
@@ -37,6 +52,11 @@ impl Live {
     /// Whether there are files to watch; a scenario of the library has none.
     pub fn is_watching(&self) -> bool {
         !self.loaded.inputs.is_empty()
+    }
+
+    /// A file that has been missing for a while; its last good state goes on.
+    pub fn missing(&self) -> Option<&Path> {
+        self.watcher.missing()
     }
 
     /// Recompiles if a file has changed since the last call; waits for at most `timeout`.
@@ -50,7 +70,11 @@ impl Live {
         if !self.watcher.changed(timeout) {
             return None;
         }
-        let options = LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() };
+        let options = LoadOptions {
+            scenario: self.scenario.as_deref(),
+            allow_outside: self.allow_outside,
+            ..LoadOptions::default()
+        };
         Some(match load_with(&self.source, &options) {
             Ok(fresh) => {
                 self.watcher.watch(&fresh.inputs);

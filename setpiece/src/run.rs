@@ -7,7 +7,7 @@ use setpiece_engine::digest;
 use setpiece_engine::environment::{Environment, EnvironmentOptions};
 use setpiece_engine::statistics::{MatchMeans, MatchStatistics};
 use setpiece_scenario::Scenario;
-use setpiece_scenario::vocabulary::Verdict;
+use setpiece_scenario::vocabulary::{Team, Verdict};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
@@ -41,6 +41,8 @@ pub struct Summary {
     pub score: [f64; 2],
     /// Mean return of an agent.
     pub mean_return: f64,
+    /// The same of each side's agents, if both sides have some: left and right.
+    pub by_side: Option<[SideMeans; 2]>,
     /// Mean length, steps.
     pub mean_length: f64,
     /// Share of successes.
@@ -58,6 +60,15 @@ pub struct Summary {
     pub digest: u64,
     /// The average figures of the matches.
     pub match_stats: MatchMeans,
+}
+
+/// What the agents of a side were paid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SideMeans {
+    /// Mean return of an agent.
+    pub mean_return: f64,
+    /// Mean return of an agent by term, in the order of [`Summary::terms`].
+    pub terms: Vec<f64>,
 }
 
 /// Plays the episodes. `progress` is called with the length of each finished episode, from any
@@ -90,15 +101,51 @@ pub fn run(
         },
     )
     .map_err(|why| Error::Threads(why.to_string()))?;
-    Ok(summarise(episodes, environment.term_names(), begin.elapsed().as_secs_f64()))
+    Ok(summarise(episodes, &environment, begin.elapsed().as_secs_f64()))
 }
 
-/// Summarises episodes; `names` are those of the terms.
+/// The rewards whose values weren't finite, of the first episode with such faults.
+///
+/// The episode is played again with each reward alone: what is paid doesn't change what the agents
+/// do.
+///
+/// # Errors
+/// Like [`run`].
+pub fn faulty_rewards(
+    scenario: &Arc<Scenario>,
+    options: &RunOptions,
+    summary: &Summary,
+) -> Result<Vec<String>, Error> {
+    let Some(faulty) = summary.episodes.iter().flatten().find(|episode| episode.faults > 0) else {
+        return Ok(Vec::new());
+    };
+    let faults = |rewards: Vec<String>| -> Result<u64, Error> {
+        let environment =
+            EnvironmentOptions { rewards: Some(rewards), ..options.environment.clone() };
+        let episodes = faulty.index..faulty.index + 1;
+        let alone = RunOptions { episodes, threads: 1, environment, ..options.clone() };
+        Ok(run(scenario, &alone, |_| {})?.faults)
+    };
+    let own = || scenario.rewards.iter().map(|reward| reward.name.clone()).collect();
+    let names: Vec<String> = options.environment.rewards.clone().unwrap_or_else(own);
+    // Behaviours have faults, too, whatever is paid.
+    let others = faults(Vec::new())?;
+    let mut found = Vec::new();
+    for name in names {
+        if faults(vec![name.clone()])? > others {
+            found.push(name);
+        }
+    }
+    Ok(found)
+}
+
+/// Summarises episodes that an environment like this one has played.
 pub(crate) fn summarise(
     episodes: Vec<Result<EpisodeSummary, EpisodeError>>,
-    names: &[String],
+    environment: &Environment,
     seconds: f64,
 ) -> Summary {
+    let names = environment.term_names();
     let mut outcomes: Vec<(String, Option<Verdict>, u32)> = Vec::new();
     for episode in &episodes {
         let (label, verdict) =
@@ -115,27 +162,51 @@ pub(crate) fn summarise(
     let mean = |of: &dyn Fn(&EpisodeSummary) -> f64| {
         played.iter().map(|episode| of(episode)).sum::<f64>() / n + 0.0
     };
-    let by_agent = |episode: &EpisodeSummary, of: &dyn Fn(usize) -> f64| {
-        let agents = episode.returns.len();
-        (0..agents).map(of).sum::<f64>() / agents.max(1) as f64
+    let teams: Vec<Team> = environment.roster().agents.iter().map(|(team, _)| *team).collect();
+    let of_side = |side: Option<Team>| -> Vec<usize> {
+        let agents = 0..teams.len();
+        agents.filter(|&agent| side.is_none_or(|side| teams.get(agent) == Some(&side))).collect()
+    };
+    let by_agent = |agents: &[usize], of: &dyn Fn(usize) -> f64| {
+        agents.iter().map(|&agent| of(agent)).sum::<f64>() / agents.len().max(1) as f64
     };
     let steps: u64 = played.iter().map(|episode| u64::from(episode.length)).sum();
     let statistics: Vec<MatchStatistics> =
         played.iter().map(|episode| episode.statistics.clone()).collect();
-    let term = |index: usize| {
+    let term = |agents: &[usize], index: usize| {
         mean(&|episode| {
-            by_agent(episode, &|agent| episode.terms[agent].get(index).copied().unwrap_or_default())
+            by_agent(agents, &|agent| {
+                episode.terms.get(agent).and_then(|of| of.get(index)).copied().unwrap_or_default()
+            })
         })
     };
+    let paid = |agents: &[usize]| {
+        mean(&|episode| {
+            by_agent(agents, &|agent| episode.returns.get(agent).copied().unwrap_or_default())
+        })
+    };
+    let all = of_side(None);
+    let sides = [of_side(Some(Team::Left)), of_side(Some(Team::Right))];
+    let by_side = sides.iter().all(|side| !side.is_empty()).then(|| {
+        sides.each_ref().map(|agents| SideMeans {
+            mean_return: paid(agents),
+            terms: (0..names.len()).map(|index| term(agents, index)).collect(),
+        })
+    });
     Summary {
         outcomes,
         score: [0, 1].map(|side| mean(&|episode| f64::from(episode.score[side]))),
-        mean_return: mean(&|episode| by_agent(episode, &|agent| episode.returns[agent])),
+        mean_return: paid(&all),
+        by_side,
         mean_length: mean(&|episode| f64::from(episode.length)),
         success_rate: mean(&|episode| {
             f64::from(u8::from(episode.verdict == Some(Verdict::Success)))
         }),
-        terms: names.iter().enumerate().map(|(index, name)| (name.clone(), term(index))).collect(),
+        terms: names
+            .iter()
+            .enumerate()
+            .map(|(index, name)| (name.clone(), term(&all, index)))
+            .collect(),
         steps_per_second: if seconds > 0.0 { steps as f64 / seconds } else { 0.0 },
         records: record_means(&played),
         faults: played.iter().map(|episode| u64::from(episode.faults)).sum(),

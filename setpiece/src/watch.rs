@@ -29,6 +29,9 @@ const LOOK_ANYWAY: Duration = Duration::from_millis(100);
 /// (FAT's).
 const COARSE: Duration = Duration::from_secs(2);
 
+/// How long a file must be missing to count as deleted.
+const GONE: Duration = Duration::from_millis(500);
+
 /// Watches some files.
 #[derive(Debug, Default)]
 pub struct Watcher {
@@ -113,6 +116,15 @@ impl Watcher {
             }
             due = true;
         }
+    }
+
+    /// A file that was there and has been missing for longer than a save by renaming takes.
+    pub fn missing(&self) -> Option<&Path> {
+        let is_missing = |file: &&Watched| {
+            let was_there = file.content != Content::Gone;
+            was_there && file.stamp.is_none() && file.since.elapsed() >= GONE
+        };
+        self.files.iter().find(is_missing).map(|file| file.path.as_path())
     }
 
     /// Listens to the events of the files' folders. Returns how long a wait without an event may

@@ -328,7 +328,7 @@ fn values_that_are_not_finite_are_reported() {
         CLOSE.replace("ball at", "reward x { state n = 0  give 1 / n as \"broken\" }\n    ball at");
     let path = write(folder.path(), "faulty.pitch", source);
     let output = text(&setpiece(&["run", &path, "--episodes", "2"]).stdout);
-    assert!(output.contains("values were not finite"), "{output}");
+    assert!(output.contains("values in `x` were not finite"), "{output}");
     assert!(
         json(&["run", &path, "--episodes", "2", "--format", "json"])["faults"].as_u64().unwrap()
             > 0
@@ -533,7 +533,7 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
     let folder = folder();
     let path = write(folder.path(), "close.pitch", CLOSE);
     let mut child = Command::new(env!("CARGO_BIN_EXE_setpiece"))
-        .args(["run", &path, "--watch", "--episodes", "1", "--agent", "idle"])
+        .args(["run", &path, "--watch", "--episodes", "2", "--agent", "idle"])
         .stdout(std::process::Stdio::piped())
         .stderr(std::process::Stdio::piped())
         .spawn()
@@ -561,7 +561,15 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
         }
         panic!("no line with `{word}` came");
     };
+    wait_for("mean score");
+    wait_for("scoring/goal");
     wait_for("waiting for a change");
+    // Lines with a word before the first one with another.
+    let lines_with = |word: &str, last: &str| {
+        let patience = std::time::Duration::from_secs(30);
+        let lines = std::iter::from_fn(|| lines.recv_timeout(patience).ok());
+        lines.take_while(|line| !line.contains(last)).filter(|line| line.contains(word)).count()
+    };
     // A save by renaming, as editors do.
     let rename = |content: &str| {
         let temporary = write(folder.path(), ".close.pitch.swp", content);
@@ -574,8 +582,42 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
     wait_for("waiting for a change");
     std::fs::write(&path, CLOSE.replace("scenario close", "scenario closest")).unwrap();
     wait_for("closest");
+    wait_for("waiting for a change");
+    // A script that fails in every episode is reported once.
+    let script = "fn reward(ctx, now, prev, events) { let none = []; none[3] * 1.0 }";
+    let failing = format!("reward script rhai \"\"\"{script}\"\"\"\n    ball at");
+    std::fs::write(&path, CLOSE.replace("ball at", &failing)).unwrap();
+    assert_eq!(lines_with("SP0702", "waiting for a change"), 1);
+    std::fs::remove_file(&path).unwrap();
+    wait_for("is gone");
     child.kill().unwrap();
     let _ = child.wait();
+}
+
+#[test]
+fn agents_of_both_sides_have_a_mean_each() {
+    let folder = folder();
+    let both = CLOSE.replace("ball at", "agents { left: 1, right: 1 }\n    ball at");
+    let path = write(folder.path(), "both.pitch", both);
+    let output = text(&setpiece(&["run", &path, "--episodes", "3"]).stdout);
+    let line = output.lines().find(|line| line.contains("mean return")).unwrap();
+    assert!(line.contains(" : "), "{output}");
+    let result = json(&["run", &path, "--episodes", "3", "--format", "json"]);
+    let (left, right) = (&result["mean_returns"]["left"], &result["mean_returns"]["right"]);
+    let mean = f64::midpoint(left.as_f64().unwrap(), right.as_f64().unwrap());
+    assert!((result["mean_return"].as_f64().unwrap() - mean).abs() < 1e-9, "{result}");
+    let one = write(folder.path(), "close.pitch", CLOSE);
+    let result = json(&["run", &one, "--episodes", "1", "--format", "json"]);
+    assert!(result["mean_returns"].is_null(), "{result}");
+}
+
+#[test]
+fn a_level_that_stands_for_a_scenario_is_recognised() {
+    fails(
+        &["run", "academy_corner{difficulty=0.8}#3"],
+        1,
+        &["SP0005", "`--level 'academy_corner{difficulty=0.8}#3'`"],
+    );
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Everything that must pass, fastest failures first.
 
+use crate::shell::{root, run};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -14,6 +15,11 @@ pub(crate) fn ci() -> Result<(), String> {
         println!(
             "deny: left out, cargo-deny is not installed: `cargo install cargo-deny --locked` brings it"
         );
+    }
+    if crate::grammar::is_there() {
+        crate::grammar::grammar()?;
+    } else {
+        println!("grammar: left out, tree-sitter is not installed: see `cargo xtask grammar`");
     }
     crate::studio::check()?;
     rust_tests()?;
@@ -168,26 +174,4 @@ pub(crate) fn lab(command: &str, args: &[String]) -> Result<(), String> {
     run(Command::new("cargo")
         .args(["run", "--release", "--package", "setpiece-lab", "--", command])
         .args(args))
-}
-
-/// Prints and runs a command, in the repository's root unless it names another folder.
-pub(crate) fn run(command: &mut Command) -> Result<(), String> {
-    let words: Vec<String> = std::iter::once(command.get_program())
-        .chain(command.get_args())
-        .map(|word| word.to_string_lossy().into_owned())
-        .collect();
-    println!("$ {}", words.join(" "));
-    if command.get_current_dir().is_none() {
-        command.current_dir(root());
-    }
-    match command.status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(format!("`{}` ended with {status}", words.join(" "))),
-        Err(why) => Err(format!("`{}` can't be run: {why}", words.join(" "))),
-    }
-}
-
-/// The repository's root.
-pub(crate) fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }

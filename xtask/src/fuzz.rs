@@ -1,7 +1,7 @@
 //! Fuzzing: builds the targets of `fuzz/` with nightly's coverage counters, runs them, and logs the
 //! runs.
 
-use crate::ci::{root, run};
+use crate::shell::{root, run};
 use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

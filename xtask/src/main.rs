@@ -4,6 +4,8 @@
 
 mod ci;
 mod fuzz;
+mod grammar;
+mod shell;
 mod studio;
 mod tidy;
 mod transfer;
@@ -45,6 +47,8 @@ enum Command {
     },
     /// Check licences, sources and advisories of the dependencies with cargo-deny
     Deny,
+    /// Generate the parser of grammar/tree-sitter and have it read the repository's files
+    Grammar,
     /// Write docs/pitchc.schema.json
     Schema,
     /// Compare the game's figures with those measured in Google Research Football
@@ -88,6 +92,7 @@ fn main() -> ExitCode {
         Command::Studio { drive: false, shots: false } => ("studio", studio::build()),
         Command::Studio { shots, .. } => ("studio", studio::drive(shots)),
         Command::Deny => ("deny", ci::deny()),
+        Command::Grammar => ("grammar", grammar::grammar()),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
         Command::Soak { args } => ("soak", ci::lab("soak", &args)),
@@ -105,7 +110,7 @@ fn main() -> ExitCode {
 
 /// Writes the JSON schema of a compiled scenario.
 fn schema() -> Result<(), String> {
-    let path = ci::root().join("docs/pitchc.schema.json");
+    let path = shell::root().join("docs/pitchc.schema.json");
     std::fs::write(&path, setpiece_scenario::schema::text())
         .map_err(|why| format!("{}: {why}", path.display()))
 }

@@ -1,6 +1,6 @@
 //! The studio's page: built by npm from `studio/`, kept in `studio/dist`, embedded in the command.
 
-use crate::ci::{root, run};
+use crate::shell::{root, run};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -8,7 +8,7 @@ mod rooms;
 mod width;
 mod words;
 
-use crate::ci::root;
+use crate::shell::root;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,6 +1,7 @@
 //! Agents in both games: creates a separate environment and runs `lab/transfer/transfer.py` in it.
 
-use crate::ci::{install_wheel, pip, root, run, system_python, venv, wheel};
+use crate::ci::{install_wheel, pip, system_python, venv, wheel};
+use crate::shell::{root, run};
 use std::process::Command;
 
 /// Checks the options, creates the environment and trains, plays and writes `docs/transfer.md`.

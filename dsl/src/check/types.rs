@@ -148,6 +148,21 @@ impl Ty {
         })
     }
 
+    /// The word by which a declaration asks for such a value; `None` where there is none.
+    pub(crate) fn written(self) -> Option<&'static str> {
+        Some(match self {
+            Ty::Point | Ty::Ball => Type::Point.name(),
+            Ty::Vector => Type::Vector.name(),
+            Ty::Region => Type::Region.name(),
+            Ty::Player => Type::Player.name(),
+            Ty::Set => Type::Set.name(),
+            Ty::Formation => Type::Formation.name(),
+            Ty::Mode => Type::Mode.name(),
+            Ty::Role => Type::Role.name(),
+            ty => ty.param()?.name(),
+        })
+    }
+
     /// The type of a number with a unit.
     pub(crate) fn of_unit(unit: Unit) -> Ty {
         Ty::of(unit.ty())

@@ -19,6 +19,15 @@ pub(super) const HABITS: &[Habit] = &[
     row(Name, "e_Right¦Team_Right", "write `right`"),
     row(Name, "box¦six_yard¦half¦third¦penalty_spot¦byline", "it belongs to a team: `left.{1}`"),
     row(Name, "center", "write `centre`"),
+    row(Name, "penalty_area¦penalty_box¦eighteen_yard_box", "write `box`, as in `right.box`"),
+    row(Name, "goal_area¦six_yard_box", "write `six_yard`, as in `right.six_yard`"),
+    row(Name, "home¦away", "the teams are `left` and `right`; a reward has `us` and `them`"),
+    row(
+        Name,
+        "opponent¦opponents¦enemy¦enemies",
+        "write `them` in a reward, `left` or `right` elsewhere",
+    ),
+    row(Name, "teammates¦team_mates", "write `mates`, or `us` for `me`, too"),
     row(Name, "end", "`end` is an event only after `on`: `give 1 on end`"),
     // Letters.
     row(Anywhere, "| é", "a name is of the letters a to z, digits and `_`"),
@@ -33,9 +42,14 @@ pub(super) const HABITS: &[Habit] = &[
         "extends¦reward¦scenario¦formation¦behavior¦end¦success¦failure¦let¦const¦param¦state¦record¦fn¦do¦start | \"\"",
         "a name stands without quotes: `{2}`",
     ),
+    row(Reward, "give … | \"\"", "`as` stands before a label: `as \"{1}\"`"),
     row(Team, "| \"\"", "a name or role stands without quotes: `{1}`"),
     row(Anywhere, "| \"\" :", "a name stands without quotes: `{1}: …`"),
     row(Anywhere, "| '", "words stand between double quotes: `\"…\"`"),
+    row(Anywhere, "| “ _", "quotes are straight: `\"{1}\"`"),
+    row(Anywhere, "| ‘ _", "quotes are straight and double: `\"{1}\"`"),
+    row(Anywhere, "| “¦”¦„¦‘¦’", "quotes are straight and double: `\"…\"`"),
+    row(Anywhere, "| −¦–¦—", "the sign of a negative number is `-`"),
     row(Anywhere, "| #", "a comment begins with `//`"),
     row(Anywhere, "| ///", "a `///` comment stands above a statement; write `//` elsewhere"),
     // Google Research Football; before what its signs and brackets alone would tell.
@@ -153,6 +167,8 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "| ?", "write `if c then a else b`"),
     row(Anywhere, "_ | ++", "write `{1} = {1} + 1`"),
     row(Anywhere, "_ | --", "write `{1} = {1} - 1`"),
+    row(Reward, "reward | +=", "what is paid is written `give …`"),
+    row(Reward, "reward | -=", "what is paid is written `give -…`"),
     row(Anywhere, "_ | +=", "write `{1} = {1} + …`"),
     row(Anywhere, "_ | -=", "write `{1} = {1} - …`"),
     row(Anywhere, "_ | *=", "write `{1} = {1} * …`"),
@@ -166,6 +182,8 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "let¦const¦state¦param¦record¦region¦ending _ | ==", "write `{1} {2} = …`"),
     row(Anywhere, "let¦const¦state _ : | *", "write `{1} {2} = …`"),
     row(Anywhere, "record¦region¦ending _ | :", "write `{1} {2} = …`"),
+    row(Scenario, "reward _ | give", "write `reward {1} { give … }`"),
+    row(File, "reward _ | give", "write `reward {1} { give … }`"),
     row(
         Scenario,
         "reward _ ( … | =",
@@ -206,6 +224,8 @@ pub(super) const HABITS: &[Habit] = &[
         "a body stands between braces: `{ … }`",
     ),
     // Brackets.
+    row(Reward, "_ | [ _", "a list has no entries by number: write `if {2} == 0 then … else …`"),
+    row(Reward, "_ | [", "a list has no entries by number: give each value a name"),
     row(Anywhere, "ROLE | (", "write `{1} at (…)`"),
     row(Anywhere, "ball | (", "write `ball at (…)`"),
     row(Anywhere, "EVENT | ( left¦right¦us¦them¦me )", "write `{1} by {2}`"),
@@ -228,6 +248,7 @@ pub(super) const HABITS: &[Habit] = &[
     row(Team, "^ | 9a ROLE", "a count is a number alone: `2 {2} in …`"),
     // Conditions.
     row(Behavior, "if … | then", "write `if … { … } else { … }`"),
+    row(Anywhere, "in | if … then … else", "here it stands in brackets: `(if c then a else b)`"),
     row(Anywhere, "| if … else", "write `if c then a else b`"),
     row(Scenario, "end … | if", "write `when …`"),
     row(
@@ -274,6 +295,12 @@ pub(super) const HABITS: &[Habit] = &[
     row(File, "^ | from", "write `import \"std/rewards.pitch\"`"),
     row(File, "import | _", "write `import \"{1}.pitch\"`"),
     // Players and places.
+    row(Team, "in _ . _ | and not _ . _", "regions are joined by signs: `{1}.{2} - {3}.{4}`"),
+    row(Team, "in _ . _ | and _ . _", "regions are joined by signs: `{1}.{2} & {3}.{4}`"),
+    row(Team, "in _ . _ | or _ . _", "regions are joined by signs: `{1}.{2} | {3}.{4}`"),
+    row(Team, "in … | and not", "regions are joined by signs: `a - b` is `a` without `b`"),
+    row(Team, "in … | and", "regions are joined by signs: `a & b` is what both share"),
+    row(Team, "in … | or", "regions are joined by signs: `a | b` is both"),
     row(Scenario, "^ | 9 ROLE", "a player stands in a team: `team left { {1} {2} in … }`"),
     row(Scenario, "^ | ROLE", "a player stands in a team: `team left { {1} at … }`"),
     row(Scenario, "^ | _ : ROLE", "a player stands in a team: `team left { {1}: {2} at … }`"),

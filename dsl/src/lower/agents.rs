@@ -10,7 +10,7 @@ use crate::check::types::Ty;
 use crate::problem::facts::{AskedFor, Bounds, Instead, Players};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::vocabulary::Team;
-use setpiece_scenario::{Agents, Others, SideAgents, Switching};
+use setpiece_scenario::{Agents, Ai, Others, Reg, SideAgents, Switching};
 
 /// Lowers `agents { }`: one on the left unless it is written.
 pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions]) -> Agents {
@@ -72,7 +72,49 @@ pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions])
     for (team, at) in Team::ALL.iter().zip(at) {
         check_count(lower, &agents, *team, at, players);
     }
+    for team in Team::ALL {
+        check_scripted(lower, &agents, *team, at, players);
+    }
     agents
+}
+
+/// Warns of an agent that nobody asked for, where the scenario asks for others: it may take a
+/// scripted player.
+fn check_scripted(
+    lower: &Lower<'_, '_>,
+    agents: &Agents,
+    team: Team,
+    at: [Option<Span>; 2],
+    players: &[PlayerOptions],
+) {
+    let world = lower.world;
+    let own = |team: Team| {
+        let at = at.get(team.index()).copied().flatten();
+        at.filter(|at| world.flat.is_own(*at))
+    };
+    let other = if team == Team::Left { Team::Right } else { Team::Left };
+    let (None, Some(asked)) = (own(team), own(other)) else { return };
+    let Some(SideAgents::Count(reg)) = agents.sides.get(team.index()) else { return };
+    let is_some = |reg: Reg| lower.interval(reg).is_none_or(|(_, most)| most > 0.0);
+    let asks = match agents.sides.get(other.index()) {
+        Some(SideAgents::Count(reg)) => is_some(*reg),
+        Some(SideAgents::Players(list)) => !list.is_empty(),
+        Some(SideAgents::All) => true,
+        None => false,
+    };
+    let behaves = |id: u8| {
+        let mut behaviors = lower.start().into_iter().flat_map(|start| &start.behaviors);
+        behaviors.any(|(known, _)| *known == id)
+    };
+    let mut of_team = world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
+    let scripted = of_team.find(|(player, options)| {
+        options.controllable && (options.ai != Ai::Bot || behaves(player.id))
+    });
+    if let Some((player, _)) = scripted.filter(|_| asks && is_some(*reg)) {
+        let name = player.name.map_or_else(|| player.role.to_string(), |name| name.node.clone());
+        let team = world.mirror.team(team);
+        lower.report(Problem::new(asked, Players::AgentOverScript { team, name }));
+    }
 }
 
 fn word<T: Copy>(

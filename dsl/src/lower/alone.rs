@@ -6,11 +6,12 @@
 use super::step_world::StepWorld;
 use super::value::{LiteralFrame, LocalName, Scope, Value};
 use super::{Lower, ProgramStage, behavior, ending, param, reward};
-use crate::ast::{FnItem, Item, ItemKind, ParamDecl};
+use crate::ast::{FnItem, Item, ItemKind, ParamDecl, Span};
 use crate::check::types::Ty;
 use crate::lower::known::StartState;
 use crate::problem::Problem;
 use setpiece_scenario::vocabulary::EventKind;
+use std::cmp::Reverse;
 
 /// Who may call a function or region: the stages of their programs, the likeliest first.
 #[derive(Clone, Copy)]
@@ -49,8 +50,16 @@ fn found_by(step: &StepWorld<'_, '_>, part: impl FnOnce()) -> Vec<Problem> {
     found
 }
 
+/// How far a caller gets: it finds little that another one wouldn't, and little at all, and that
+/// late.
+fn reach(found: &[Problem]) -> (usize, usize, Reverse<Option<Span>>) {
+    let of_caller = |problem: &&Problem| problem.code().depends_on_caller();
+    let first = found.iter().map(Problem::place).min();
+    (found.iter().filter(of_caller).count(), found.len(), Reverse(first))
+}
+
 /// The errors of a function or region: none if one of its callers finds none, else those of the
-/// caller that finds fewest.
+/// caller that gets furthest.
 fn as_called<'w>(
     step: &StepWorld<'_, 'w>,
     item: &'w FnItem,
@@ -72,7 +81,7 @@ fn as_called<'w>(
                 None => lower.expr(&item.body),
             });
         });
-        if best.as_ref().is_none_or(|best| found.len() < best.len()) {
+        if best.as_ref().is_none_or(|best| reach(&found) < reach(best)) {
             best = Some(found);
         }
         if best.as_ref().is_some_and(Vec::is_empty) {
@@ -121,6 +130,9 @@ impl<'w> Lower<'_, 'w> {
                 None => lower.expr(default),
             })
         });
+        if let (Some(expr), Some(value), Some(domain)) = (&decl.default, &default, &decl.domain) {
+            self.check_domain(value, domain, expr, &decl.name.node);
+        }
         let ty = match (declared, &default) {
             (Some(ty), _) => ty,
             (None, Some(value)) => value.ty,

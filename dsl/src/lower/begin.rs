@@ -35,6 +35,7 @@ impl<'w> World<'w> {
             effort,
             counts: RefCell::default(),
             found: Cell::default(),
+            errors: Cell::default(),
             is_tentative: Cell::default(),
         };
         // A default is a constant: it reads no other parameter and no player.

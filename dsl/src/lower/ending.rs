@@ -3,7 +3,7 @@
 use super::step_world::StepWorld;
 use super::value::{LiteralFrame, Scope};
 use super::{Lower, ProgramStage, script};
-use crate::ast::{EndCondition, FnItem, ItemKind};
+use crate::ast::{EndCondition, FnItem, ItemKind, Span};
 use crate::problem::facts::{Kind, Names, Rewards};
 use crate::problem::{Guess, Problem, nearest};
 use crate::resolve::FlatEnding;
@@ -21,18 +21,53 @@ pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
     }
     let mut list = Vec::new();
     for ending in &world.flat.ends {
-        list.extend(lower_ending(&mut lower, ending));
+        list.extend(lower_ending(&mut lower, ending).map(|lowered| (lowered, ending.span)));
     }
+    check_come_about(&lower, &list);
     if list.is_empty() && world.flat.limit.is_none() {
         let name = &world.flat.item.name;
         world.report(Problem::new(name.span, Rewards::NeverEnds { scenario: name.node.clone() }));
     }
+    let mut list: Vec<Ending> = list.into_iter().map(|(ending, _)| ending).collect();
     let wanted: Vec<Reg> = list.iter().filter_map(|ending| ending.when).collect();
     let (program, layout) = lower.code.finish(&wanted);
     for ending in &mut list {
         ending.when = ending.when.map(|reg| layout.reg(reg));
     }
     Endings { program, list }
+}
+
+/// Warns of endings that no match comes to. What an abstract scenario says, its children may
+/// change.
+fn check_come_about(lower: &Lower<'_, '_>, list: &[(Ending, Span)]) {
+    let flat = lower.world.flat;
+    if flat.item.is_abstract {
+        return;
+    }
+    let is_known = |when: &Reg| !lower.code.is_unknown(*when);
+    for (at, (ending, span)) in list.iter().enumerate() {
+        let Some(when) = ending.when.filter(is_known).filter(|_| flat.is_own(*span)) else {
+            continue;
+        };
+        let label = || ending.label.clone();
+        if lower.never_holds(when) {
+            let fact = Rewards::NeverComes { label: label(), why: lower.why_never(when) };
+            lower.report(Problem::new(*span, fact));
+            continue;
+        }
+        let mut earlier = list.iter().take(at);
+        let first =
+            earlier.find(|(earlier, _)| earlier.when.is_some_and(|own| lower.implies(when, own)));
+        if let Some((earlier, at)) = first {
+            let fact = Rewards::Forestalled {
+                label: label(),
+                earlier: earlier.label.clone(),
+                at: *at,
+                is_inherited: flat.is_inherited(*at),
+            };
+            lower.report(Problem::new(*span, fact));
+        }
+    }
 }
 
 /// Lowers an ending that no scenario uses, for what is wrong with it; some team has the agents.

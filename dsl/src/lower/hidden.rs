@@ -50,10 +50,10 @@ fn of_scenario(world: &World<'_>, name: &str) -> Option<Hidden> {
     if let Some(at) = world.declaration(name) {
         return Some(Hidden { what: "the scenario's value", at: Some(at) });
     }
-    let mut players = world.roster.iter().filter_map(|player| player.name);
-    players
-        .find(|known| known.node == name)
-        .map(|known| Hidden { what: "the player", at: Some(known.span) })
+    if let Some(at) = world.player(name) {
+        return Some(Hidden { what: "the player", at: Some(at) });
+    }
+    world.record(name).map(|record| Hidden { what: "the record", at: Some(record.name.span) })
 }
 
 /// A value that the same file declares: what is imported, nobody need know by heart.

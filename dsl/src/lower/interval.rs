@@ -2,7 +2,7 @@
 
 use super::builder::Builder;
 use setpiece_scenario::vocabulary::Field;
-use setpiece_scenario::{BinaryOp, Distribution, FoldKind, Instr, Over, Reg, UnaryOp};
+use setpiece_scenario::{BinaryOp, Distribution, EventFilter, FoldKind, Instr, Over, Reg, UnaryOp};
 use std::cell::Cell;
 
 /// A closed interval.
@@ -29,21 +29,26 @@ fn of_field(field: Field) -> Option<Interval> {
 
 /// The interval of a register, if it is bounded; `params` are the parameters' ranges, in order.
 pub(crate) fn interval(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> Option<Interval> {
-    Search { code, params, in_play: false, longest: None, visits: Cell::new(VISITS_MAX) }
-        .bounded(reg, 0)
+    Search { code, params, in_play: None, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0)
 }
 
 /// Whether a condition never holds, whatever happens in the match.
-///
-/// - `longest`: how long the match lasts, seconds, if that is known.
 pub(crate) fn never_holds(
     code: &Builder,
     reg: Reg,
     params: &[Option<Interval>],
-    longest: Option<f64>,
+    in_play: InPlay<'_>,
 ) -> bool {
-    Search { code, params, in_play: true, longest, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0)
-        == Some(NEVER)
+    let in_play = Some(in_play);
+    Search { code, params, in_play, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0) == Some(NEVER)
+}
+
+/// What is known of a match under way.
+pub(crate) struct InPlay<'a> {
+    /// How long it lasts, seconds, if that is known.
+    pub(crate) longest: Option<f64>,
+    /// Whether an event that passes a filter can happen.
+    pub(crate) happens: &'a dyn Fn(&EventFilter) -> bool,
 }
 
 /// Most registers that are looked at: what is shared is looked at again and again.
@@ -54,10 +59,8 @@ const DEPTH_MAX: u32 = 64;
 struct Search<'a> {
     code: &'a Builder,
     params: &'a [Option<Interval>],
-    /// Whether what the match can show counts.
-    in_play: bool,
-    /// How long the match lasts, seconds, if that is known.
-    longest: Option<f64>,
+    /// What the match can show, if that counts.
+    in_play: Option<InPlay<'a>>,
     visits: Cell<u32>,
 }
 
@@ -68,10 +71,11 @@ impl Search<'_> {
             return None;
         }
         let of = |reg: Reg| self.bounded(reg, depth + 1);
+        let in_play = self.in_play.as_ref();
         let found = match self.code.instr(reg)? {
             Instr::Const(value) => (*value, *value),
             Instr::Param(index) => self.params.get(*index as usize).copied().flatten()?,
-            Instr::Unary(UnaryOp::Side, _) if self.in_play => (-1.0, 1.0),
+            Instr::Unary(UnaryOp::Side, _) if in_play.is_some() => (-1.0, 1.0),
             Instr::Unary(op, a) => unary(*op, of(*a)?)?,
             // One half that never holds is enough, whatever the other one is.
             Instr::Binary(BinaryOp::And, a, b)
@@ -80,11 +84,13 @@ impl Search<'_> {
                 NEVER
             }
             Instr::Binary(op, a, b) => binary(*op, of(*a)?, of(*b)?)?,
-            Instr::Load { field: Field::Elapsed | Field::Remaining, .. } if self.in_play => {
-                (0.0, self.longest?)
+            Instr::Load { field: Field::Elapsed | Field::Remaining, .. } => {
+                (0.0, in_play?.longest?)
             }
-            Instr::Load { field, .. } if self.in_play => of_field(*field)?,
-            Instr::Each(each) if self.in_play => match (each.fold.kind, &each.over) {
+            Instr::Load { field, .. } => in_play.and_then(|_| of_field(*field))?,
+            Instr::Each(each) => match (each.fold.kind, &each.over) {
+                (FoldKind::Count, Over::Events(filter)) if !(in_play?.happens)(filter) => NEVER,
+                _ if in_play.is_none() => return None,
                 (FoldKind::Count, Over::Players { team, .. }) => {
                     let both = self.code.constant_of(*team).is_some_and(|team| team < 0.0);
                     (0.0, if both { 22.0 } else { 11.0 })

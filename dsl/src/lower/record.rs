@@ -5,17 +5,43 @@
 
 use super::step_world::StepWorld;
 use super::value::{LiteralFrame, Repr, Scope, Value};
-use super::{Lower, ProgramStage};
-use crate::ast::{Binding, Expr, ExprKind, Span};
+use super::{Lower, ProgramStage, World};
+use crate::ast::{Binding, Expr, ExprKind, Ident, Span};
+use crate::check::names;
 use crate::check::types::Ty;
 use crate::problem::Problem;
-use crate::problem::facts::{Instead, Scopes, Types};
+use crate::problem::facts::{Instead, Names, Scopes, Types};
+use crate::source::FileId;
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Record, Reg, When};
 
 /// Lowers the records.
 pub(crate) fn lower_records(step: &StepWorld<'_, '_>) -> Vec<Record> {
-    step.world.flat.records.iter().filter_map(|binding| lower_record(step, binding)).collect()
+    let records = &step.world.flat.records;
+    for binding in records {
+        check_name(step.world, &binding.name);
+    }
+    records.iter().filter_map(|binding| lower_record(step, binding)).collect()
+}
+
+/// Reports a record that a value or player of its name hides wherever it is read, and warns of one
+/// that a word of the language does.
+fn check_name(world: &World<'_>, name: &Ident) {
+    let value = world.declaration(&name.node).map(|at| (at, "a value"));
+    let known = value.or_else(|| world.player(&name.node).map(|at| (at, "a player")));
+    let name_of = || name.node.clone();
+    if let Some((at, kind)) = known {
+        // Of the two the author wrote the one that stands in their own scenario.
+        let is_record = world.flat.is_own(name.span) || !world.flat.is_own(at);
+        let (again, first) = if is_record { (name.span, at) } else { (at, name.span) };
+        let kinds = ("a record", kind);
+        world.report(Problem::new(again, Names::Shared { name: name_of(), kinds, first }));
+    } else if let Some(whose) = names::owner_of_value(&name.node)
+        && name.span.file == FileId(0)
+    {
+        let fact = Names::UnreadableRecord { name: name_of(), whose };
+        world.report(Problem::new(name.span, fact));
+    }
 }
 
 fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Record> {
@@ -57,7 +83,7 @@ impl<'w> Lower<'_, 'w> {
     /// The value of a record by its name, wherever the match is judged.
     pub(super) fn recorded(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
         let world = self.world;
-        let binding = world.flat.records.iter().copied().find(|known| known.name.node == name)?;
+        let binding = world.record(name)?;
         // In the record itself its name means what it means in the file, as before the match.
         let is_elsewhere = !self.stage.judges() || self.is_inlining(binding.name.span);
         if is_elsewhere && world.library.find(span.file, name).is_some() {
@@ -107,8 +133,8 @@ impl<'w> Lower<'_, 'w> {
             let found = world.found();
             let value = world.tentatively(|| read(self));
             if world.found() > found {
-                let function = binding.name.node.clone();
-                self.fail(Problem::new(span, Scopes::NotAStepAgo { function }))
+                let name = binding.name.node.clone();
+                self.fail(Problem::new(span, Scopes::RecordNotAStepAgo { name }))
             } else {
                 value
             }

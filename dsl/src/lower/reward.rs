@@ -1,6 +1,5 @@
 //! Rewards: a program at every step that pays into terms, and one at reset that sets the states.
 
-mod never;
 mod state;
 mod writer;
 

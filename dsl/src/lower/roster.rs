@@ -425,9 +425,10 @@ fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
             // Of the two the author wrote the one that stands in their own scenario.
             let (again, first) =
                 if world.flat.is_own(name.span) { (name.span, value) } else { (value, name.span) };
+            let kinds = ("a player", "a value");
             world.report(Problem::new(
                 again,
-                Names::PlayerAndValue { name: name.node.clone(), first },
+                Names::Shared { name: name.node.clone(), kinds, first },
             ));
         }
     }

@@ -5,7 +5,7 @@ use super::loaded_scripts::LoadedScripts;
 use super::mirror::Mirror;
 use super::param_info::ParamInfo;
 use super::people::{Casting, Rostered};
-use crate::ast::Span;
+use crate::ast::{Binding, Span};
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
 use crate::resolve::{Flat, Library, Named};
@@ -44,6 +44,8 @@ pub(crate) struct World<'w> {
     pub(super) counts: RefCell<BTreeMap<Code, usize>>,
     /// How many problems were found, also those that are not reported.
     pub(super) found: Cell<usize>,
+    /// How many errors were reported.
+    pub(super) errors: Cell<usize>,
     /// Whether something is tried out.
     pub(super) is_tentative: Cell<bool>,
 }
@@ -74,13 +76,14 @@ impl Effort {
     }
 }
 
-impl World<'_> {
+impl<'w> World<'w> {
     /// Reports a problem, unless there are enough of its kind.
     pub(crate) fn report(&self, problem: Problem) {
         self.found.set(self.found.get() + 1);
         if self.is_tentative.get() {
             return;
         }
+        self.errors.set(self.errors.get() + usize::from(problem.is_error()));
         let mut counts = self.counts.borrow_mut();
         let count = counts.entry(problem.code()).or_default();
         *count += 1;
@@ -100,6 +103,12 @@ impl World<'_> {
     /// between is wrong.
     pub(crate) fn found(&self) -> usize {
         self.found.get()
+    }
+
+    /// How many errors were reported so far. More of them afterwards say that no scenario comes
+    /// out, and that what was read in between has no value of its own.
+    pub(crate) fn errors(&self) -> usize {
+        self.errors.get()
     }
 
     /// Runs `f` and reports no problem that it finds. The caller only tries something out that is
@@ -144,8 +153,18 @@ impl World<'_> {
 
     /// Whether the scenario has a value or player of this name.
     pub(crate) fn declares(&self, name: &str) -> bool {
-        self.declaration(name).is_some()
-            || self.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
+        self.declaration(name).or_else(|| self.player(name)).is_some()
+    }
+
+    /// Where the scenario names a player so.
+    pub(crate) fn player(&self, name: &str) -> Option<Span> {
+        let named = self.roster.iter().filter_map(|player| player.name);
+        named.into_iter().find(|known| known.node == name).map(|known| known.span)
+    }
+
+    /// Its record of this name.
+    pub(crate) fn record(&self, name: &str) -> Option<&'w Binding> {
+        self.flat.records.iter().copied().find(|known| known.name.node == name)
     }
 
     /// The ranges of the parameters, in order.

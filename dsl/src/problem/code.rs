@@ -111,6 +111,7 @@ codes! {
     NoEnding = 411 Warning "the episode never ends";
     TwoKeepers = 412 Error "a team has two keepers";
     AbsentPlayer = 413 Error "a player is absent and placed";
+    AgentOverScript = 414 Warning "an agent may take a scripted player";
     TooCostly = 418 Error "a scenario costs too much";
     // SP05xx: scripts.
     ScriptSyntax = 501 Error "a script can't be read";
@@ -121,6 +122,7 @@ codes! {
     NeverPays = 602 Warning "a reward can never pay";
     HardToDraw = 603 Warning "requirements are seldom met";
     ImpossibleToDraw = 604 Error "requirements are never met";
+    NeverEnds = 605 Warning "an ending never comes about";
     // SP07xx: while episodes run.
     DrawFailed = 701 Error "no start meets the requirements";
     ScriptFailed = 702 Error "a script's hook failed";
@@ -197,6 +199,11 @@ impl Code {
                 | Code::WrongRoster
                 | Code::NothingToRemove
         )
+    }
+
+    /// Whether what is wrong is wrong where it is used, and may be right elsewhere.
+    pub const fn depends_on_caller(self) -> bool {
+        matches!(self, Code::WrongScope | Code::NotConstant)
     }
 
     /// The code that a text names: `SP0203`, `sp0203` or `203`.

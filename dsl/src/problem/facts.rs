@@ -37,7 +37,7 @@ pub(crate) use chance::Chance;
 pub use dry_run::{Cure, DryRun};
 pub(crate) use files::{Files, ImportLimit, ScriptLimit};
 pub(crate) use implied::Implied;
-pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction, Outside};
+pub(crate) use names::{Assigned, Kind, Like, Names, NotAFunction};
 pub(crate) use plans::Plans;
 pub(crate) use players::{AskedFor, Players};
 pub(crate) use rewards::{Because, Never, Rewards};

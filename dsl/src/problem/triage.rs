@@ -27,7 +27,10 @@ pub(crate) fn triage(
     }
     if has_errors(&problems) {
         drop_likely_used(&mut problems, sources);
+        // What never pays or ends may do so once the errors are mended.
+        problems.retain(|problem| !matches!(problem.code(), Code::NeverPays | Code::NeverEnds));
     }
+    drop_uses_of_reserved(&mut problems, sources);
     drop_around_unread(&mut problems);
     problems
 }
@@ -50,6 +53,25 @@ fn drop_lost_names(problems: &mut Vec<Problem>, sources: &Sources, lost: &BTreeS
     problems.retain(|problem| {
         !matches!(problem.code(), Code::UnknownName | Code::UnknownFunction | Code::UnknownParent)
             || !lost.contains(sources.text(problem.place()))
+    });
+}
+
+/// A word of the language that was declared as a name is reported at the declaration, not where it
+/// is used for what it can't be.
+fn drop_uses_of_reserved(problems: &mut Vec<Problem>, sources: &Sources) {
+    let mut reserved = BTreeSet::new();
+    let is_reserved = |problem: &Problem| problem.code() == Code::ReservedName;
+    problems.retain(|problem| {
+        !is_reserved(problem) || reserved.insert(sources.text(problem.place()).to_owned())
+    });
+    problems.retain(|problem| {
+        let words = problem.words();
+        let uses = |name: &String| {
+            let mut labels = words.labels.iter();
+            labels.any(|label| sources.text(label.span) == name)
+                || words.message.contains(&format!("`{name}`"))
+        };
+        is_reserved(problem) || !reserved.iter().any(uses)
     });
 }
 

@@ -337,6 +337,13 @@ impl Library {
             .filter_map(|(name, places)| Some((name.as_str(), self.item(*places.first()?)?)))
     }
 
+    /// The item that a part of a file stands in.
+    pub(crate) fn around(&self, part: Span) -> Option<NamedItem<'_>> {
+        let items = &self.files.get(part.file.0 as usize)?.items;
+        let at = items.iter().position(|item| item.span.holds(part))?;
+        self.item(ItemAt(part.file, at))
+    }
+
     fn item(&self, at: ItemAt) -> Option<NamedItem<'_>> {
         let item = self.files.get(at.0.0 as usize)?.items.get(at.1)?;
         Some(NamedItem { item, name: item_name(item)? })

@@ -30,6 +30,7 @@
 (field key: (_) @property)
 (argument name: (_) @property)
 (member (identifier) @property)
+(call function: (member (identifier) @function.call .))
 
 [
   "abstract" "scenario" "reward" "formation" "behavior" "region" "ending" "const" "fn" "let" "param"

@@ -24,7 +24,7 @@ words! {
         GrfDistance = "grf_distance", "grf_distance(a, b): in GRF's normalised units, a plain number";
         Angle = "angle", "angle(a, b): the heading from a to b";
         Speed = "speed", "speed(x): of a player or the ball";
-        Polar = "polar", "polar(r, angle): a vector";
+        Polar = "polar", "polar(r, angle): a vector, or a velocity";
         Nearest = "nearest", "nearest(S, to: p): the player of S nearest to p";
         Count = "count", "count(p in S where C): how many";
         Any = "any", "any(p in S where C): whether one is";

@@ -9,7 +9,7 @@ use super::{playing, playing::Playing, summary};
 use crate::curves::curves;
 use crate::dsl::problem::{Code, nearest};
 use crate::engine::control::agents::Agent;
-use crate::engine::environment::EnvironmentOptions;
+use crate::engine::environment::{Environment, EnvironmentOptions};
 #[cfg(feature = "render")]
 use crate::error::FileFault;
 #[cfg(feature = "render")]
@@ -18,7 +18,7 @@ use crate::live::Live;
 use crate::plans::{library_plans, load_plans};
 #[cfg(feature = "render")]
 use crate::plot;
-use crate::run::{RunOptions, Summary, first_error, run};
+use crate::run::{RunOptions, Summary, faulty_rewards, first_error, run, summarise};
 use crate::scenario::plan::{PlannedEpisodes, Played, Suite};
 use crate::scenario::{Bindings, Scenario};
 use crate::{Error, Loaded};
@@ -293,8 +293,8 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
 /// last good one running.
 fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let source = args.playing.source();
-    let mut live =
-        Live::open(source, out.allow_outside).map_err(|error| args.playing.explained(error))?;
+    let mut live = Live::open_scenario(source, args.playing.of_level(), out.allow_outside)
+        .map_err(|error| args.playing.explained(error))?;
     out.warnings(live.loaded());
     if !live.is_watching() {
         let name = source.to_string_lossy();
@@ -303,27 +303,45 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     }
     let mut options = options(args, live.loaded())?;
     let mut scenario = live.loaded().scenario.clone();
+    out.line(StyledText::default().bold(&scenario.name));
     loop {
-        out.line(StyledText::default().bold(&scenario.name));
+        // Those since the last change, and whether a fault among them was reported.
+        let (mut played, mut is_reported) = (Vec::new(), false);
         for index in options.episodes.clone() {
             let one = RunOptions { episodes: index..index + 1, threads: 1, ..options.clone() };
             let summary = run(&scenario, &one, |_| {})?;
             for episode in summary.episodes.iter().flatten() {
                 out.line(summary::episode_line(episode));
             }
-            if let Some(error) = first_error(&summary) {
+            if let Some(error) = first_error(&summary)
+                && !std::mem::replace(&mut is_reported, true)
+            {
                 out.error(&error);
             }
+            played.extend(summary.episodes);
             if let Some(fresh) = reload(args, &mut live, Duration::ZERO, out) {
                 (scenario, options) = fresh;
-                out.line(StyledText::default().bold(&scenario.name));
+                (played, is_reported) = (Vec::new(), false);
             }
         }
+        if played.iter().any(Result::is_ok) {
+            let environment = Environment::new(scenario.clone(), options.environment.clone())
+                .map_err(Error::Environment)?;
+            let summary = summarise(played, &environment, 0.0);
+            let faulty = faulty_rewards(&scenario, &options, &summary)?;
+            summary::means(&summary, &faulty, summary::WIDTH, out);
+        }
         out.line(StyledText::default().dim("waiting for a change; Ctrl-C ends"));
+        let mut is_missing = false;
         (scenario, options) = loop {
             if let Some(fresh) = reload(args, &mut live, TICK, out) {
                 break fresh;
             }
+            let missing = live.missing();
+            if let Some(path) = missing.filter(|_| !is_missing) {
+                out.note(format!("`{}` is gone: waiting for it to come back", path.display()));
+            }
+            is_missing = missing.is_some();
         };
     }
 }
@@ -342,6 +360,8 @@ fn reload(
             if !problems.is_empty() {
                 out.problems(&problems, &fresh.sources);
             }
+            let name = StyledText::default().bold(&fresh.scenario.name);
+            out.line(name.dim("  changed; played from here on"));
             Some((fresh.scenario.clone(), options))
         }
         Err(error) => {

@@ -126,10 +126,15 @@ impl Playing {
     /// # Errors
     /// Like [`crate::load_with`]; [`Error::Level`] if only a level names it and it isn't found.
     pub(crate) fn load(&self, options: LoadOptions<'_>) -> Result<Loaded, Error> {
-        let level = self.level.as_ref().filter(|_| self.scenario.is_some());
-        let scenario = level.map(|level| level.scenario.as_str());
+        let scenario = self.of_level();
         let loaded = crate::load_with(self.source(), &LoadOptions { scenario, ..options });
         loaded.map_err(|error| self.explained(error))
+    }
+
+    /// The scenario that a level names, where a file may have others.
+    pub(crate) fn of_level(&self) -> Option<&str> {
+        let level = self.level.as_ref().filter(|_| self.scenario.is_some());
+        level.map(|level| level.scenario.as_str())
     }
 
     /// Explains that a scenario isn't found, where only a level names it.

@@ -7,11 +7,13 @@ use crate::engine::batch::EpisodeSummary;
 use crate::engine::environment::Environment;
 use crate::engine::statistics::MatchMeans;
 use crate::level::Level;
-use crate::run::{RunOptions, Summary};
+use crate::run::{RunOptions, Summary, faulty_rewards};
 use crate::scenario::{Scenario, Verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+/// Width of the first column.
+pub(crate) const WIDTH: usize = 11;
 /// Width of the bars.
 const BAR: usize = 30;
 
@@ -22,8 +24,10 @@ struct Report<'a> {
     episodes: usize,
     seed: u64,
     outcomes: BTreeMap<&'a str, u32>,
-    score: MeanScore,
+    score: BySide,
     mean_return: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mean_returns: Option<BySide>,
     mean_length: f64,
     success_rate: f64,
     terms: BTreeMap<&'a str, f64>,
@@ -34,9 +38,9 @@ struct Report<'a> {
     digest: String,
 }
 
-/// Mean goals.
+/// Means of both sides.
 #[derive(serde::Serialize)]
-struct MeanScore {
+struct BySide {
     left: f64,
     right: f64,
 }
@@ -53,8 +57,12 @@ pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary)
         episodes: summary.episodes.len(),
         seed: options.seed,
         outcomes,
-        score: MeanScore { left, right },
+        score: BySide { left, right },
         mean_return: summary.mean_return,
+        mean_returns: summary
+            .by_side
+            .as_ref()
+            .map(|[left, right]| BySide { left: left.mean_return, right: right.mean_return }),
         mean_length: summary.mean_length,
         success_rate: summary.success_rate,
         terms: summary.terms.iter().map(|(name, mean)| (name.as_str(), *mean)).collect(),
@@ -112,7 +120,8 @@ pub(crate) fn print(
     });
     out.line("");
     let outcomes = outcomes_of(scenario, summary);
-    let width = outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(11);
+    let width =
+        outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(WIDTH);
     for (label, verdict, count) in outcomes {
         let share = f64::from(count) / summary.episodes.len() as f64;
         let bar = "█".repeat((share * BAR as f64).round() as usize);
@@ -125,26 +134,7 @@ pub(crate) fn print(
         out.line(StyledText::from(head).paint(&bar, paint));
     }
     out.line("");
-    let [left, right] = summary.score;
-    out.line(format!("  {:width$}  {left:.2} : {right:.2}", "mean score"));
-    out.line(format!("  {:width$}  {:+.3}", "mean return", summary.mean_return));
-    for (name, mean) in &summary.terms {
-        out.line(format!("  {:width$}    {mean:+.3}  {name}", ""));
-    }
-    if summary.faults > 0 {
-        let report = format!(
-            "{} values were not finite and were not paid: a division by zero?",
-            summary.faults
-        );
-        out.line(StyledText::from(format!("  {:width$}    ", "")).paint(&report, Paint::Failure));
-    }
-    out.line(format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
-    for (index, (name, mean)) in summary.records.iter().enumerate() {
-        out.line(format!(
-            "  {:width$}  {mean:.3}  {name}",
-            if index == 0 { "records" } else { "" }
-        ));
-    }
+    means(summary, &faulty_rewards(scenario, options, summary)?, width, out);
     if scenario.endings.list.is_empty() {
         let m = &summary.match_stats;
         out.line(format!(
@@ -159,6 +149,47 @@ pub(crate) fn print(
     }
     out.line(format!("  {:width$}  {:.0} steps per second", "speed", summary.steps_per_second));
     Ok(())
+}
+
+/// Prints the means over the episodes: score, return by term, length, records.
+///
+/// - `faulty`: the rewards whose values weren't finite.
+pub(crate) fn means(summary: &Summary, faulty: &[String], width: usize, out: &Out) {
+    let [left, right] = summary.score;
+    out.line(format!("  {:width$}  {left:.2} : {right:.2}", "mean score"));
+    // Of two sides that play each other the mean says little.
+    if let Some([left, right]) = &summary.by_side {
+        let both = |left: f64, right: f64| format!("{left:+.3} : {right:+.3}");
+        let paid = both(left.mean_return, right.mean_return);
+        out.line(format!("  {:width$}  {paid}", "mean return"));
+        let terms = summary.terms.iter().zip(left.terms.iter().zip(&right.terms));
+        for ((name, _), (left, right)) in terms {
+            out.line(format!("  {:width$}    {}  {name}", "", both(*left, *right)));
+        }
+    } else {
+        out.line(format!("  {:width$}  {:+.3}", "mean return", summary.mean_return));
+        for (name, mean) in &summary.terms {
+            out.line(format!("  {:width$}    {mean:+.3}  {name}", ""));
+        }
+    }
+    if summary.faults > 0 {
+        let place = match faulty {
+            [] => String::new(),
+            rewards => format!(" in `{}`", rewards.join("`, `")),
+        };
+        let report = format!(
+            "{} values{place} were not finite and were not paid: a division by zero?",
+            summary.faults
+        );
+        out.line(StyledText::from(format!("  {:width$}    ", "")).paint(&report, Paint::Failure));
+    }
+    out.line(format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
+    for (index, (name, mean)) in summary.records.iter().enumerate() {
+        out.line(format!(
+            "  {:width$}  {mean:.3}  {name}",
+            if index == 0 { "records" } else { "" }
+        ));
+    }
 }
 
 /// One line about an episode, for watching.

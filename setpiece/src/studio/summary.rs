@@ -52,7 +52,7 @@ impl RunningSummary {
 
     /// What the episodes came to.
     pub(super) fn reply(self) -> SummaryReply {
-        let summary = summarise(self.played, self.environment.term_names(), 0.0);
+        let summary = summarise(self.played, &self.environment, 0.0);
         SummaryReply {
             episodes: self.episodes,
             outcomes: summary.outcomes.into_iter().map(|(name, _, count)| (name, count)).collect(),

@@ -1,7 +1,7 @@
 //! One name, one type: names of types that are defined more than once in the workspace.
 
 use super::{CRATES, read, rust_files};
-use crate::ci::root;
+use crate::shell::root;
 use std::collections::BTreeMap;
 
 /// Names that several types may have, and why.

@@ -4,7 +4,7 @@
 //! passes on (`pub use`) belongs to the file that declares it.
 
 use super::read;
-use crate::ci::root;
+use crate::shell::root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 

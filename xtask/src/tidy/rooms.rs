@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn the_engine_is_in_order() {
         let mut breaches = Vec::new();
-        check(&crate::ci::root().join("engine/src"), &mut breaches).unwrap();
+        check(&crate::shell::root().join("engine/src"), &mut breaches).unwrap();
         assert_eq!(breaches, Vec::<String>::new());
     }
 

@@ -2,7 +2,7 @@
 //! be longer, and so may tables, code and long links in prose.
 
 use super::read;
-use crate::ci::root;
+use crate::shell::root;
 
 /// The most columns of a line.
 const COLUMNS_MAX: usize = 100;

@@ -1,7 +1,7 @@
 //! Counts words that plain English can do without, folder by folder. A count may only go down.
 
 use super::read;
-use crate::ci::root;
+use crate::shell::root;
 use std::collections::BTreeMap;
 
 /// Words and phrases that no text needs, in lower case. Line breaks and comment marks don't split a

@@ -114,7 +114,7 @@ impl<'w> Planner<'_, 'w> {
                 (Measure::Rate(outcome), BoundUnit::Of(Ty::Percent))
             }
             ("mean" | "min" | "max", [of]) => {
-                let (quantity, unit) = self.quantity(of, scenario)?;
+                let (quantity, unit) = self.quantity(of, scenario, (&name.node, ""))?;
                 let measure = match name.node.as_str() {
                     "mean" => Measure::Mean(quantity),
                     "min" => Measure::Min(quantity),
@@ -123,7 +123,8 @@ impl<'w> Planner<'_, 'w> {
                 (measure, unit)
             }
             ("quantile", [of, MeasureArg::Value(share)]) => {
-                let (quantity, unit) = self.quantity(of, scenario)?;
+                let more = format!(", {}", self.world.text(share.span));
+                let (quantity, unit) = self.quantity(of, scenario, ("quantile", &more))?;
                 (Measure::Quantile(quantity, self.share(share, "the quantile")?), unit)
             }
             ("steps", []) if in_curriculum => (Measure::Steps, BoundUnit::Of(Ty::Int)),
@@ -138,18 +139,27 @@ impl<'w> Planner<'_, 'w> {
                 return None;
             }
             (other, _) => {
-                let guess = Guess::similar_or_all(other, &MEASURES);
-                self.report(name.span, Facts::NoMeasure { name: other.to_owned(), guess });
+                let named = other.to_owned();
+                let fact = if let Some(kind) = kept_as(other, scenario) {
+                    let form = format!("mean({kind} {other})");
+                    Facts::KindOfQuantity { kind, name: named, form }
+                } else {
+                    let guess = Guess::similar_or_all(other, &MEASURES);
+                    Facts::NoMeasure { name: named, guess }
+                };
+                self.report(name.span, fact);
                 return None;
             }
         };
         Some((measure, last, unit))
     }
 
+    /// - `measure`, `more`: what stands before it and behind it.
     fn quantity(
         &mut self,
         arg: &'w MeasureArg,
         scenario: &Scenario,
+        (measure, more): (&str, &str),
     ) -> Option<(Quantity, BoundUnit)> {
         let (span, text) = match arg {
             MeasureArg::Of(kind, of) if kind.node == "record" => {
@@ -171,6 +181,11 @@ impl<'w> Planner<'_, 'w> {
                     "return" => return Some((Quantity::Return, BoundUnit::Of(Ty::Number))),
                     "score" => return Some((Quantity::Score, BoundUnit::Of(Ty::Number))),
                     _ => {}
+                }
+                if let Some(kind) = kept_as(name, scenario) {
+                    let form = format!("{measure}({kind} {name}{more})");
+                    self.report(*span, Facts::KindOfQuantity { kind, name: name.clone(), form });
+                    return None;
                 }
                 (*span, name.clone())
             }
@@ -215,6 +230,15 @@ impl<'w> Planner<'_, 'w> {
         self.report(name.span, Facts::NoSuch { scenario, what, name: name.node.clone(), guess });
         None
     }
+}
+
+/// Whether a name is that of a record or of a reward's term, and which.
+fn kept_as(name: &str, scenario: &Scenario) -> Option<&'static str> {
+    if scenario.records.iter().any(|record| record.name == name) {
+        return Some("record");
+    }
+    let mut terms = scenario.rewards.iter().flat_map(Reward::term_names);
+    terms.any(|term| term == name).then_some("term")
 }
 
 /// How a measure is written.

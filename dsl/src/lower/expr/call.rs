@@ -200,7 +200,8 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn check_domain(
+    /// Reports a number outside of the range that a parameter declares.
+    pub(crate) fn check_domain(
         &mut self,
         value: &Value<'w>,
         domain: &'w crate::ast::Domain,
@@ -237,7 +238,9 @@ impl<'w> Lower<'_, 'w> {
         let mut next = 0;
         for arg in args {
             if arg.binder.is_some() || arg.filter.is_some() {
-                self.report(Problem::new(arg.span, Calls::NoPlayers { callee: callee.to_owned() }));
+                let text = self.world.text(arg.span);
+                let fact = Calls::NoPlayers { callee: callee.to_owned(), text };
+                self.report(Problem::new(arg.span, fact));
                 return None;
             }
             let at = match (&arg.key, arg_name(arg)) {

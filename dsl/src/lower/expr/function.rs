@@ -11,7 +11,20 @@ use setpiece_scenario::vocabulary::{Field, Function};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 
 impl<'w> Lower<'_, 'w> {
+    /// Calls a function of the language. What is computed of something wrong is no news.
     pub(super) fn function(
+        &mut self,
+        function: Function,
+        name: &'w Ident,
+        args: &'w [Arg],
+        span: Span,
+    ) -> Value<'w> {
+        let errors = self.world.errors();
+        let value = self.computed(function, name, args, span);
+        if self.world.errors() > errors { Value::error() } else { value }
+    }
+
+    fn computed(
         &mut self,
         function: Function,
         name: &'w Ident,
@@ -309,14 +322,22 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn polar(&mut self, r: &'w Expr, angle: &'w Expr) -> Value<'w> {
-        let r = self.want_reg(r, Ty::LENGTH);
-        let angle = self.want_reg(angle, Ty::ANGLE);
+        let size = self.expr(r);
+        let (wanted, ty) = match size.ty {
+            Ty::SPEED => (Ty::SPEED, Ty::Velocity),
+            _ => (Ty::LENGTH, Ty::Vector),
+        };
+        let (size, angle) = (self.convert(size, wanted, r), self.want(angle, Ty::ANGLE));
+        if size.is_error() || angle.is_error() {
+            return Value::error();
+        }
+        let (r, angle) = (self.reg(&size), self.reg(&angle));
         let angle = self.turned_angle(angle);
         let (cos, sin) =
             (self.code.unary(UnaryOp::Cos, angle), self.code.unary(UnaryOp::Sin, angle));
         let pair =
             (self.code.binary(BinaryOp::Mul, r, cos), self.code.binary(BinaryOp::Mul, r, sin));
-        Value::two(Ty::Vector, pair)
+        Value::two(ty, pair)
     }
 }
 

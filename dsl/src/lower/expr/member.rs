@@ -139,7 +139,7 @@ impl<'w> Lower<'_, 'w> {
         known.extend(RegionName::ALL.iter().map(|region| region.name()));
         known.extend(["zone.CM", "score"]);
         let text = self.world.text(of);
-        let guess = Guess::similar_or_all(name, &known);
+        let guess = Guess::or_all(name, &known);
         self.fail(Problem::new(at, Names::NoLandmark { team: text, name: name.to_owned(), guess }))
     }
 

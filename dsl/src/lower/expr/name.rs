@@ -5,9 +5,7 @@ use super::super::{Lower, ProgramStage};
 use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, Span};
 use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::facts::{
-    BeforeOutside, Chance, Names, Outside, Scopes, Types, Use, ViewOutside,
-};
+use crate::problem::facts::{BeforeOutside, Chance, Names, Scopes, Types, Use, ViewOutside};
 use crate::problem::{Code, Guess, Problem};
 use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{
@@ -45,11 +43,14 @@ impl<'w> Lower<'_, 'w> {
         if self.world.is_full(Code::UnknownName) {
             return Value::error();
         }
+        if self.scope.scenario && self.world.flat.rewards.iter().any(|(known, ..)| known == name) {
+            return self.reward_is_no_value(name, span);
+        }
         let mut candidates = self.names_in_sight(span);
         if matches!(self.stage, ProgramStage::Reward | ProgramStage::Ending) {
             candidates.extend(EventKind::ALL.iter().map(|kind| kind.name().to_owned()));
         }
-        if let Some(fact) = self.of_the_scenario(name) {
+        if let Some(fact) = self.of_the_scenario(name, span) {
             return self.fail(Problem::new(span, fact));
         }
         let guess = Guess::of(name, candidates.iter().map(String::as_str));
@@ -59,23 +60,39 @@ impl<'w> Lower<'_, 'w> {
         ))
     }
 
-    /// How a name of the scenario reaches what stands outside of it.
-    fn of_the_scenario(&self, name: &str) -> Option<Names> {
-        let is_player = self.player_named(name);
-        if self.scope.scenario || !(is_player || self.world.declaration(name).is_some()) {
+    /// How a name of the scenario reaches the item of a file that `span` stands in.
+    fn of_the_scenario(&mut self, name: &'w str, span: Span) -> Option<Names> {
+        let world = self.world;
+        if self.scope.scenario || !(world.declares(name) || world.record(name).is_some()) {
             return None;
         }
-        let from = match self.stage {
-            ProgramStage::Behavior(_) => Outside::Behavior,
-            ProgramStage::Reward | ProgramStage::Init => Outside::Reward,
-            ProgramStage::Ending => Outside::Ending,
-            _ => Outside::Elsewhere,
-        };
-        Some(Names::OfTheScenario { name: name.to_owned(), from, is_player })
-    }
-
-    fn player_named(&self, name: &str) -> bool {
-        self.world.roster.iter().any(|player| player.name.is_some_and(|known| known.node == name))
+        let around = world.library.around(span);
+        let form = around.and_then(|around| {
+            let (head, use_of) = match &around.item.kind {
+                ItemKind::Behavior(_) => ("behavior", "ai: "),
+                ItemKind::Reward(_) => ("reward", "reward "),
+                ItemKind::Ending(_) => ("ending", "end "),
+                ItemKind::Fn(_) => ("fn", ""),
+                ItemKind::Region(_) => ("region", ""),
+                ItemKind::Formation(_) => ("formation", "formation: "),
+                _ => return None,
+            };
+            let scope = Scope::new(true, LiteralFrame::World);
+            let value = world.tentatively(|| self.within(scope, |lower| lower.name(name, span)));
+            let ty = value.ty.written().map_or(String::new(), |ty| format!(": {ty}"));
+            let params = around.item.kind.params();
+            let ends = params.first().zip(params.last());
+            let known = ends.map(|(first, last)| world.text(first.span.to(last.span)));
+            let (known, more) =
+                known.map_or((String::new(), ""), |known| (format!("{known}, "), "…, "));
+            let item = &around.name.node;
+            Some((
+                format!("{head} {item}({known}{name}{ty})"),
+                format!("{use_of}{item}({more}{name}: {name})"),
+            ))
+        });
+        let noun = around.map_or("", |around| around.item.kind.noun());
+        Some(Names::OfTheScenario { name: name.to_owned(), noun, form })
     }
 
     pub(crate) fn local(&mut self, name: &str, binding: LocalName<'w>, span: Span) -> Value<'w> {
@@ -197,7 +214,7 @@ impl<'w> Lower<'_, 'w> {
             ItemKind::Reward(_)
                 if matches!(self.stage, ProgramStage::Record | ProgramStage::Ending) =>
             {
-                self.fail(no_value(Some(Use::Recorded)))
+                self.reward_is_no_value(name, span)
             }
             ItemKind::Behavior(_) => self.fail(no_value(Some(Use::Given))),
             _ => self.fail(no_value(None)),
@@ -213,6 +230,7 @@ impl<'w> Lower<'_, 'w> {
         let scope = Scope::new(false, LiteralFrame::World);
         // Whoever reads it, a constant is computed before anything else is known.
         let outer = (std::mem::replace(&mut self.stage, ProgramStage::Constant), self.team.take());
+        let found = self.world.found();
         let value = self.inline(binding.name.span, span, |lower| {
             lower.within(scope, |lower| match ty {
                 Some(ty) => lower.want(&binding.value, ty),
@@ -220,7 +238,9 @@ impl<'w> Lower<'_, 'w> {
             })
         });
         (self.stage, self.team) = outer;
-        let value = value.unwrap_or_else(Value::error);
+        // What can't be computed has been reported.
+        let is_sound = self.world.found() == found;
+        let value = value.filter(|_| is_sound).unwrap_or_else(Value::error);
         if value.regs().iter().any(|&reg| self.code.is_unknown(reg)) {
             return Value::error();
         }

@@ -4,7 +4,7 @@ use super::super::value::{LocalName, Repr, SetValue, Value};
 use super::super::{Lower, ProgramStage};
 use crate::ast::{self, Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
-use crate::problem::facts::{Calls, Chance, Scopes};
+use crate::problem::facts::{Calls, Chance, Instead, Scopes};
 use crate::problem::{Problem, signature};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Over, Reg, UnaryOp};
@@ -39,6 +39,14 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn want_set(&mut self, expr: &'w Expr) -> Option<SetValue> {
+        if matches!(expr.kind, ExprKind::Event(_)) {
+            let value = self.expr(expr);
+            if !value.is_error() {
+                let instead = Instead::CountedEvent;
+                self.report(self.mismatch_with(value.ty, Ty::Set, expr.span, instead));
+            }
+            return None;
+        }
         match self.want(expr, Ty::Set).repr {
             Repr::Set(set) => Some(set),
             _ => None,

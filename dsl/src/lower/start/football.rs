@@ -189,10 +189,11 @@ fn check_pair(
         }
         let at = |player: &Rostered<'_>| player.place_span();
         let nth = lower.world.flat.kickoff.is_some().then_some(nth + 1);
-        lower.report(Problem::new(
-            at(second),
-            Players::SameSpot { players: (first.shown(), second.shown()), nth, first: at(first) },
-        ));
+        let text = lower.world.text(at(second));
+        let own = text.strip_prefix("at (").filter(|_| first.team != second.team);
+        let own = own.map(|rest| format!("at own ({rest}"));
+        let (players, first) = ((first.shown(), second.shown()), at(first));
+        lower.report(Problem::new(at(second), Players::SameSpot { players, nth, first, own }));
         return None;
     }
     let drawn = |instr: &Instr| matches!(instr, Instr::Random { .. });

@@ -47,12 +47,21 @@ facts! {
             say(format!("`{callee}` takes its arguments by name"), "which parameter is meant?")
                 .help("write `name: value`"),
         /// `for` or `where` in the call of a function that goes through no players.
-        NoPlayers { callee: String } = Code::WrongArguments =>
-            say(
+        ///
+        /// - `text`: the argument.
+        NoPlayers { callee: String, text: String } = Code::WrongArguments => {
+            let said = say(
                 format!("`{callee}` goes through no players"),
                 "`for` and `where` belong to `count`, `sum`, `min` and their like",
             )
-            .help("count players first: `count(p in us where …)`"),
+;
+            match text.split_once(' ') {
+                Some((name, _)) if callee == "nearest" => {
+                    said.help(format!("write `min_by(distance({name}, ball) for {text})`"))
+                }
+                _ => said.help("count players first: `count(p in us where …)`"),
+            }
+        },
         /// `count` and its like without one set of players.
         OneSet { function: &'static str, signature: String } = Code::WrongArguments =>
             say(format!("`{function}` goes through one set of players"), "").help(format!("`{signature}`")),

@@ -20,17 +20,21 @@ facts! {
         NoValue { name: String, guess: Guess, late: bool } = Code::UnknownName =>
             say(format!("nothing here is called `{name}`"), "not known").guess(guess, ""),
         /// A value of the scenario is used outside of it.
-        OfTheScenario { name: String, from: Outside, is_player: bool } = Code::UnknownName => {
-            let declared = if *is_player { format!("{name}: player") } else { format!("{name}: …") };
-            let see = |noun: &str, head: &str| {
-                format!("{noun} doesn't see the scenario's names: hand it in, `{head} NAME({declared})`")
-            };
-            say(format!("nothing here is called `{name}`"), "not known").help(match from {
-                Outside::Behavior => see("a behavior", "behavior"),
-                Outside::Reward => see("a reward", "reward"),
-                Outside::Ending => see("an ending", "ending"),
-                Outside::Elsewhere => {
-                    format!("`{name}` is the scenario's, which nothing outside of it sees: hand it in as a parameter")
+        ///
+        /// - `noun`: what uses it, with its article;
+        /// - `form`: how that would be declared and used with the value as a parameter, if it can.
+        OfTheScenario {
+            name: String,
+            noun: &'static str,
+            form: Option<(String, String)>,
+        } = Code::UnknownName => {
+            let said = say(format!("nothing here is called `{name}`"), "not known");
+            said.help(match form {
+                Some((declared, used)) => {
+                    format!("{noun} doesn't see the scenario's names: hand it in, `{declared}` and `{used}`")
+                }
+                None => {
+                    format!("`{name}` is the scenario's, which nothing outside of it sees: declare it outside, too")
                 }
             })
         },
@@ -115,11 +119,25 @@ facts! {
                 None => said,
             }
         },
-        /// A player and a value of the scenario have one name.
-        PlayerAndValue { name: String, first: Span } = Code::DuplicateName =>
+        /// Two things of the scenario of different kinds have one name.
+        ///
+        /// - `kinds`: with their article.
+        Shared {
+            name: String,
+            kinds: (&'static str, &'static str),
+            first: Span,
+        } = Code::DuplicateName =>
             say(format!("`{name}` is declared twice"), "declared again here")
                 .at(first, "first declared here")
-                .help("a player and a value can't share a name: choose another for one of them"),
+                .help(format!("{} and {} can't share a name: {OTHER_NAME}", kinds.0, kinds.1)),
+        /// A record is called as a word that means something wherever a value stands; `whose`: what
+        /// the word belongs to.
+        UnreadableRecord { name: String, whose: &'static str } = Code::HidingName =>
+            say(
+                format!("`{name}` means the language's `{name}` wherever it is read, never this record"),
+                format!("belongs to {whose}"),
+            )
+            .help(format!("choose another name, for example `my_{name}`")),
         /// Two players have one name.
         TwoPlayers { name: String, first: Span } = Code::DuplicateName =>
             say(format!("two players are called `{name}`"), "called so again here")
@@ -350,19 +368,6 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
         Kind::Team => said.help("write `team left` or `team right`"),
         _ => said.guess(guess, listed),
     }
-}
-
-/// What looks for a name of the scenario from outside.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Outside {
-    /// A behavior of the file.
-    Behavior,
-    /// A reward of the file.
-    Reward,
-    /// An ending of the file.
-    Ending,
-    /// Anything else.
-    Elsewhere,
 }
 
 /// What has the name of a function that there is not.

@@ -63,16 +63,24 @@ facts! {
                 "the same players, in the same order, stand in both",
             )
             .help("list the roles of both formations in the same order"),
-        /// Two players stand on one spot; `nth`: at which of several kick-offs.
+        /// Two players stand on one spot.
+        ///
+        /// - `nth`: at which of several kick-offs;
+        /// - `own`: the second one's place in the own frame, if they are opponents and it may be
+        ///   meant.
         SameSpot {
             players: (String, String),
             nth: Option<usize>,
             first: Span,
+            own: Option<String>,
         } = Code::SameSpot => {
             let when = nth.map_or(String::new(), |nth| format!(" at kick-off {nth}"));
-            say(format!("{} and {} stand on one spot{when}", players.0, players.1), "the same spot")
-                .at(first, "taken by this player")
-                .help("move one of them, or allow it: `{ overlap: allowed }`")
+            let said = say(format!("{} and {} stand on one spot{when}", players.0, players.1), "the same spot")
+                .at(first, "taken by this player");
+            match own {
+                Some(own) => said.help(format!("is it seen from the team's own goal? Then write `{own}`")),
+                None => said.help("move one of them, or allow it: `{ overlap: allowed }`"),
+            }
         },
         /// The place of what may be nobody.
         MayBeNobody { text: String } = Code::NoPlace =>
@@ -86,6 +94,13 @@ facts! {
         FacesItself = Code::Impossible =>
             say("a player can't face their own spot", "")
                 .help("face another place, or an angle: `facing 90deg`"),
+        /// A side keeps an agent beside the other side's, and has a player with an `ai`.
+        AgentOverScript { team: Team, name: String } = Code::AgentOverScript =>
+            say(
+                format!("the {team} team keeps its agent, who may take `{name}` from its `ai`"),
+                format!("says nothing of the {team} team"),
+            )
+            .help(format!("write `{team}: 0` beside it, or list the players that are meant, `{team}: [NAME]`")),
         /// Listed agents can't switch players.
         ListedAgentSwitches = Code::BadAgents =>
             say("an agent that is listed by name keeps its player", "")

@@ -3,6 +3,7 @@
 use super::facts;
 use crate::problem::Code;
 use crate::problem::said::say;
+use crate::source::Span;
 use setpiece_scenario::vocabulary::{EventKind, Rule};
 
 facts! {
@@ -25,6 +26,26 @@ facts! {
         /// A scenario without an ending.
         NeverEnds { scenario: String } = Code::NoEnding =>
             say(format!("an episode of `{scenario}` never ends"), "").help("write, for example, `end limit 400 steps`"),
+        /// An ending whose condition no match meets.
+        NeverComes { label: String, why: Never } = Code::NeverEnds =>
+            say(format!("the ending `{label}` never comes about"), "never holds").help(why.words()),
+        /// An ending that holds only when an earlier one does, which names the outcome.
+        Forestalled {
+            label: String,
+            earlier: String,
+            at: Span,
+            is_inherited: bool,
+        } = Code::NeverEnds =>
+            say(
+                format!("the ending `{label}` never comes about: `{earlier}` holds whenever it does"),
+                "checked later",
+            )
+            .at(at, "checked first, and names the outcome")
+            .help(if *is_inherited {
+                format!("take the other one out, `remove end {earlier}`, or call this one `{earlier}`, too")
+            } else {
+                format!("write it above `{earlier}`, or leave one of them out")
+            }),
         /// An ending without a condition.
         EndsWhen = Code::Syntax =>
             say("the ending doesn't say when", "").help("write, for example, `end success when goal by left`"),
@@ -102,7 +123,9 @@ impl Never {
 impl Because {
     fn words(self) -> String {
         match self {
-            Because::Places => "x lies between about -1 and 1, y between -0.42 and 0.42",
+            Because::Places => {
+                "x lies between about -1 and 1, y between -0.42 and 0.42; metres are `(ball - centre).x > 20m`"
+            }
             Because::BallSpeed => "no ball flies as fast",
             Because::PlayerSpeed => "nobody runs as fast",
             Because::YellowCards => "a player has 0, 1 or 2 yellow cards",

@@ -41,6 +41,15 @@ facts! {
         NotAStepAgo { function: String } = Code::WrongScope =>
             say(format!("`{function}` has no value a step ago"), "inside a look at the step before")
                 .help("`prev` reads the state of the match and of the reward only"),
+        /// A record of a function over time inside of `prev`.
+        RecordNotAStepAgo { name: String } = Code::WrongScope =>
+            say(
+                format!("the record `{name}` has no value a step ago"),
+                "it is of `ever`, `held`, `since`, `prev` or the like",
+            )
+            .help(format!(
+                "keep what it was in a reward: `state was = …` at the top, `was = {name}` at the end"
+            )),
         /// `prev` outside of the match.
         NoEarlierStep = Code::WrongScope =>
             say("there is no earlier step here", "this is computed before the match begins")

@@ -69,9 +69,13 @@ facts! {
             size: (f64, f64),
         } = Code::OffPitch => {
             let ((x, y), (length, width)) = (at, size);
-            say(format!("{what} is off the pitch: `{text}` is ({x:.1}m, {y:.1}m)"), "").help(format!(
-                "the pitch is {length}m by {width}m, or normalised from (-1.01, -0.43) to (1.01, 0.43)"
-            ))
+            let said = say(format!("{what} is off the pitch: `{text}` is ({x:.1}m, {y:.1}m)"), "");
+            match in_metres(text, *size) {
+                Some(place) => said.help(format!("are metres meant? Then write `{place}`")),
+                None => said.help(format!(
+                    "the pitch is {length}m by {width}m, or normalised from (-1.01, -0.43) to (1.01, 0.43)"
+                )),
+            }
         },
         /// The ball is far from its owner.
         OwnerFarAway { name: String, apart_m: f64 } = Code::OutOfRange =>
@@ -80,6 +84,18 @@ facts! {
         /// `score` with another number of parts.
         ScoreOfTwo = Code::WrongArguments => say("a score has two numbers", "").help("write `score: [1, 0]`"),
     }
+}
+
+/// From here on a coordinate was meant in metres.
+const LEAST_METRES: f64 = 2.0;
+
+/// A place with metres as its unit, if two numbers without one are a place on the pitch in metres.
+fn in_metres(text: &str, (length, width): (f64, f64)) -> Option<String> {
+    let (x, y) = text.strip_prefix("at (")?.strip_suffix(')')?.split_once(',')?;
+    let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
+    let is_on = x.abs() <= length / 2.0 && y.abs() <= width / 2.0;
+    // Less than this is a slip of another kind.
+    (is_on && x.abs().max(y.abs()) >= LEAST_METRES).then(|| format!("at ({x}m, {y}m)"))
 }
 
 /// Where the side lines are.

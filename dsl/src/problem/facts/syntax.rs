@@ -86,7 +86,7 @@ facts! {
                 .help("join two comparisons by `and`: `a < b and b < c`"),
         /// A block behind a `give`; `moved`: how the block begins, if it can stand on its own line.
         BlockAfterGive { give: Span, moved: Option<&'static str> } = Code::BlockAfterGive => {
-            let said = say("a `give` has no block", "this opens a block").at(give, "so this is given at every step");
+            let said = say("a `give` has no block", "this opens a block").at(give, "so this is given whatever the block says");
             match moved {
                 Some(head) => said.help(format!("put `{head} {{` on its own line, with the `give` inside it")),
                 None => said.help("the `when` is read as the event's: end the `give` with a label, `as \"goal\"`"),

@@ -71,7 +71,7 @@ facts! {
         /// A choice between values that no register holds.
         NoChoiceOf { ty: Ty } = Code::NotYet =>
             say(format!("a choice between values that are each {} is not supported yet", ty.noun()), "")
-                .help("write the choice around what uses it: `if c then … else …`"),
+                .help("choose between conditions instead: `c and … or not c and …`"),
         /// A division by 0; `text`: the divisor, if it doesn't say so itself.
         DividedByZero { text: Option<String> } = Code::Impossible => {
             let what = text.as_ref().map_or(String::new(), |text| format!("`{text}` is 0, and "));
@@ -103,11 +103,22 @@ facts! {
             let said = say(format!("`{name}` is {noun}, not a value"), "");
             match cure {
                 Some(Use::Called) => said.help(format!("call it: `{name}(…)`")),
-                Some(Use::Recorded) => {
-                    said.help(format!("records and endings read its states: `{name}.STATE`"))
-                }
                 Some(Use::Given) => said.help(format!("give it to a player: `ai: {name}`")),
                 None => said,
+            }
+        },
+        /// A reward where a value is wanted.
+        ///
+        /// - `states`: how those that it keeps are read here, `None` where none can be.
+        RewardIsNoValue { name: String, states: Option<Vec<String>> } = Code::WrongType => {
+            let said = say(format!("`{name}` is a reward, not a value"), "");
+            match states.as_deref() {
+                None => said.help("a record or an ending of its scenario reads a reward's states"),
+                Some([]) => said.help(format!(
+                    "it keeps nothing to read: give it a state, `state n = 0`, and read `{name}.n`"
+                )),
+                Some([state]) => said.help(format!("read its state: `{state}`")),
+                Some(all) => said.help(format!("read one of its states: `{}`", all.join("`, `"))),
             }
         },
         /// A series where a value is wanted.
@@ -164,8 +175,6 @@ const PITCH_SIZE: &str = "the pitch is 110m by 72m: write less";
 pub(crate) enum Use {
     /// A function.
     Called,
-    /// A reward, in a record.
-    Recorded,
     /// A behavior.
     Given,
 }
@@ -201,6 +210,8 @@ pub(crate) enum Instead {
     Usual,
     /// A condition of what was found.
     Condition,
+    /// An event where players are counted.
+    CountedEvent,
     /// A condition that repeats what both sides of `and` or `or` share.
     Repeated { condition: String },
     /// A region stands behind `at`.
@@ -248,16 +259,8 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
             Some(help) => said.help(help),
             None => said,
         },
-        Instead::Condition => said.help(match found {
-            Ty::Team | Ty::Player => {
-                "compare it, as in `possession == left`, or write `… has ball`"
-            }
-            ty if ty.dim().is_some() => "compare it with something: `… > 0`",
-            ty if ty.is_place() || ty == Ty::Region => {
-                "ask where something is: `ball in right.box`"
-            }
-            _ => "write a condition, for example `us has ball`",
-        }),
+        Instead::Condition => said.help(condition(found, text)),
+        Instead::CountedEvent => said.help(format!("events are counted by `count of {text}`")),
         Instead::Repeated { condition } => said.help(format!("write `{condition}`")),
         Instead::In { text } => said.help(format!("write `in {text}`")),
         Instead::At { text } => said.help(format!("write `at {text}`")),
@@ -280,6 +283,27 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
             said.help("write a number, `all`, or a list of names: `[striker, winger]`")
         }
     }
+}
+
+/// The condition that a value is a part of.
+fn condition(found: Ty, text: &str) -> String {
+    let is_literal = text.starts_with(|c: char| c.is_ascii_digit());
+    match found {
+        Ty::Team | Ty::Player => "compare it, as in `possession == left`, or write `… has ball`",
+        Ty::DURATION if is_literal => {
+            return format!(
+                "write `elapsed > {text}`; `end limit {text}` ends an episode after that time"
+            );
+        }
+        ty if ty.dim().is_some() => {
+            let example = ty.example().and_then(|all| all.split('`').next()).unwrap_or("0");
+            let what = if is_literal || text.chars().count() > TEXT_MAX { "…" } else { text };
+            return format!("compare it with something: `{what} > {example}`");
+        }
+        ty if ty.is_place() || ty == Ty::Region => "ask where something is: `ball in right.box`",
+        _ => "write a condition, for example `us has ball`",
+    }
+    .to_owned()
 }
 
 /// What the two types suggest.
@@ -322,6 +346,13 @@ fn agree(verb: Verb, left: &Operand, right: &Operand) -> String {
     let (text_a, text_b) = (&left.text, &right.text);
     let is_compared = verb == Verb::Compare;
     if (x == Ty::LENGTH && y.is_plain()) || (y == Ty::LENGTH && x.is_plain()) {
+        let number = if y == Ty::LENGTH { text_a } else { text_b };
+        let axis = number.strip_suffix(".x").map(|of| (of, "x"));
+        if let Some((of, axis)) = axis.or_else(|| number.strip_suffix(".y").map(|of| (of, "y"))) {
+            return format!(
+                "`{number}` is normalised, from about -1 to 1; in metres write `({of} - centre).{axis}`"
+            );
+        }
         return "write the number with its unit, `2m`; `/ 1m` makes a length a number, and `grf_distance` is one"
             .to_owned();
     }

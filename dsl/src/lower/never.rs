@@ -1,14 +1,16 @@
-//! Payments that no match can earn, and why.
+//! Payments and endings that no match can bring about, and why.
 
-use crate::lower::Lower;
+use super::Lower;
+use super::interval::{self, InPlay};
 use crate::problem::facts::{Because, Never};
 use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::vocabulary::{EventKind, Field, Qualifier, Rule, Team};
 use setpiece_scenario::{EventFilter, Instr, Over, Reg, UnaryOp, Who};
+use std::cell::Cell;
 
 impl Lower<'_, '_> {
     /// Why no event of the match passes a filter, if none does.
-    pub(super) fn never_happens(&self, filter: &EventFilter) -> Option<Never> {
+    pub(crate) fn never_happens(&self, filter: &EventFilter) -> Option<Never> {
         if let Some(rule) = self.switched_off(filter.kind) {
             return Some(Never::SwitchedOff(filter.kind, rule));
         }
@@ -40,7 +42,7 @@ impl Lower<'_, '_> {
         }
     }
 
-    fn team_of(&self, who: Who) -> Option<Team> {
+    pub(super) fn team_of(&self, who: Who) -> Option<Team> {
         match who {
             Who::Team(reg) => self.known_team(reg),
             Who::Player(reg) => {
@@ -54,7 +56,7 @@ impl Lower<'_, '_> {
         }
     }
 
-    fn known_team(&self, reg: Reg) -> Option<Team> {
+    pub(super) fn known_team(&self, reg: Reg) -> Option<Team> {
         match self.code.instr(reg)? {
             Instr::Const(index) if *index == 0.0 => Some(Team::Left),
             Instr::Const(index) if *index == 1.0 => Some(Team::Right),
@@ -67,8 +69,30 @@ impl Lower<'_, '_> {
         }
     }
 
-    /// Why a condition never holds: the one thing that it looks at.
-    pub(super) fn why_never(&self, guard: Reg) -> Never {
+    /// Whether a condition never holds, whatever happens in the match.
+    pub(crate) fn never_holds(&self, reg: Reg) -> bool {
+        let in_play = InPlay {
+            longest: self.longest(),
+            happens: &|filter| self.never_happens(filter).is_none(),
+        };
+        interval::never_holds(&self.code, reg, &self.world.ranges(), in_play)
+    }
+
+    /// Why a condition never holds: the event that never happens, or the one thing that it looks
+    /// at.
+    pub(crate) fn why_never(&self, guard: Reg) -> Never {
+        let missing = Cell::new(None);
+        self.code.depends(guard, &|instr| {
+            if let Instr::Each(each) = instr
+                && let Over::Events(filter) = &each.over
+            {
+                missing.set(missing.get().or_else(|| self.never_happens(filter)));
+            }
+            false
+        });
+        if let Some(why) = missing.get() {
+            return why;
+        }
         let reads = |fields: &[Field]| {
             let test = |instr: &Instr| match instr {
                 Instr::Load { field, .. } => fields.contains(field),

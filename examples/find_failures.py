@@ -53,8 +53,8 @@ class Found:
 
     @property
     def is_failure(self) -> bool:
-        """Whether the policy scores less than half its mean somewhere."""
-        return any(failure.score.value < self.mean / 2 for failure in self.failures)
+        """Whether the policy scores somewhere, and somewhere else less than half its mean."""
+        return self.mean > 0 and any(it.score.value < self.mean / 2 for it in self.failures)
 
 
 def scores(

@@ -3,10 +3,13 @@
     python examples/train_cleanrl.py --scenario academy_empty_goal_close --steps 200000 --out runs/close
 
 With `--observation pixels_gray --stack 4` the policy sees pictures, through three convolutions.
+With `--levels learn_3_vs_1` it trains on the levels of a curriculum, or of a suite, and is still
+evaluated on `--scenario`. `--evaluate-every` evaluates it while it trains, and `--until` ends the
+training once it is good enough.
 
 It needs `torch` and `tensorboard`. The log in `--out` has the mean score (goals of the left team
 minus those of the right per episode), the mean return and the return of every reward term, over the
-episodes that ended since the last entry.
+episodes that ended since the last entry, and `evaluation/score`.
 """
 
 from __future__ import annotations
@@ -142,7 +145,9 @@ def environments(
 def train(args: argparse.Namespace) -> Policy:
     """Trains a policy for `args.steps` steps of all environments together."""
     torch.manual_seed(args.seed)
-    envs = environments(args, args.envs, rewards=args.rewards, seed=args.seed)
+    named = args.levels in setpiece.suites()
+    levels = setpiece.suite(args.levels).levels if named else args.levels
+    envs = environments(args, args.envs, rewards=args.rewards, seed=args.seed, levels=levels)
     space = envs.single_observation_space
     policy = Policy(space.shape, int(envs.single_action_space.n))
     optimizer = torch.optim.Adam(policy.parameters(), lr=args.lr, eps=1e-5)
@@ -161,6 +166,7 @@ def train(args: argparse.Namespace) -> Policy:
     observation, infos = envs.reset()
     updates = max(1, args.steps // (STEPS_OF_ENV * args.envs))
     episodes, began = Episodes(), time.monotonic()
+    evaluated, reached = 0, getattr(envs.level_source, "stage", None)
     for update in range(updates):
         optimizer.param_groups[0]["lr"] = args.lr * (1 - update / updates)
         for at in range(STEPS_OF_ENV):
@@ -217,14 +223,29 @@ def train(args: argparse.Namespace) -> Policy:
         if episodes.ended:
             episodes.write(writer, step)
         writer.add_scalar("time/steps_per_second", step / (time.monotonic() - began), step)
-    print(f"{updates * STEPS_OF_ENV * args.envs} steps in {time.monotonic() - began:.0f} s")
+        stage = getattr(envs.level_source, "stage", None)
+        if stage != reached:
+            reached = stage
+            print(f"stage {stage} begins after {step} steps")
+        if args.evaluate_every and step // args.evaluate_every > evaluated:
+            evaluated = step // args.evaluate_every
+            score = evaluate(policy, args, sampled=True)
+            writer.add_scalar("evaluation/score", score, step)
+            if args.until is not None and score >= args.until:
+                print(f"mean score {score:.2f} after {step} steps")
+                break
+    print(f"{step} steps in {time.monotonic() - began:.0f} s")
     writer.close()
     envs.close()
     return policy
 
 
-def evaluate(policy: Policy, args: argparse.Namespace, episodes: int = 100) -> float:
+def evaluate(
+    policy: Policy, args: argparse.Namespace, episodes: int = 100, *, sampled: bool = False
+) -> float:
     """Returns the mean score of the policy's likeliest actions, in episodes not trained on.
+
+    With `sampled` actions are drawn as in training.
 
     Environment k plays seed 1000000 + k, once. Taking the first episodes to end would favour short
     ones.
@@ -236,7 +257,7 @@ def evaluate(policy: Policy, args: argparse.Namespace, episodes: int = 100) -> f
         with torch.no_grad():
             masks = torch.from_numpy(infos["action_mask"]) if args.masks else None
             drawn, _ = policy(torch.from_numpy(observation), masks)
-            actions = drawn.logits.argmax(-1)
+            actions = drawn.sample() if sampled else drawn.logits.argmax(-1)
         observation, _, terminated, truncated, infos = envs.step(actions.numpy())
         over = (terminated | truncated) & playing
         if over.any():
@@ -262,7 +283,17 @@ def main(argv: list[str] | None = None) -> float:
     parser.add_argument(
         "--rewards", help="rewards instead of the scenario's own: scoring,checkpoints"
     )
+    parser.add_argument("--levels", help="a curriculum or a suite that chooses what is trained on")
     parser.add_argument("--steps", type=int, default=1_000_000)
+    parser.add_argument(
+        "--evaluate-every",
+        type=int,
+        metavar="STEPS",
+        help="also evaluate while training, with sampled actions",
+    )
+    parser.add_argument(
+        "--until", type=float, metavar="SCORE", help="end once an evaluation has this mean score"
+    )
     parser.add_argument("--envs", type=int, default=32)
     parser.add_argument("--threads", type=int, default=2, help="of the engine and of PyTorch")
     parser.add_argument("--seed", type=int, default=0)
@@ -277,6 +308,8 @@ def main(argv: list[str] | None = None) -> float:
     torch.save(policy.state_dict(), args.out / "policy.pt")
     score = evaluate(policy, args)
     print(f"mean score of 100 episodes: {score:.2f}")
+    drawn = evaluate(policy, args, 500, sampled=True)
+    print(f"mean score of 500 episodes with sampled actions: {drawn:.2f}")
     return score
 
 

@@ -51,6 +51,7 @@ from setpiece._replay import Moment, Replay
 from setpiece._scenario_dict import ScenarioDict, pitch_text
 from setpiece._source import load
 from setpiece._studio import Studio, studio
+from setpiece._suite import Estimate, Suite, SuiteEntry, SuiteRow, SuiteTable, suite, suites
 from setpiece._vector import FootballVectorEnv, make_vec
 from setpiece._vocabulary import Action, GameMode, Role
 
@@ -63,6 +64,7 @@ __all__ = [
     "Diagnostic",
     "DrawError",
     "Entry",
+    "Estimate",
     "FileError",
     "FootballEnv",
     "FootballVectorEnv",
@@ -92,6 +94,10 @@ __all__ = [
     "SnapshotError",
     "Step",
     "Studio",
+    "Suite",
+    "SuiteEntry",
+    "SuiteRow",
+    "SuiteTable",
     "UnavailableError",
     "UnknownScenarioError",
     "__version__",
@@ -109,6 +115,8 @@ __all__ = [
     "register_pettingzoo",
     "samplers",
     "studio",
+    "suite",
+    "suites",
 ]
 
 register_envs()

@@ -39,7 +39,9 @@ class Crowd:
         for seat in table.seats:
             kind = seat.look
             if kind is not None and kind not in looks:
-                looks[kind] = look(*kind)
+                seen = look(*kind)
+                # The only agent of a match has no axis of its own.
+                looks[kind] = seen if table.n_agents > 1 else [_alone(one) for one in seen]
             acts = ask(seat, _rows(looks[kind], seat.at), self._num_envs * len(seat.at))
             actions[:, seat.at] = np.reshape(acts, (self._num_envs, len(seat.at)))
         return actions
@@ -57,6 +59,10 @@ class Crowd:
                 f"expected integers in 0..{n_actions - 1} of shape {shape}, found `{given!r}`"
             )
         return actions.reshape(self._num_envs, mine)
+
+
+def _alone(seen: Any) -> Any:
+    return seen[None] if isinstance(seen, np.ndarray) else (seen,)
 
 
 def _rows(seen: Any, at: list[int]) -> Any:

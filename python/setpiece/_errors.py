@@ -179,7 +179,7 @@ class InUseError(SetpieceError, RuntimeError):
 
 
 class OpponentError(SetpieceError, RuntimeError):
-    """An opponent failed: it raised (`__cause__`) or returned something that isn't an action.
+    """An opponent or a policy failed: it raised (`__cause__`) or returned something that isn't an action.
 
     `slots` names the agents that it plays, `side` their team if they are on one.
     """

@@ -111,10 +111,22 @@ def curriculum(
     """
     outside = check_flag("allow_outside", allow_outside)
     seed = check_seed(seed)
-    if isinstance(source, str) and not is_plan(source):
-        # A name of the library.
-        return Curriculum(_native.Levels.curriculum(None, False, name or source, seed, outside))
-    return Curriculum(_native.Levels.curriculum(source, _is_text(source), name, seed, outside))
+    return Curriculum(_native.Levels.curriculum(*place_of(source, name), seed, outside))
+
+
+def place_of(
+    source: str | PathLike[str], name: str | None
+) -> tuple[str | PathLike[str] | None, bool, str | None]:
+    """Where a plan stands: its file or text (None: the library), whether a text, and its name."""
+    if not isinstance(source, str) or is_plan(source):
+        return source, _is_text(source), name
+    if name is not None:
+        raise ParameterError(
+            f"`{source}` is a name of the library, which has no `{name}` in it",
+            name="name",
+            help="a path ends in `.pitch`",
+        )
+    return None, False, source
 
 
 def check_seed(seed: object) -> int | None:
@@ -135,7 +147,10 @@ def _is_text(source: object) -> bool:
 
 @dataclass(frozen=True)
 class LevelResult:
-    """How a level has ended, for a function that chooses the next one."""
+    """How a level has ended, for a function that chooses the next one.
+
+    An episode that failed, in a script for example, has no result.
+    """
 
     level: str
     """The level as text."""
@@ -164,7 +179,10 @@ class GivenLevel(NamedTuple):
 
 
 LevelFunction = Callable[[LevelResult | None], str | Mapping[str, Any]]
-"""From the result of an environment's last level, None before the first, to its next level."""
+"""From the result of an environment's last level to its next level.
+
+The result is None before the first, and after an episode that has failed.
+"""
 
 LevelsArgument = (
     LevelSource | LevelFunction | Sequence[str | Mapping[str, Any]] | str | PathLike[str]
@@ -217,6 +235,12 @@ def read_levels(
         if is_plan(given):
             return curriculum(given, allow_outside=allow_outside)
         return _named(str(given), source, allow_outside)
+    if isinstance(given, type):
+        raise ParameterError(
+            f"`levels` is the class `{given.__name__}`",
+            name="levels",
+            help=f"make one: `{given.__name__}(…)`",
+        )
     if callable(given):
         return FunctionLevels(given, load)
     if isinstance(given, Sequence) and not isinstance(given, bytes):

@@ -75,6 +75,7 @@ class Seat:
     policy: Policy
     play: Callable[[Any], Any]
     side: Literal["left", "right"] | None
+    what: str = "opponent"
 
     @property
     def look(self) -> Look | None:
@@ -98,8 +99,13 @@ class Table:
     """What all agents were shown last; opponents without their own observation see this."""
 
     def __init__(
-        self, agents: Sequence[AgentInfo], opponents: Mapping[str, Opponent], n_actions: int
+        self,
+        agents: Sequence[AgentInfo],
+        opponents: Mapping[str, Opponent],
+        n_actions: int,
+        what: str = "opponent",
     ) -> None:
+        """Seats opponents; `what` they are called in errors."""
         self.n_agents, self.n_actions = len(agents), n_actions
         owner = _owners(agents, read_opponents(opponents))
         self.mine = [at for at in range(self.n_agents) if at not in owner]
@@ -114,7 +120,7 @@ class Table:
             teams = {agents[slot].team for slot in at}
             side = SIDES[teams.pop()] if len(teams) == 1 else None
             self.seats.append(
-                Seat(ids, at, Picker(self.n_agents, at), policy, function_of(policy), side)
+                Seat(ids, at, Picker(self.n_agents, at), policy, function_of(policy), side, what)
             )
         self.seen = None
 
@@ -206,7 +212,7 @@ def _asked(seat: Seat, agents: tuple[str, ...], seen: Any) -> Any:
     except Exception as error:
         why = f"failed: {type(error).__name__}: {error}"
         raise OpponentError(
-            f"the opponent {_of(agents)} {why}", slots=seat.agents, side=seat.side
+            f"the {seat.what} {_of(agents)} {why}", slots=seat.agents, side=seat.side
         ) from error
 
 
@@ -219,7 +225,7 @@ def _no_action(seat: Seat, agents: tuple[str, ...], expected: str, given: Any) -
     """Builds the error for an opponent's wrong answer for these of its agents."""
     last = ACTION_SETS["v2"] - 1
     why = f"gave no action: expected {expected} in 0..{last}, found `{given!r}`"
-    return OpponentError(f"the opponent {_of(agents)} {why}", slots=seat.agents, side=seat.side)
+    return OpponentError(f"the {seat.what} {_of(agents)} {why}", slots=seat.agents, side=seat.side)
 
 
 def _of(agents: tuple[str, ...]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from operator import index
 from os import PathLike, fsencode, fspath
@@ -17,6 +18,9 @@ ParamValue = bool | int | float | str
 """A parameter's value: SI units, or a string as in the language (`"12m"`, `"60%"`, `"left"`)."""
 
 NUMBER_MAX = 2**64 - 1
+
+THREADS_MAX = 1_024
+"""The most threads of a vector."""
 
 
 def check_keys(
@@ -53,6 +57,20 @@ def check_number(name: str, value: object) -> int:
     if not 0 <= number <= NUMBER_MAX:
         raise ParameterError(f"`{name}` is {number}, outside 0..2**64-1", name=name)
     return number
+
+
+def check_count(name: str, value: object, most: int) -> int:
+    """Returns a count, or raises `ParameterError`."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not 1 <= value <= most:
+        raise ParameterError(f"`{name}` is {value!r}; it can be an integer in 1..{most}", name=name)
+    return int(value)
+
+
+def check_threads(threads: object, most: int) -> int:
+    """Returns a number of threads: without one a thread per core, at most `most`."""
+    if threads is None:
+        return min(os.cpu_count() or 1, most)
+    return check_count("threads", threads, THREADS_MAX)
 
 
 def check_flag(name: str, value: object) -> bool:

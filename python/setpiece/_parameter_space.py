@@ -125,8 +125,13 @@ class ParameterSpace(spaces.Dict):
         """Returns a level with the same seed whose parameters are changed.
 
         Numbers move by a normal step of `scale` times their range; a value of a list is drawn again
-        with a chance of `scale`. Raises `LevelError` for a level of another scenario.
+        with a chance of `scale`. Raises `LevelError` for a level of another scenario,
+        `ParameterError` for a `scale` that isn't finite or is below 0.
         """
+        if not isinstance(scale, int | float) or not 0 <= scale < float("inf"):
+            raise ParameterError(
+                f"`scale` is {scale!r}; it can be a number from 0 up", name="scale"
+            )
         old = read_level(level)
         old.check(self.scenario)
         params = {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal
@@ -23,23 +22,17 @@ from setpiece._endings import endings
 from setpiece._env_options import RENDER_MODES, EnvOptions, SharedArguments, VectorArguments
 from setpiece._environment import FootballEnv, Mirror
 from setpiece._errors import ActionError, ParameterError, ReplayError, UnavailableError
-from setpiece._level import Level
-from setpiece._levels import (
-    FunctionLevels,
-    GivenLevel,
-    LevelsArgument,
-    LevelSource,
-    read_levels,
-)
+from setpiece._levels import LevelsArgument
 from setpiece._native import Scenario
 from setpiece._opponents import Opponent, Table
-from setpiece._options import ParamValue
+from setpiece._options import ParamValue, check_count, check_threads
 from setpiece._reset import read_each_params, read_seeds, read_vector_reset
 from setpiece._rows import Picker
 from setpiece._seats import Seats
 from setpiece._source import Source
 from setpiece._spaces import Layout, action_space, observation_layout, observation_space
 from setpiece._turn import Turn, one_thread
+from setpiece._vector_levels import Params, VectorLevels
 from setpiece._window import Window, mosaic, tile_size
 
 if TYPE_CHECKING:
@@ -48,14 +41,8 @@ if TYPE_CHECKING:
 ENVS_MAX = 65_536
 """The most environments of a vector."""
 
-THREADS_MAX = 1_024
-"""The most threads of a vector."""
-
 TOGETHER = ("threads", "autoreset_mode", "levels")
 """Arguments of a vector that a single environment doesn't have."""
-
-Params = Mapping[str, ParamValue] | Sequence[Mapping[str, ParamValue]] | None
-"""Parameters of all environments, or of each."""
 
 
 class FootballVectorEnv(VectorEnv[Any, Any, Any]):
@@ -114,27 +101,23 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             )
         self.render_mode = options.render_mode
         self._window: Window | None = None
-        self.num_envs = _count("num_envs", num_envs, ENVS_MAX)
-        threads = (
-            min(os.cpu_count() or 1, self.num_envs)
-            if threads is None
-            else _count("threads", threads, THREADS_MAX)
-        )
+        self.num_envs = check_count("num_envs", num_envs, ENVS_MAX)
+        threads = check_threads(threads, self.num_envs)
         self.autoreset_mode = _mode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
         self._options = options
         self.scenario = scripted_scenario(scenario, options, options.params).with_params(
             **options.params
         )
-        self.level_source: LevelSource | None = None
-        chosen = self._read_levels(levels, params)
+        self._levels = VectorLevels(levels, params, scenario, self.scenario, options)
+        self.level_source = self._levels.source
         self._batch = _native.Batch(
             self.scenario,
             self.num_envs,
             options,
             threads=threads,
             next_step=self.autoreset_mode == AutoresetMode.NEXT_STEP,
-            levels=chosen,
+            levels=self._levels.native,
         )
         if each:
             self._batch.bind(read_each_params(params, self.num_envs) or [])
@@ -187,24 +170,27 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
           `FootballEnv.reset`.
 
         Raises `ParameterError` for other options and `LevelError` for a level of another scenario,
-        and the episodes continue; `DrawError` if no start meets the scenario's requirements.
+        and the episodes continue; `DrawError` if no start meets the scenario's requirements. With
+        `levels` also what they raise: `CallbackError` for a function that fails, `LevelError` or
+        `ParameterError` for a level that it returns and that can't be played.
         """
         with self._turn:
-            wanted = read_vector_reset(seed, options, self.num_envs, levels=self._chosen)
+            wanted = read_vector_reset(seed, options, self.num_envs, levels=self._levels.chosen)
             mask, seeds = wanted.mask, wanted.seeds
             if not self._begun and not mask.all():
                 raise ParameterError(
                     "the first `reset` begins an episode of every environment", name="reset_mask"
                 )
             if wanted.levels is not None:
-                self._batch.assign(self._given(wanted.levels))
-            if seed is None and self._unseeded() and (self._chosen or wanted.levels is None):
+                self._batch.assign(self._levels.given(wanted.levels, self._batch.scenarios))
+            is_open = self._levels.chosen or wanted.levels is None
+            if seed is None and is_open and self._levels.lacks_seed(self._begun):
                 seed = self._options.seed
                 if seed is None:
                     seed = int(self.np_random.integers(2**62))
                 seeds = read_seeds(seed, self.num_envs)
             super().reset(seed=seed if isinstance(seed, int) and seed < 2**63 else None)
-            if self._chosen and seeds is not None:
+            if self._levels.chosen and seeds is not None:
                 # The source numbers all levels under one seed.
                 if self.level_source is not None:
                     self.level_source.reseed(seeds[0] or 0)
@@ -235,7 +221,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
 
         Raises `ActionError` for actions of another shape or number and `OpponentError` if an
         opponent fails; nothing has been played then. Raises `ScriptError` if a script of the
-        scenario fails: its episode has ended, and the others have been played.
+        scenario fails: its episode has ended, and the others have been played. With `levels` a step
+        that begins episodes raises what `reset` does.
         """
         with self._turn:
             if not self._begun:
@@ -320,56 +307,6 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
             self._window = Window(self.scenario.name, self.metadata["render_fps"])
         self._window.show(mosaic([*frames]))
         return None
-
-    def _read_levels(
-        self, levels: LevelsArgument | None, params: Params
-    ) -> _native.Levels | FunctionLevels | None:
-        """Where the levels come from; `level_source` is set if it is one of the package."""
-        self._chosen = levels is not None
-        if levels is None:
-            return None
-        options = self._options
-        chosen = read_levels(levels, self.source, self._load, options.allow_outside)
-        is_given = isinstance(chosen, FunctionLevels) or isinstance(levels, list | tuple)
-        if isinstance(params, list | tuple) or (params is not None and not is_given):
-            raise ParameterError(
-                "`levels` chooses the parameters",
-                name="params",
-                help="bind them in the level, the curriculum, or the scenario of the sampler",
-            )
-        if isinstance(chosen, FunctionLevels):
-            return chosen
-        if options.scripted and not is_given:
-            raise ParameterError(
-                "behaviours play against the vector's scenario, and `levels` brings its own",
-                name="opponents",
-                help="give them to players in the text: `ai: NAME`",
-            )
-        self.level_source = chosen
-        return chosen.native
-
-    def _load(self, name: str) -> Scenario:
-        """The scenario of a level's name: the vector's own, or one of the library."""
-        if name == self.scenario.name:
-            return self.scenario
-        return scripted_scenario(name, self._options, {})
-
-    def _given(self, levels: Sequence[Level | None]) -> list[GivenLevel | None]:
-        """Levels with their scenarios, which the vector knows."""
-        # The vector's own knows its digest without bound parameters.
-        known = {self.scenario.name: self.scenario}
-        for scenario in self._batch.scenarios:
-            known.setdefault(scenario.name, scenario)
-        return [
-            None
-            if level is None
-            else GivenLevel.of(level, known.get(level.scenario, self.scenario))
-            for level in levels
-        ]
-
-    def _unseeded(self) -> bool:
-        """Whether nobody has given a seed yet."""
-        return not self._begun if self.level_source is None else self.level_source.seed is None
 
     def _read(self, given: Any) -> NDArray[Any]:
         """Everyone's actions: the caller's and the opponents'; the batch reads the numbers."""
@@ -582,12 +519,6 @@ def one_of(**kwargs: Any) -> FootballEnv:
     if isinstance(arguments.get("params"), list | tuple):
         arguments["params"] = arguments["params"][0]
     return FootballEnv(**arguments)
-
-
-def _count(name: str, value: object, most: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not 1 <= value <= most:
-        raise ParameterError(f"`{name}` is {value!r}; it can be an integer in 1..{most}", name=name)
-    return int(value)
 
 
 def _mode(mode: object) -> AutoresetMode:

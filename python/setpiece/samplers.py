@@ -126,13 +126,19 @@ class Prioritized(LevelSource):
         """Gives levels that have ended their scores; `infos["setpiece"]["level"]` names them.
 
         Raises `LevelError` for a level of another scenario, `ParameterError` for a score that isn't
-        finite.
+        finite, or for another number of scores than levels; then none is given.
         """
-        for given, score in zip(levels, scores, strict=True):
-            level = read_level(given)
+        if len(levels) != len(scores):
+            raise ParameterError(
+                f"expected a score for each of {len(levels)} levels, found {len(scores)}",
+                name="scores",
+            )
+        read = [read_level(given) for given in levels]
+        for level, given, score in zip(read, levels, scores, strict=True):
             level.check(self.scenario)
             if not isfinite(score):
                 raise ParameterError(f"the score of `{given}` is {score}", name="scores")
+        for level, score in zip(read, scores, strict=True):
             self._native.score(level.params, level.seed, level.episode, float(score))
 
 

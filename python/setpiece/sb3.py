@@ -187,6 +187,7 @@ def make_vec(
     """Makes a `VecEnv` of n environments; `kwargs` are those of `setpiece.make`, and `levels`.
 
     - `seed`: the seed of the first environment's first episode; the others have consecutive ones.
+      With `levels` it seeds the source, which numbers all levels under it.
     - `threads`: the number of threads; None: one per core. Results don't depend on it.
 
     The environments are one batch (`setpiece.make_vec`). What a batch can't do (`events`,

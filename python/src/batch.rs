@@ -27,6 +27,7 @@ use pyo3::types::{PyDict, PyList};
 use setpiece::engine::batch::{Batch as Lanes, EpisodeSummary};
 use setpiece::engine::environment::Scratch;
 use setpiece::scenario::{Action, Bindings, Verdict};
+use stage::Upcoming;
 use std::sync::PoisonError;
 
 /// Several matches of one scenario that are stepped together.
@@ -96,7 +97,17 @@ impl Batch {
             let played = engine.bindings().clone();
             let stage = stages.first().clone();
             let (upcoming, chosen, failure) = (None, None, None);
-            Ok(BatchLane { engine, stage, upcoming, chosen, film, played, over: true, failure })
+            Ok(BatchLane {
+                engine,
+                stage,
+                upcoming,
+                chosen,
+                film,
+                played,
+                over: true,
+                rests: false,
+                failure,
+            })
         };
         let all: PyResult<Vec<BatchLane>> = (0..n).map(|_| lane()).collect();
         let lanes = Lanes::new(all?, threads)
@@ -527,7 +538,10 @@ impl Batch {
         };
         let lanes = self.lanes.lanes_mut();
         let asked = results.and_then(|results| {
-            let begun = |at: usize, level| lanes[at].upcoming = Some(level);
+            let begun = |at: usize, level: Option<Upcoming>| {
+                lanes[at].rests = level.is_none();
+                lanes[at].upcoming = level;
+            };
             source.ask(py, &mut self.stages, &begin, &results, begun)
         });
         self.source = Some(source);

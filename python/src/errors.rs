@@ -113,8 +113,8 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
             fields.set_item("name", "opponents")?;
             "ParameterError"
         }
-        Error::NoPlan { .. } => {
-            fields.set_item("name", "levels")?;
+        Error::NoPlan { what, .. } => {
+            fields.set_item("name", if *what == "suite" { "suite" } else { "levels" })?;
             "ParameterError"
         }
         Error::Level { .. } => "LevelError",

@@ -5,13 +5,14 @@ use crate::scenario::Scenario;
 use crate::{errors, given, params};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use setpiece::evaluate::Results;
 use setpiece::levels::{
-    ChosenLevel, CurriculumRun, LevelScore, LevelSource, ListedLevels, Numbering,
+    ChosenLevel, CurriculumRun, LevelScore, LevelSource, ListedLevels, Numbering, PlannedLevels,
     PrioritizedLevels, RandomizedLevels, ReplayOptions, SourcedScenario,
 };
 use setpiece::plans::{PlansOf, curriculum_of};
 use setpiece::scenario::Bindings;
-use setpiece::scenario::plan::Played;
+use setpiece::scenario::plan::{PlannedEpisodes, Played, Suite};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// What chooses the levels of a batch; batches share it.
@@ -21,6 +22,7 @@ pub(crate) struct Levels {
 }
 
 enum SourceKind {
+    Planned(Arc<Mutex<PlannedLevels>>),
     Curriculum(Arc<Mutex<CurriculumRun>>),
     Prioritized(Arc<Mutex<PrioritizedLevels>>),
     Other(Arc<Mutex<dyn LevelSource>>),
@@ -125,7 +127,7 @@ impl Levels {
 
     /// Numbers the next levels from 0 under a seed.
     fn reseed(&self, seed: u64) {
-        *lock(&*self.source()).numbering() = Numbering::of(Some(seed));
+        lock(&*self.source()).set_numbering(Numbering::of(Some(seed)));
     }
 
     /// Everything that it remembers, as JSON.
@@ -139,6 +141,13 @@ impl Levels {
         restored.map_err(|why| {
             errors::parameter(py, "state", &format!("this is no state of these levels: {why}"))
         })
+    }
+
+    /// How many episodes of a suite's entry have not ended yet.
+    #[getter]
+    fn left(&self) -> usize {
+        let SourceKind::Planned(levels) = &self.kind else { return 0 };
+        lock(&**levels).n_left()
     }
 
     /// The place and the name of a curriculum's stage, and the value that it adapts.
@@ -180,13 +189,36 @@ impl Levels {
 }
 
 impl Levels {
+    /// The episodes of a suite's entry, each once.
+    pub(crate) fn planned(plan: PlannedEpisodes) -> Levels {
+        Levels { kind: SourceKind::Planned(Arc::new(Mutex::new(PlannedLevels::new(plan)))) }
+    }
+
+    /// The episodes of all entries of a suite, again and again.
+    pub(crate) fn of_suite(suite: &Suite) -> Option<Levels> {
+        let list = ListedLevels::of_suite(suite)?;
+        Some(Levels { kind: SourceKind::Other(Arc::new(Mutex::new(list))) })
+    }
+
+    /// The results of such episodes; `None` before all of them have ended.
+    pub(crate) fn results(&self) -> Option<Results> {
+        let SourceKind::Planned(levels) = &self.kind else { return None };
+        lock(&**levels).results()
+    }
+
     /// The source, for a batch.
     pub(crate) fn source(&self) -> Arc<Mutex<dyn LevelSource>> {
         match &self.kind {
             SourceKind::Curriculum(run) => run.clone(),
             SourceKind::Prioritized(levels) => levels.clone(),
+            SourceKind::Planned(levels) => levels.clone(),
             SourceKind::Other(source) => source.clone(),
         }
+    }
+
+    /// What of a scenario it would measure in vain.
+    pub(crate) fn unmeasured(&self, scenario: usize, terms: &[String]) -> Option<String> {
+        lock(&*self.source()).unmeasured(scenario, terms)
     }
 
     /// The scenarios that it plays, and where.

@@ -19,6 +19,7 @@ mod replay;
 mod scenario;
 mod seats;
 mod studio;
+mod suite;
 mod video;
 mod write;
 
@@ -54,6 +55,8 @@ mod _native {
     };
     #[pymodule_export]
     use crate::studio::Studio;
+    #[pymodule_export]
+    use crate::suite::{Suite, SuiteRow, library_suites, suite_text};
     #[pymodule_export]
     use crate::video::{Moment, moments_video, replay_video};
     #[pymodule_export]

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 DOCS = Path(__file__).parents[2] / "docs"
-HEAVY = re.compile(r"\b(stable_baselines3|sb3_contrib|ray)\b")
+HEAVY = re.compile(r"\b(stable_baselines3|sb3_contrib|ray|syllabus[.]curricula)\b")
 """Imports of examples that only the tests in `full` have."""
 
 

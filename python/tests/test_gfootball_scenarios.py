@@ -547,8 +547,10 @@ NAMES = {
 """Every scenario of GRF, by the folder's part of its name."""
 
 
-def test_the_library_has_every_scenario_of_grf_and_no_other() -> None:
-    assert sorted(name for names in NAMES.values() for name in names) == all_scenarios()
+def test_the_library_has_every_scenario_of_grf_and_those_of_its_suite_for_many_agents() -> None:
+    of_grf = [name for names in NAMES.values() for name in names]
+    of_suite = [entry.entry for entry in setpiece.suite("academy_multi").entries]
+    assert sorted(of_grf + of_suite) == all_scenarios()
 
 
 @pytest.mark.parametrize(

@@ -149,8 +149,11 @@ def test_a_restored_curriculum_continues_as_the_original() -> None:
     other = setpiece.make_vec(COURSE, 4, levels=again)
     other.reset()
     assert played(other, 40) == first
-    with pytest.raises(setpiece.ParameterError, match="stages"):
+    with pytest.raises(setpiece.ParameterError, match="it plays `near`, `far`, and this"):
         setpiece.curriculum("learn_3_vs_1").load_state_dict(state)
+    renamed = setpiece.curriculum(COURSE.replace("stage first", "stage begin"), "course")
+    with pytest.raises(setpiece.ParameterError, match="the stages are `first`, `second`"):
+        renamed.load_state_dict(state)
     for wrong in ({}, {"stages": 3}, 7):
         with pytest.raises(setpiece.ParameterError):
             again.load_state_dict(wrong)  # type: ignore[arg-type]

@@ -15,7 +15,7 @@ CLOSE = "academy_empty_goal_close"
 
 def test_list_names_titles_players() -> None:
     entries = setpiece.list()
-    assert len(entries) == 35
+    assert len(entries) == 41
     assert entries == sorted(entries)
     corner = next(entry for entry in entries if entry == "academy_corner")
     assert corner.players == (11, 11)

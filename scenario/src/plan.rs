@@ -63,6 +63,18 @@ pub struct Suite {
     pub entries: Vec<PlannedEpisodes>,
 }
 
+impl Suite {
+    /// The first line of the documentation.
+    pub fn title(&self) -> &str {
+        self.doc.lines().next().unwrap_or_default()
+    }
+
+    /// How many episodes its entries have together.
+    pub fn episodes(&self) -> u64 {
+        self.entries.iter().map(|entry| entry.count).sum()
+    }
+}
+
 /// Some episodes of a scenario.
 #[derive(Clone, Debug)]
 pub struct PlannedEpisodes {

@@ -9,7 +9,6 @@ mod doc;
 mod explain;
 mod fmt;
 mod live;
-mod measured;
 mod out;
 mod play;
 mod playing;
@@ -194,7 +193,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 fn run(args: Args) -> u8 {
     let out = Out::new(args.color, args.allow_outside);
     let result = match args.command {
-        Command::List => Ok(list(&out)),
+        Command::List => list(&out),
         Command::Check { files, message_format, watch: true } => {
             check::watch(&files, message_format, &out)
         }
@@ -239,7 +238,7 @@ fn run(args: Args) -> u8 {
     }
 }
 
-fn list(out: &Out) -> u8 {
+fn list(out: &Out) -> Result<u8, Error> {
     let entries = crate::list();
     let width = entries.iter().map(|entry| entry.name.len()).max().unwrap_or_default();
     for entry in entries {
@@ -247,7 +246,13 @@ fn list(out: &Out) -> u8 {
         let line = StyledText::default().bold(&format!("{:width$}", entry.name));
         out.line(line.text(&format!("  {left:>2} v {right:<2}  {}", entry.title)));
     }
-    FINE
+    out.line("");
+    for suite in crate::plans::library_plans()?.suites {
+        let line = StyledText::default().bold(&format!("{:width$}", suite.name));
+        let (title, episodes) = (suite.title(), suite.episodes());
+        out.line(line.text(&format!("  suite    {title} {episodes} episodes.")));
+    }
+    Ok(FINE)
 }
 
 fn build(

@@ -8,7 +8,7 @@ use setpiece_engine::control::agents::Agent;
 use setpiece_engine::draw::draw_params;
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece_scenario::plan::{Check, Expectation, PlannedEpisodes, Played};
-use setpiece_scenario::{Action, Bindings};
+use setpiece_scenario::{Action, Bindings, Scenario};
 
 /// The results of some episodes.
 #[derive(Clone, Debug)]
@@ -50,9 +50,7 @@ pub fn play(
     after: impl Fn() + Sync,
 ) -> Result<Results, Error> {
     let fault = |why| Error::Episode(Box::new(why));
-    if what.played.scenario.endings.list.is_empty() && what.played.scenario.start.limit.is_none() {
-        return Err(fault(EpisodeError::Endless(0)));
-    }
+    refuse_endless(&what.played.scenario)?;
     let environment = environment(&what.played, options, what.played.bindings.clone())?;
     let episodes = run_episodes(
         &environment,
@@ -66,6 +64,15 @@ pub fn play(
     .map_err(|why| Error::Threads(why.to_string()))?;
     let episodes = episodes.into_iter().collect::<Result<Vec<_>, _>>().map_err(fault)?;
     Ok(Results { episodes, terms: environment.term_names().to_vec() })
+}
+
+/// Refuses a scenario whose episodes nothing ends.
+///
+/// # Errors
+/// [`Error::Episode`].
+pub fn refuse_endless(scenario: &Scenario) -> Result<(), Error> {
+    let has_end = !scenario.endings.list.is_empty() || scenario.start.limit.is_some();
+    if has_end { Ok(()) } else { Err(Error::Episode(Box::new(EpisodeError::Endless(0)))) }
 }
 
 /// The values of the parameters in an episode.

@@ -3,6 +3,10 @@
 //! A rate has Wilson's interval (Wilson 1927), everything else that of the bootstrap's percentiles
 //! (Efron 1979), resampled by a stream of its own: the same episodes give the same interval.
 
+mod shown;
+
+pub use shown::shown;
+
 use setpiece_engine::batch::EpisodeSummary;
 use setpiece_engine::random::{Purpose, Stream};
 use setpiece_scenario::Verdict;

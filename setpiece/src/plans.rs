@@ -6,7 +6,7 @@ use crate::stdlib;
 use setpiece_dsl::problem::nearest;
 use setpiece_dsl::problem::{Problem, Severity};
 use setpiece_dsl::source::{Source, Sources};
-use setpiece_scenario::plan::{Curriculum, Plans};
+use setpiece_scenario::plan::{Curriculum, Plans, Suite};
 use std::path::{Path, PathBuf};
 
 /// The file of the library's suites and curricula.
@@ -46,19 +46,39 @@ pub fn curriculum_of(
     name: Option<&str>,
     allow_outside: bool,
 ) -> Result<Curriculum, Error> {
+    let found = plans_of(of, name, allow_outside)?.into_iter().flat_map(|plans| plans.curricula);
+    only("curriculum", found.map(|it| (it.name.clone(), it)).collect(), name)
+}
+
+/// The same of a suite.
+///
+/// # Errors
+/// Those of [`curriculum_of`].
+pub fn suite_of(of: &PlansOf, name: Option<&str>, allow_outside: bool) -> Result<Suite, Error> {
+    let found = plans_of(of, name, allow_outside)?.into_iter().flat_map(|plans| plans.suites);
+    only("suite", found.map(|it| (it.name.clone(), it)).collect(), name)
+}
+
+/// The plans that stand somewhere; behind them those of the library, if a name may be one of it.
+fn plans_of(of: &PlansOf, name: Option<&str>, allow_outside: bool) -> Result<Vec<Plans>, Error> {
     let options = LoadOptions { allow_outside, ..LoadOptions::default() };
-    let mut found = match of {
+    let mut plans = match of {
         PlansOf::Library => Vec::new(),
         PlansOf::Text(text) => {
             let source = Source { name: "<text>".to_owned(), text: text.as_str().into() };
-            of_source(source, &options)?.plans.curricula
+            vec![of_source(source, &options)?.plans]
         }
-        PlansOf::File(path) => load_plans(path, &options)?.plans.curricula,
+        PlansOf::File(path) => vec![load_plans(path, &options)?.plans],
     };
     if name.is_some() || matches!(of, PlansOf::Library) {
-        found.extend(library_plans()?.curricula);
+        plans.push(library_plans()?);
     }
-    let known: Vec<String> = found.iter().map(|curriculum| curriculum.name.clone()).collect();
+    Ok(plans)
+}
+
+/// The plan of a name, or the only one.
+fn only<T>(what: &'static str, found: Vec<(String, T)>, name: Option<&str>) -> Result<T, Error> {
+    let (known, mut found): (Vec<String>, Vec<T>) = found.into_iter().unzip();
     let place = match name {
         Some(name) => known.iter().position(|known| known == name),
         None => (known.len() == 1).then_some(0),
@@ -68,7 +88,7 @@ pub fn curriculum_of(
     }
     let similar = name.and_then(|name| nearest(name, known.iter().map(String::as_str)));
     let similar = similar.map(str::to_owned);
-    Err(Error::NoPlan { what: "curriculum", name: name.map(str::to_owned), known, similar })
+    Err(Error::NoPlan { what, name: name.map(str::to_owned), known, similar })
 }
 
 /// Loads the plans of a `.pitch` file.

@@ -1,6 +1,7 @@
 //! Runs episodes of a scenario with a ready-made agent, and summarises the results.
 
 use crate::error::Error;
+use crate::evaluate::refuse_endless;
 use setpiece_engine::batch::{EpisodeError, EpisodeSummary, ReadyMade, run_episodes};
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::digest;
@@ -82,9 +83,7 @@ pub fn run(
     options: &RunOptions,
     progress: impl Fn(u32) + Sync,
 ) -> Result<Summary, Error> {
-    if scenario.endings.list.is_empty() && scenario.start.limit.is_none() {
-        return Err(Error::Episode(Box::new(EpisodeError::Endless(0))));
-    }
+    refuse_endless(scenario)?;
     let environment = Environment::new(scenario.clone(), options.environment.clone())
         .map_err(Error::Environment)?;
     let begin = Instant::now();

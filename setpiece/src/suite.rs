@@ -1,5 +1,9 @@
 //! The results of a suite: a row per entry, for one agent or two side by side.
 
+mod table;
+
+pub use table::SuiteTable;
+
 use crate::error::Error;
 use crate::evaluate::{Results, play};
 use crate::measure::{Estimate, differences, measure};
@@ -77,12 +81,21 @@ pub fn row(
         }),
         _ => None,
     };
+    Ok(SuiteRow { agents: rows, difference, ..blank(entry) })
+}
+
+/// The row of an entry that one agent has played.
+pub fn row_of(entry: &PlannedEpisodes, agent: &str, results: &Results) -> SuiteRow {
+    SuiteRow { agents: vec![agent_row(agent, results)], ..blank(entry) }
+}
+
+fn blank(entry: &PlannedEpisodes) -> SuiteRow {
     let (label, episodes, seed) = (entry.played.label(), entry.count, entry.seed);
-    Ok(SuiteRow { entry: label, episodes, seed, agents: rows, difference })
+    SuiteRow { entry: label, episodes, seed, agents: Vec::new(), difference: None }
 }
 
 /// The row of an agent's results.
-pub fn agent_row(agent: &str, results: &Results) -> SuiteAgent {
+fn agent_row(agent: &str, results: &Results) -> SuiteAgent {
     let episodes: Vec<&EpisodeSummary> = results.episodes.iter().collect();
     let nothing = Estimate { value: 0.0, low: 0.0, high: 0.0, episodes: 0 };
     let of = |what: Measure| measure(&what, &episodes, &results.terms).unwrap_or(nothing);

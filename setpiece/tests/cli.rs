@@ -55,7 +55,10 @@ const CLOSE: &str = "scenario close extends academy {
 #[test]
 fn lists_every_scenario_with_its_sides() {
     let output = text(&setpiece(&["list"]).stdout);
-    assert_eq!(output.lines().count(), 35, "{output}");
+    let (scenarios, suites) = output.split_once("\n\n").unwrap();
+    assert_eq!(scenarios.lines().count(), 41, "{output}");
+    let names = suites.lines().map(|line| line.split_whitespace().next().unwrap());
+    assert_eq!(names.collect::<Vec<_>>(), ["academy", "academy_multi", "benchmarks"]);
     for line in [
         "academy_3_vs_1_with_keeper",
         "11_vs_11_stochastic",

@@ -105,7 +105,7 @@ fn every_example_file_compiles_without_a_warning() {
 #[test]
 fn every_scenario_of_the_library_compiles_without_a_warning_and_has_both_difficulties() {
     let entries = setpiece::list();
-    assert_eq!(entries.len(), 35);
+    assert_eq!(entries.len(), 41);
     for entry in entries {
         let loaded = setpiece::load(&entry.name).unwrap();
         assert!(loaded.warnings.is_empty(), "{}: {:?}", entry.name, loaded.warnings);

@@ -26,6 +26,8 @@ pub(super) struct BatchLane {
     pub(super) played: Bindings,
     /// Whether the episode has ended and no other has begun.
     pub(super) over: bool,
+    /// Whether its source has no more levels: nothing begins.
+    pub(super) rests: bool,
     /// The failure of the last step or reset.
     pub(super) failure: Option<LaneFailure>,
 }
@@ -116,6 +118,9 @@ impl BatchLane {
         keep: bool,
         mut row: BatchRow<'_>,
     ) {
+        if self.rests {
+            return;
+        }
         if let Err(why) = self.draw(seed, index) {
             self.failure = Some(why);
             self.over = true;
@@ -157,6 +162,9 @@ impl BatchLane {
         mut row: BatchRow<'_>,
         scratch: &mut Scratch,
     ) {
+        if self.over && self.rests {
+            return;
+        }
         if self.over && next_step {
             return self.begin(None, None, action_set, false, row);
         }

@@ -64,7 +64,7 @@ impl BatchStages {
             Some(LevelsArgument::Ours(levels)) => levels.scenarios(),
             Some(LevelsArgument::Function(_)) | None => Vec::new(),
         };
-        for sourced in sourced {
+        for (number, sourced) in sourced.into_iter().enumerate() {
             let known = engines.iter().position(|it| *it.scenario() == sourced.scenario);
             places.push(known.unwrap_or(engines.len()));
             if known.is_none() {
@@ -78,6 +78,12 @@ impl BatchStages {
                     }
                 }
                 engines.push(engine);
+            }
+            let engine = &engines[*places.last().unwrap_or(&0)];
+            if let Some(LevelsArgument::Ours(levels)) = &levels
+                && let Some(how) = levels.unmeasured(number, engine.term_names())
+            {
+                return Err(unmeasured(py, &sourced.place, &how));
             }
         }
         let stage = |engine: Engine| {
@@ -147,32 +153,33 @@ impl BatchStages {
 }
 
 impl LevelsOfBatch {
-    /// Asks for the levels of some lanes, in their order. `results` are those of their last
-    /// episodes, for a function.
+    /// Asks for the levels of some lanes, in their order; a source may have no more. `results` are
+    /// those of their last episodes, for a function.
     pub(super) fn ask(
         &self,
         py: Python<'_>,
         stages: &mut BatchStages,
         lanes: &[usize],
         results: &[Py<PyAny>],
-        mut begin: impl FnMut(usize, Upcoming),
+        mut begin: impl FnMut(usize, Option<Upcoming>),
     ) -> PyResult<()> {
         match self {
             LevelsOfBatch::Ours(source, places) => {
                 let mut source = source.lock().unwrap_or_else(PoisonError::into_inner);
                 for &at in lanes {
-                    let chosen = source.next();
-                    let stage = places[chosen.scenario].clone();
-                    let (seed, episode) = (chosen.seed, chosen.episode);
-                    let bindings = chosen.bindings.clone();
-                    let chosen = Some(chosen);
-                    begin(at, Upcoming { stage, bindings, seed, episode, chosen });
+                    let upcoming = source.next().map(|chosen| {
+                        let stage = places[chosen.scenario].clone();
+                        let (seed, episode) = (chosen.seed, chosen.episode);
+                        let bindings = chosen.bindings.clone();
+                        Upcoming { stage, bindings, seed, episode, chosen: Some(chosen) }
+                    });
+                    begin(at, upcoming);
                 }
             }
             LevelsOfBatch::Function(function) => {
                 for (&at, result) in lanes.iter().zip(results) {
                     let level = function.bind(py).call1((result,))?;
-                    begin(at, stages.upcoming(py, &level.extract()?)?);
+                    begin(at, Some(stages.upcoming(py, &level.extract()?)?));
                 }
             }
         }
@@ -186,6 +193,12 @@ fn columns(engine: &Engine, terms: &[String]) -> Result<Vec<usize>, String> {
     names
         .map(|name| terms.iter().position(|known| known == name).ok_or_else(|| name.clone()))
         .collect()
+}
+
+/// The exception for a source that would wait in vain for a measure.
+fn unmeasured(py: Python<'_>, place: &str, how: &str) -> PyErr {
+    let message = format!("{place} would never end: {how}");
+    errors::level(py, &message, "leave `rewards` out, or name the reward among them")
 }
 
 /// The exception for a scenario that would change the spaces of a vector.

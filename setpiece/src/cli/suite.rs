@@ -1,14 +1,12 @@
 //! `setpiece run SUITE`: a table of a suite's entries.
 
 use super::common::FINE;
-use super::measured;
 use super::out::{Out, StyledText};
 use super::play::{RunArgs, RunFormat};
 use crate::Error;
 use crate::engine::environment::EnvironmentOptions;
-use crate::measure::Estimate;
-use crate::scenario::plan::{Measure, Quantity, Suite};
-use crate::suite::{SuiteRow, row};
+use crate::scenario::plan::Suite;
+use crate::suite::{SuiteRow, SuiteTable, row};
 
 /// Plays a suite and prints its table.
 pub(crate) fn run_suite(
@@ -18,7 +16,7 @@ pub(crate) fn run_suite(
     out: &Out,
 ) -> Result<u8, Error> {
     let agents = args.agents();
-    let total: u64 = suite.entries.iter().map(|entry| entry.count).sum::<u64>();
+    let total = suite.episodes();
     let bar = super::common::bar(
         total * agents.len() as u64,
         "{msg} {bar:40} {pos}/{len} episodes  {eta} left",
@@ -41,73 +39,24 @@ pub(crate) fn run_suite(
     Ok(FINE)
 }
 
-/// The columns: their heads, and their cells of a row.
-fn cells(rows: &[SuiteRow]) -> (Vec<String>, Vec<Vec<String>>) {
-    let share = |it: &Estimate| measured::shown(&Measure::SuccessRate, it);
-    let number = |it: &Estimate| measured::shown(&Measure::Mean(Quantity::Return), it);
-    let steps = |it: &Estimate| measured::shown(&Measure::Mean(Quantity::Length), it);
-    let mut heads = vec!["entry".to_owned(), "episodes".to_owned()];
-    let several = rows.first().is_some_and(|row| row.agents.len() > 1);
-    for agent in rows.first().map_or(&[][..], |row| &row.agents) {
-        if several {
-            heads.extend(["success", "return"].map(|head| format!("{} {head}", agent.agent)));
-        } else {
-            heads.extend(["success", "return", "score", "length"].map(str::to_owned));
-        }
-    }
-    if several {
-        heads.extend(["success difference", "return difference"].map(str::to_owned));
-    }
-    let lines = rows.iter().map(|row| {
-        let mut cells = vec![row.entry.clone(), row.episodes.to_string()];
-        for agent in &row.agents {
-            cells.extend([share(&agent.success_rate), number(&agent.mean_return)]);
-            if !several {
-                cells.extend([number(&agent.score), steps(&agent.length)]);
-            }
-        }
-        if let Some(difference) = &row.difference {
-            cells.extend([share(&difference.success_rate), number(&difference.mean_return)]);
-        }
-        cells
-    });
-    (heads, lines.collect())
-}
-
 fn text(suite: &Suite, rows: &[SuiteRow], out: &Out) {
-    let title = suite.doc.lines().next().unwrap_or_default();
+    let title = suite.title();
     out.line(StyledText::default().bold(&suite.name).text("  ").text(title));
     out.line("");
-    let (heads, lines) = cells(rows);
-    let width = |column: usize| {
-        let cells = lines.iter().chain([&heads]).filter_map(|cells| cells.get(column));
-        cells.map(|cell| cell.chars().count()).max().unwrap_or_default()
-    };
-    let joined = |cells: &[String]| {
-        let padded = cells.iter().enumerate();
-        let padded: Vec<String> =
-            padded.map(|(column, cell)| format!("{cell:0$}", width(column))).collect();
-        format!("  {}", padded.join("  ").trim_end())
-    };
-    out.line(StyledText::default().dim(&joined(&heads)));
-    for line in &lines {
-        out.line(joined(line));
+    let table = SuiteTable::of(rows);
+    let (head, lines) = table.aligned();
+    out.line(StyledText::default().dim(&head));
+    for line in lines {
+        out.line(line);
     }
-    let seeds: Vec<u64> = rows.iter().map(|row| row.seed).collect();
-    if seeds.iter().any(|seed| Some(seed) != seeds.first()) {
-        return;
+    if let Some(note) = table.note {
+        out.line("");
+        out.line(StyledText::default().dim(&format!("  {note}")));
     }
-    out.line("");
-    let agents = rows
-        .first()
-        .map_or(Vec::new(), |row| row.agents.iter().map(|agent| agent.agent.as_str()).collect());
-    let seed = seeds.first().copied().unwrap_or_default();
-    let note = format!("  agent {} · seed {seed} · 95 % intervals in brackets", agents.join(", "));
-    out.line(StyledText::default().dim(&note));
 }
 
 fn markdown(rows: &[SuiteRow]) -> String {
-    let (heads, lines) = cells(rows);
+    let SuiteTable { heads, lines, .. } = SuiteTable::of(rows);
     let joined = |cells: &[String]| format!("| {} |\n", cells.join(" | ").replace('\n', " "));
     let rule = format!("|{}\n", "---|".repeat(heads.len()));
     let body: String = lines.iter().map(|line| joined(line)).collect();

@@ -2,7 +2,7 @@
 
 use super::common::{FAULT, FINE};
 use super::out::{Out, StyledText};
-use super::{measured, playing};
+use super::playing;
 use crate::Error;
 use crate::drawing::Paint;
 use crate::dsl::problem::Code;
@@ -11,6 +11,7 @@ use crate::engine::environment::EnvironmentOptions;
 use crate::evaluate::{JudgedExpectation, bindings, judge, play, record};
 use crate::files::pitch_files;
 use crate::level::Level;
+use crate::measure::shown;
 use crate::plans::load_plans;
 use crate::scenario::plan::Check;
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
@@ -203,7 +204,7 @@ fn expectation(
         unsure: measured.is_some_and(|measured| measured.is_unsure_of(goal.bound)),
         shown: measured.map_or_else(
             || "no episode has this number".to_owned(),
-            |it| measured::shown(&goal.measure, &it),
+            |it| shown(&goal.measure, &it),
         ),
         measured,
         worst,

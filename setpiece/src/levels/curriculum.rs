@@ -2,9 +2,10 @@
 
 mod phase;
 
-use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario, read, write};
-use phase::{StagePhase, StageVerdict};
+use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario};
+use phase::{StagePhase, StageVerdict, measured_terms};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use setpiece_engine::batch::EpisodeSummary;
 use setpiece_engine::random::{Purpose, Stream};
 use setpiece_scenario::plan::{Adapt, Curriculum, CurriculumStage, StageHow};
@@ -20,16 +21,16 @@ const PARTS: f64 = 1e6;
 #[derive(Clone, Debug)]
 pub struct CurriculumRun {
     plan: Curriculum,
+    numbering: Numbering,
     state: CurriculumState,
 }
 
-/// All that a curriculum remembers.
+/// All that a curriculum remembers besides its numbering.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CurriculumState {
     /// The names of the stages, so that a state goes only to its curriculum.
     stages: Vec<String>,
-    numbering: Numbering,
     /// The present stage.
     stage: usize,
     /// How far the present stage's value has moved, in parts of [`MOVES`].
@@ -46,13 +47,12 @@ impl CurriculumRun {
         let first = plan.stages.first()?;
         let state = CurriculumState {
             stages: plan.stages.iter().map(|stage| stage.name.clone()).collect(),
-            numbering: Numbering::of(seed),
             stage: 0,
             moved: 0,
             tag: 1,
             phase: StagePhase::of(&first.how),
         };
-        Some(CurriculumRun { plan, state })
+        Some(CurriculumRun { plan, numbering: Numbering::of(seed), state })
     }
 
     /// Its text's data.
@@ -100,7 +100,7 @@ impl CurriculumRun {
     fn go_to(&mut self, stage: usize, moved: u32) {
         self.state.stage = stage;
         self.state.moved = moved;
-        self.state.tag += 1;
+        self.state.tag = self.state.tag.saturating_add(1);
         self.state.phase = StagePhase::of(&self.present().how);
     }
 }
@@ -114,14 +114,15 @@ impl LevelSource for CurriculumRun {
         self.plan.stages.iter().map(of).collect()
     }
 
-    fn next(&mut self) -> ChosenLevel {
-        let (seed, episode) = self.state.numbering.take();
+    fn next(&mut self) -> Option<ChosenLevel> {
+        let (seed, episode) = self.numbering.take();
         let mut stream = Stream::new(seed, episode, Purpose::Level);
         let present = self.state.stage;
         let is_earlier = present > 0 && stream.unit_f64() >= self.plan.current;
         let scenario = if is_earlier { stream.below(present as u32) as usize } else { present };
         let tag = if is_earlier { 0 } else { self.state.tag };
-        ChosenLevel { scenario, bindings: self.bindings(scenario), seed, episode, tag }
+        let bindings = self.bindings(scenario);
+        Some(ChosenLevel { scenario, bindings, seed, episode, tag })
     }
 
     fn report(&mut self, level: &ChosenLevel, episode: &EpisodeSummary, terms: &[String]) {
@@ -144,16 +145,31 @@ impl LevelSource for CurriculumRun {
         }
     }
 
-    fn numbering(&mut self) -> &mut Numbering {
-        &mut self.state.numbering
+    fn unmeasured(&self, scenario: usize, terms: &[String]) -> Option<String> {
+        let stage = self.plan.stages.get(scenario)?;
+        let unpaid = measured_terms(&stage.how).find(|term| !terms.contains(term))?;
+        Some(format!("it measures the reward term `{unpaid}`, which isn't paid"))
     }
 
-    fn save(&self) -> String {
-        write(&self.state)
+    fn numbering(&self) -> Numbering {
+        self.numbering
     }
 
-    fn restore(&mut self, state: &str) -> Result<(), String> {
-        let state: CurriculumState = read(state)?;
+    fn set_numbering(&mut self, numbering: Numbering) {
+        self.numbering = numbering;
+    }
+
+    fn kind(&self) -> &'static str {
+        "curriculum"
+    }
+
+    fn memory(&self) -> Value {
+        serde_json::to_value(&self.state).unwrap_or_default()
+    }
+
+    fn remember(&mut self, memory: Value) -> Result<(), String> {
+        let state: CurriculumState =
+            serde_json::from_value(memory).map_err(|why| why.to_string())?;
         if state.stages != self.state.stages {
             let names = |stages: &[String]| format!("`{}`", stages.join("`, `"));
             return Err(format!(

@@ -1,7 +1,7 @@
 //! The levels of a list, one after the other.
 
-use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario, read, write};
-use setpiece_engine::batch::EpisodeSummary;
+use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario};
+use setpiece_scenario::plan::{PlannedEpisodes, Suite};
 
 /// Plays a list of levels in its order, again and again.
 #[derive(Clone, Debug)]
@@ -18,6 +18,25 @@ impl ListedLevels {
         let usable = !levels.is_empty() && levels.iter().all(known);
         usable.then(|| ListedLevels { scenarios, levels, numbering: Numbering::of(Some(0)) })
     }
+
+    /// The episodes of all entries of a suite; `None` if it has none.
+    pub fn of_suite(suite: &Suite) -> Option<ListedLevels> {
+        let mut levels = Vec::new();
+        for (scenario, entry) in suite.entries.iter().enumerate() {
+            levels.extend((0..entry.count).map(|episode| ChosenLevel {
+                scenario,
+                bindings: entry.played.bindings.clone(),
+                seed: entry.seed,
+                episode,
+                tag: 0,
+            }));
+        }
+        let sourced = |entry: &PlannedEpisodes| SourcedScenario {
+            place: format!("entry `{}` of `{}`", entry.played.label(), suite.name),
+            scenario: entry.played.scenario.clone(),
+        };
+        ListedLevels::new(suite.entries.iter().map(sourced).collect(), levels)
+    }
 }
 
 impl LevelSource for ListedLevels {
@@ -25,24 +44,21 @@ impl LevelSource for ListedLevels {
         self.scenarios.clone()
     }
 
-    fn next(&mut self) -> ChosenLevel {
+    fn next(&mut self) -> Option<ChosenLevel> {
         let (_, number) = self.numbering.take();
         let at = number % self.levels.len() as u64;
-        self.levels[at as usize].clone()
+        Some(self.levels[at as usize].clone())
     }
 
-    fn report(&mut self, _: &ChosenLevel, _: &EpisodeSummary, _: &[String]) {}
-
-    fn numbering(&mut self) -> &mut Numbering {
-        &mut self.numbering
+    fn numbering(&self) -> Numbering {
+        self.numbering
     }
 
-    fn save(&self) -> String {
-        write(&self.numbering)
+    fn set_numbering(&mut self, numbering: Numbering) {
+        self.numbering = numbering;
     }
 
-    fn restore(&mut self, state: &str) -> Result<(), String> {
-        self.numbering = read(state)?;
-        Ok(())
+    fn kind(&self) -> &'static str {
+        "list"
     }
 }

@@ -4,8 +4,9 @@
 //! et al., No Regrets, 2024 (learnability); J. Parker-Holder et al., Evolving Curricula
 //! with Regret-Based Environment Design, 2022 (edited levels).
 
-use super::{ChosenLevel, LevelSource, Numbering, RandomizedLevels, SourcedScenario, read, write};
+use super::{ChosenLevel, LevelSource, Numbering, RandomizedLevels, SourcedScenario};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use setpiece_engine::batch::EpisodeSummary;
 use setpiece_engine::draw::mutate_params;
 use setpiece_engine::math::pow;
@@ -56,7 +57,6 @@ pub struct PrioritizedLevels {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ReplayState {
-    numbering: Numbering,
     /// The tag of the newest kept level.
     tag: u64,
     /// By falling score.
@@ -88,9 +88,7 @@ impl PrioritizedLevels {
             sum
         });
         let weights = weights.collect();
-        let mut made = PrioritizedLevels { fresh, options, state: ReplayState::default(), weights };
-        made.state.numbering = *made.fresh.numbering();
-        made
+        PrioritizedLevels { fresh, options, state: ReplayState::default(), weights }
     }
 
     /// How many levels are kept.
@@ -125,7 +123,7 @@ impl PrioritizedLevels {
             seed,
             episode,
             score: 0.0,
-            chosen: self.state.numbering.next,
+            chosen: self.fresh.numbering().next,
             played: 0,
             successes: 0,
         }
@@ -140,7 +138,7 @@ impl PrioritizedLevels {
             kept.pop();
         }
         if level.tag == 0 {
-            self.state.tag += 1;
+            self.state.tag = self.state.tag.saturating_add(1);
             level.tag = self.state.tag;
         }
         let at = kept.partition_point(|other| other.score >= level.score);
@@ -172,30 +170,29 @@ impl LevelSource for PrioritizedLevels {
         self.fresh.scenarios()
     }
 
-    fn next(&mut self) -> ChosenLevel {
-        *self.fresh.numbering() = self.state.numbering;
-        let fresh = self.fresh.next();
-        self.state.numbering = *self.fresh.numbering();
+    fn next(&mut self) -> Option<ChosenLevel> {
+        let fresh = self.fresh.next()?;
         let number = fresh.episode;
         let mut stream = Stream::new(fresh.seed, number, Purpose::Level);
         let enough = (FULL_ENOUGH * self.weights.len() as f64).max(1.0);
         let is_again = stream.unit_f64() < self.options.replay;
         if !is_again || (self.kept() as f64) < enough {
-            return fresh;
+            return Some(fresh);
         }
         let at = self.choose(&mut stream, number);
-        let Some(level) = self.state.kept.get_mut(at) else { return fresh };
+        let Some(level) = self.state.kept.get_mut(at) else { return Some(fresh) };
         let KeptLevel { tag, bindings, seed, episode, .. } = level.clone();
         if stream.unit_f64() < self.options.edit {
             let (params, varied) = (self.fresh.params(), self.fresh.varied());
             let edited = mutate_params(params, &bindings, varied, self.options.scale, &mut stream);
             // An edit that changes nothing plays the level again.
             if edited != bindings {
-                return ChosenLevel { scenario: 0, bindings: edited, seed, episode, tag: 0 };
+                let bindings = edited;
+                return Some(ChosenLevel { scenario: 0, bindings, seed, episode, tag: 0 });
             }
         }
         level.chosen = number;
-        ChosenLevel { scenario: 0, bindings, seed, episode, tag }
+        Some(ChosenLevel { scenario: 0, bindings, seed, episode, tag })
     }
 
     fn report(&mut self, level: &ChosenLevel, episode: &EpisodeSummary, _: &[String]) {
@@ -208,22 +205,31 @@ impl LevelSource for PrioritizedLevels {
         }
         let mut kept = self.taken(place, &level.bindings, level.seed, level.episode);
         kept.played = kept.played.saturating_add(1);
-        kept.successes += u32::from(episode.verdict == Some(Verdict::Success));
+        let success = u32::from(episode.verdict == Some(Verdict::Success));
+        kept.successes = kept.successes.saturating_add(success);
         let chance = (f64::from(kept.successes) + 1.0) / (f64::from(kept.played) + 2.0);
         kept.score = chance * (1.0 - chance);
         self.keep(kept);
     }
 
-    fn numbering(&mut self) -> &mut Numbering {
-        &mut self.state.numbering
+    fn numbering(&self) -> Numbering {
+        self.fresh.numbering()
     }
 
-    fn save(&self) -> String {
-        write(&self.state)
+    fn set_numbering(&mut self, numbering: Numbering) {
+        self.fresh.set_numbering(numbering);
     }
 
-    fn restore(&mut self, state: &str) -> Result<(), String> {
-        let state: ReplayState = read(state)?;
+    fn kind(&self) -> &'static str {
+        "prioritized level replay"
+    }
+
+    fn memory(&self) -> Value {
+        serde_json::to_value(&self.state).unwrap_or_default()
+    }
+
+    fn remember(&mut self, memory: Value) -> Result<(), String> {
+        let state: ReplayState = serde_json::from_value(memory).map_err(|why| why.to_string())?;
         let params = self.fresh.params();
         let allowed = |kept: &KeptLevel| {
             kept.bindings.0.len() == params.len()

@@ -1,7 +1,6 @@
 //! Domain randomisation: every level draws parameters from what they may be.
 
-use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario, read, write};
-use setpiece_engine::batch::EpisodeSummary;
+use super::{ChosenLevel, LevelSource, Numbering, SourcedScenario};
 use setpiece_engine::draw::draw_params;
 use setpiece_scenario::plan::Played;
 use setpiece_scenario::{Bindings, Param};
@@ -55,23 +54,21 @@ impl LevelSource for RandomizedLevels {
         vec![SourcedScenario { place: format!("`{}`", scenario.name), scenario }]
     }
 
-    fn next(&mut self) -> ChosenLevel {
+    fn next(&mut self) -> Option<ChosenLevel> {
         let (seed, episode) = self.numbering.take();
-        ChosenLevel { scenario: 0, bindings: self.draw(seed, episode), seed, episode, tag: 0 }
+        let bindings = self.draw(seed, episode);
+        Some(ChosenLevel { scenario: 0, bindings, seed, episode, tag: 0 })
     }
 
-    fn report(&mut self, _: &ChosenLevel, _: &EpisodeSummary, _: &[String]) {}
-
-    fn numbering(&mut self) -> &mut Numbering {
-        &mut self.numbering
+    fn numbering(&self) -> Numbering {
+        self.numbering
     }
 
-    fn save(&self) -> String {
-        write(&self.numbering)
+    fn set_numbering(&mut self, numbering: Numbering) {
+        self.numbering = numbering;
     }
 
-    fn restore(&mut self, state: &str) -> Result<(), String> {
-        self.numbering = read(state)?;
-        Ok(())
+    fn kind(&self) -> &'static str {
+        "domain randomisation"
     }
 }

@@ -3,7 +3,7 @@
 use crate::measure::{sample, statistic};
 use serde::{Deserialize, Serialize};
 use setpiece_engine::batch::EpisodeSummary;
-use setpiece_scenario::plan::{Measure, StageHow};
+use setpiece_scenario::plan::{Measure, Quantity, StageHow};
 use std::collections::VecDeque;
 
 /// A measure without `last: N` is of so many of the latest episodes.
@@ -57,9 +57,9 @@ impl StagePhase {
 
     /// Whether it may be a phase of a stage.
     pub(super) fn fits(&self, how: &StageHow) -> bool {
-        let whole = |(window, (_, last)): (&Window, (&Measure, u32))| {
+        let whole = |(window, (measure, last)): (&Window, (&Measure, u32))| {
             window.samples.len() <= last as usize
-                && window.samples.iter().all(|sample| sample.is_finite())
+                && window.samples.iter().all(|sample| can_be(measure, *sample))
         };
         self.windows.len() == measures(how).count()
             && self.windows.iter().zip(measures(how)).all(whole)
@@ -72,8 +72,8 @@ impl StagePhase {
         episode: &EpisodeSummary,
         terms: &[String],
     ) -> StageVerdict {
-        self.episodes += 1;
-        self.steps += u64::from(episode.length);
+        self.episodes = self.episodes.saturating_add(1);
+        self.steps = self.steps.saturating_add(u64::from(episode.length));
         let (episodes, steps) = (self.episodes as f64, self.steps as f64);
         let taken = self.windows.iter_mut().zip(measures(how));
         let measured: Vec<Option<f64>> = taken
@@ -106,7 +106,7 @@ impl Window {
     /// Adds a sample; the measure, if the window is full and it is time to look.
     fn measure(&mut self, measure: &Measure, last: u32, sample: Option<f64>) -> Option<f64> {
         self.samples.push_back(sample?);
-        self.taken += 1;
+        self.taken = self.taken.saturating_add(1);
         if self.samples.len() > last as usize {
             self.samples.pop_front();
         }
@@ -119,6 +119,25 @@ impl Window {
         sorted.sort_by(f64::total_cmp);
         Some(statistic(measure, &sorted))
     }
+}
+
+/// Whether a measure can have taken a sample of an episode.
+fn can_be(measure: &Measure, sample: f64) -> bool {
+    match measure {
+        Measure::SuccessRate | Measure::Rate(_) => sample == 0.0 || sample == 1.0,
+        _ => sample.is_finite(),
+    }
+}
+
+/// The reward terms that a stage measures.
+pub(super) fn measured_terms(how: &StageHow) -> impl Iterator<Item = &String> {
+    measures(how).filter_map(|(measure, _)| match measure {
+        Measure::Mean(Quantity::Term(name))
+        | Measure::Min(Quantity::Term(name))
+        | Measure::Max(Quantity::Term(name))
+        | Measure::Quantile(Quantity::Term(name), _) => Some(name),
+        _ => None,
+    })
 }
 
 /// What a stage measures, and over how many episodes.

@@ -1,11 +1,11 @@
-//! Estimate values in words.
+//! Measured values in words.
 
-use crate::measure::Estimate;
-use crate::scenario::pitch::STEPS_PER_S;
-use crate::scenario::plan::{Measure, Quantity};
+use super::Estimate;
+use setpiece_scenario::pitch::STEPS_PER_S;
+use setpiece_scenario::plan::{Measure, Quantity};
 
 /// A value and its interval: `97.0 % [84.7, 99.5]`.
-pub(crate) fn shown(measure: &Measure, measured: &Estimate) -> String {
+pub fn shown(measure: &Measure, measured: &Estimate) -> String {
     let (scale, unit, decimals) = unit(measure);
     let number = |value: f64| format!("{:.decimals$}", value * scale);
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };

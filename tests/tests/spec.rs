@@ -328,7 +328,8 @@ fn the_standard_library_compiles_without_a_word() {
         }
     }
     assert_eq!(
-        n, 35,
-        "eleven Academy scenarios, seven benchmarks and seventeen of GRF's tests and examples"
+        n, 41,
+        "eleven Academy scenarios, six of them for all players, seven benchmarks and seventeen of \
+         GRF's tests and examples"
     );
 }

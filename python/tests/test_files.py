@@ -77,7 +77,8 @@ def test_a_watched_file_that_becomes_a_pipe_keeps_the_last_scenario(
     file.unlink()
     os.mkfifo(file)
     sleep(0.1)
-    env.reset(seed=1)
+    with pytest.warns(UserWarning, match="not a regular file"):
+        env.reset(seed=1)
     assert env.last_reload is not None
     assert env.last_reload.state == "broken"
     assert isinstance(env.last_reload.error, setpiece.FileError)

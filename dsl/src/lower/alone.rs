@@ -141,7 +141,9 @@ impl<'w> Lower<'_, 'w> {
         let unknown = self.code.unknown();
         match ty {
             Ty::Point | Ty::Vector | Ty::Velocity => Value::two(ty, (unknown, unknown)),
-            Ty::Bool | Ty::Int | Ty::Player | Ty::Team => Value::one(ty, unknown),
+            Ty::Bool | Ty::Int | Ty::Player | Ty::Team | Ty::Role | Ty::Mode | Ty::Action => {
+                Value::one(ty, unknown)
+            }
             ty if ty.dim().is_some() => Value::one(ty, unknown),
             _ => default.unwrap_or_else(Value::error),
         }

@@ -1,6 +1,6 @@
 """Finds the starts where a policy fails, by MAP-Elites over the parameters of a scenario.
 
-    python examples/find_failures.py --scenario examples/one_on_one.pitch --policy run_and_shoot
+    python examples/find_failures.py --scenario examples/zigzag_dribbler.pitch --policy run_and_shoot
 
 `--policy` is an `.onnx` file or an agent of the command. The archive has a cell for every pair of
 values of two parameters (`--over`), and keeps in each the other parameters with which the policy
@@ -150,7 +150,7 @@ def main(argv: list[str] | None = None) -> Found:
     for failure in found.failures:
         score = failure.score
         print(f"  {score.value:5.2f} [{score.low:.2f}, {score.high:.2f}]  {failure.level}")
-        print(f"        setpiece render {args.scenario} --level '{failure.level}'")
+        print(f"        setpiece render {args.scenario} --level '{failure.level}' -o worst.mp4")
     below = "below" if found.is_failure else "not below"
     print(f"the worst is {below} half the mean")
     if args.out is not None:

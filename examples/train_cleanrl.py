@@ -303,6 +303,8 @@ def main(argv: list[str] | None = None) -> float:
     )
     parser.add_argument("--out", type=Path, default=Path("runs/cleanrl"))
     args = parser.parse_args(argv)
+    if args.until is not None and not args.evaluate_every:
+        parser.error("--until needs --evaluate-every")
     torch.set_num_threads(args.threads)
     policy = train(args)
     torch.save(policy.state_dict(), args.out / "policy.pt")

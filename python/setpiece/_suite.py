@@ -227,7 +227,7 @@ class Suite:
         self, policy: Opponent, options: EnvOptions, threads: int | None
     ) -> tuple[str, Callable[[int], _native.SuiteRow]]:
         """The name of a policy, and what plays an entry with it."""
-        if isinstance(policy, str) and not is_onnx(policy):
+        if isinstance(policy, str) and not is_onnx(policy) and not policy.endswith(".rhai"):
             name = check_word("agent", policy, AGENTS)
             n_threads = check_threads(threads, 1_024)
             return name, lambda at: self._native.play(at, name, options.reward_names, n_threads)

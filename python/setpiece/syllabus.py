@@ -100,13 +100,16 @@ class Levels:
         self._tasks: dict[int, Any] = {}
 
     def __call__(self, result: LevelResult | None) -> dict[str, Any]:
-        """Tells the curriculum how a level has ended, and returns the next one."""
-        if result is not None:
-            number = read_level(result.level).episode
+        """Reports to the curriculum how a level has ended, and returns the next one.
+
+        A level that came from elsewhere, such as the one of a `reset`, is not reported.
+        """
+        task = None if result is None else self._task_of(result)
+        if result is not None and task is not None:
             self.curriculum.update_on_episode(
                 float(np.mean(result.returns)) if result.returns else 0.0,
                 result.length,
-                self._tasks.pop(number),
+                task,
                 float(result.success),
             )
         task = self.curriculum.sample()[0]
@@ -119,6 +122,11 @@ class Levels:
             "seed": self._seed,
             "episode": number,
         }
+
+    def _task_of(self, result: LevelResult) -> Any:
+        level = read_level(result.level)
+        is_own = (level.scenario, level.seed) == (self._scenario.name, self._seed)
+        return self._tasks.pop(level.episode, None) if is_own else None
 
     def _params(self, task: Any) -> dict[str, ParamValue]:
         if isinstance(task, np.ndarray):

@@ -113,7 +113,7 @@ def test_the_greatest_counts_of_a_state_stay() -> None:
 
 def test_a_stage_that_measures_what_is_not_paid_is_refused() -> None:
     with pytest.raises(
-        setpiece.LevelError, match="stage `first` of `paid` would never end"
+        setpiece.LevelError, match="stage `first` of `paid` can't be measured"
     ) as caught:
         setpiece.make_vec(TEXT, 2, levels="paid", rewards="scoring")
     assert "`steady/alive`" in str(caught.value)

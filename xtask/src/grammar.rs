@@ -9,7 +9,10 @@ const SOUND: [&str; 2] = ["examples", "stdlib-scenarios"];
 
 /// Whether tree-sitter's command is there.
 pub(crate) fn is_there() -> bool {
-    Command::new("tree-sitter").arg("--version").output().is_ok_and(|out| out.status.success())
+    let runs = |program: &str| {
+        Command::new(program).arg("--version").output().is_ok_and(|out| out.status.success())
+    };
+    runs("tree-sitter") && runs("node")
 }
 
 /// Generates the parser and has it read every sound file; reports those with an error in their

@@ -195,9 +195,9 @@ fn columns(engine: &Engine, terms: &[String]) -> Result<Vec<usize>, String> {
         .collect()
 }
 
-/// The exception for a source that would wait in vain for a measure.
+/// The exception for a source that needs a measure that nothing pays.
 fn unmeasured(py: Python<'_>, place: &str, how: &str) -> PyErr {
-    let message = format!("{place} would never end: {how}");
+    let message = format!("{place} can't be measured: {how}");
     errors::level(py, &message, "leave `rewards` out, or name the reward among them")
 }
 

@@ -304,7 +304,7 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let mut options = options(args, live.loaded())?;
     let mut scenario = live.loaded().scenario.clone();
     out.line(StyledText::default().bold(&scenario.name));
-    loop {
+    'changed: loop {
         // Those since the last change, and whether a fault among them was reported.
         let (mut played, mut is_reported) = (Vec::new(), false);
         for index in options.episodes.clone() {
@@ -321,7 +321,7 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
             played.extend(summary.episodes);
             if let Some(fresh) = reload(args, &mut live, Duration::ZERO, out) {
                 (scenario, options) = fresh;
-                (played, is_reported) = (Vec::new(), false);
+                continue 'changed;
             }
         }
         if played.iter().any(Result::is_ok) {

@@ -148,7 +148,7 @@ impl LevelSource for CurriculumRun {
     fn unmeasured(&self, scenario: usize, terms: &[String]) -> Option<String> {
         let stage = self.plan.stages.get(scenario)?;
         let unpaid = measured_terms(&stage.how).find(|term| !terms.contains(term))?;
-        Some(format!("it measures the reward term `{unpaid}`, which isn't paid"))
+        Some(format!("the reward term `{unpaid}` isn't paid"))
     }
 
     fn numbering(&self) -> Numbering {

@@ -140,9 +140,9 @@ impl<'w> Planner<'_, 'w> {
             }
             (other, _) => {
                 let named = other.to_owned();
-                let fact = if let Some(kind) = kept_as(other, scenario) {
-                    let form = format!("mean({kind} {other})");
-                    Facts::KindOfQuantity { kind, name: named, form }
+                let fact = if is_record(other, scenario) {
+                    let form = format!("mean(record {other})");
+                    Facts::IsRecord { name: named, form }
                 } else {
                     let guess = Guess::similar_or_all(other, &MEASURES);
                     Facts::NoMeasure { name: named, guess }
@@ -182,9 +182,9 @@ impl<'w> Planner<'_, 'w> {
                     "score" => return Some((Quantity::Score, BoundUnit::Of(Ty::Number))),
                     _ => {}
                 }
-                if let Some(kind) = kept_as(name, scenario) {
-                    let form = format!("{measure}({kind} {name}{more})");
-                    self.report(*span, Facts::KindOfQuantity { kind, name: name.clone(), form });
+                if is_record(name, scenario) {
+                    let form = format!("{measure}(record {name}{more})");
+                    self.report(*span, Facts::IsRecord { name: name.clone(), form });
                     return None;
                 }
                 (*span, name.clone())
@@ -232,13 +232,9 @@ impl<'w> Planner<'_, 'w> {
     }
 }
 
-/// Whether a name is that of a record or of a reward's term, and which.
-fn kept_as(name: &str, scenario: &Scenario) -> Option<&'static str> {
-    if scenario.records.iter().any(|record| record.name == name) {
-        return Some("record");
-    }
-    let mut terms = scenario.rewards.iter().flat_map(Reward::term_names);
-    terms.any(|term| term == name).then_some("term")
+/// Whether a name is that of a record. (The name of a reward's term has a `/`, so it is a string.)
+fn is_record(name: &str, scenario: &Scenario) -> bool {
+    scenario.records.iter().any(|record| record.name == name)
 }
 
 /// How a measure is written.

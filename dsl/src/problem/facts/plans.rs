@@ -63,9 +63,9 @@ facts! {
         /// No number of an episode has this name.
         NoQuantity { text: String, guess: Guess } = Code::UnknownName =>
             say(format!("no number of an episode is called `{text}`"), "not known").guess(guess, "it can be"),
-        /// A record or term stands without its kind; `form`: the whole measure, with it.
-        KindOfQuantity { kind: &'static str, name: String, form: String } = Code::UnknownName =>
-            say(format!("no number of an episode is called `{name}`"), format!("a {kind}"))
+        /// A record stands without its kind; `form`: the whole measure, with it.
+        IsRecord { name: String, form: String } = Code::UnknownName =>
+            say(format!("no number of an episode is called `{name}`"), "a record")
                 .help(format!("write `{form}`")),
         /// A scenario has no such record, term or outcome; `what`: which of these.
         NoSuch {

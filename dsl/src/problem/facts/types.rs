@@ -292,7 +292,8 @@ fn condition(found: Ty, text: &str) -> String {
         Ty::Team | Ty::Player => "compare it, as in `possession == left`, or write `… has ball`",
         Ty::DURATION if is_literal => {
             return format!(
-                "write `elapsed > {text}`; `end limit {text}` ends an episode after that time"
+                "write `elapsed > {text}`; an episode ends after `end limit {text}`, and an act of a \
+                 behaviour after `for {text}`"
             );
         }
         ty if ty.dim().is_some() => {

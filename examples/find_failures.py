@@ -1,6 +1,7 @@
 """Finds the starts where a policy fails, by MAP-Elites over the parameters of a scenario.
 
-    python examples/find_failures.py --scenario examples/zigzag_dribbler.pitch --policy run_and_shoot
+    python examples/find_failures.py --scenario academy_run_to_score_with_keeper \\
+        --policy run_and_shoot
 
 `--policy` is an `.onnx` file or an agent of the command. The archive has a cell for every pair of
 values of two parameters (`--over`), and keeps in each the other parameters with which the policy

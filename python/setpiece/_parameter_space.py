@@ -128,7 +128,9 @@ class ParameterSpace(spaces.Dict):
         with a chance of `scale`. Raises `LevelError` for a level of another scenario,
         `ParameterError` for a `scale` that isn't finite or is below 0.
         """
-        if not isinstance(scale, int | float | np.integer | np.floating) or not 0 <= scale < float("inf"):
+        if not isinstance(scale, int | float | np.integer | np.floating) or not 0 <= scale < float(
+            "inf"
+        ):
             raise ParameterError(
                 f"`scale` is {scale!r}; it can be a number from 0 up", name="scale"
             )

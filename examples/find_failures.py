@@ -1,6 +1,6 @@
-"""Finds the starts where a policy fails, by MAP-Elites over the parameters of a scenario.
+r"""Finds the starts where a policy fails, by MAP-Elites over the parameters of a scenario.
 
-    python examples/find_failures.py --scenario academy_run_to_score_with_keeper \\
+    python examples/find_failures.py --scenario academy_run_to_score_with_keeper \
         --policy run_and_shoot
 
 `--policy` is an `.onnx` file or an agent of the command. The archive has a cell for every pair of

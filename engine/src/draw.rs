@@ -25,7 +25,7 @@ use setpiece_scenario::pitch::{
     YELLOW_CARDS_MAX,
 };
 use setpiece_scenario::vocabulary::{Rule, Team};
-use setpiece_scenario::{Bindings, Reg, Scenario};
+use setpiece_scenario::{Bindings, PlayerStart, Reg, Scenario};
 
 /// The most attempts to find a start that meets its requirements.
 pub const ATTEMPTS_MAX: u32 = 10_000;
@@ -342,7 +342,7 @@ impl Drawer {
             ball_spin: self.vector(start.ball.spin),
             owner: start.ball.owner.and_then(|owner| {
                 let index = player_index(self.value(owner))?;
-                roster.present[index].then_some(PlayerId(index as u8))
+                self.takes_part(scenario, roster, index).then_some(PlayerId(index as u8))
             }),
             kind: start.kind,
             taker: start.taker.and_then(|taker| team_of_number(self.value(taker))),
@@ -359,6 +359,21 @@ impl Drawer {
             agents: roster.agents.iter().map(|&(team, fixed)| DrawnAgent { team, fixed }).collect(),
             lets: start.lets.iter().map(|&reg| self.value(reg)).collect(),
         }
+    }
+
+    /// Whether a player takes part in this episode.
+    fn takes_part(&self, scenario: &Scenario, roster: &Roster, index: usize) -> bool {
+        let slot = Team::ALL
+            .iter()
+            .flat_map(|team| scenario.team(*team))
+            .find(|(id, _)| *id == index)
+            .map(|(_, slot)| slot);
+        roster.present.get(index) == Some(&true)
+            && slot.is_some_and(|slot| self.is_active(&slot.start))
+    }
+
+    fn is_active(&self, start: &PlayerStart) -> bool {
+        start.active.is_none_or(|active| truth(self.value(active)))
     }
 
     fn players(
@@ -382,6 +397,7 @@ impl Drawer {
                     role: slot.role,
                     ai: slot.ai,
                     controllable: slot.controllable,
+                    active: self.is_active(start),
                     pos: self.place((start.x, start.y)),
                     vel: start.velocity.map_or(Vec2::ZERO, |velocity| self.point(velocity)),
                     heading_rad: start.heading.map(|heading| self.value(heading) as f32),

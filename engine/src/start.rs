@@ -56,6 +56,8 @@ pub struct DrawnPlayer {
     pub ai: Ai,
     /// Whether an agent may control them.
     pub controllable: bool,
+    /// Whether they are on the pitch; who isn't is as if sent off.
+    pub active: bool,
     /// World metres.
     pub pos: Vec2,
     /// m/s.

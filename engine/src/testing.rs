@@ -157,6 +157,7 @@ pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
                 yellow_cards: None,
                 difficulty: None,
                 present: None,
+                active: None,
             },
         })
         .collect();

@@ -234,7 +234,8 @@ module.exports = grammar({
     each: ($) => seq("each", choice("outfield", "all", $.role), $.fields),
     absent: ($) => seq($.role, "absent"),
     player: ($) => prec.right(seq(
-      optional(seq(field("name", $.identifier), ":")), optional($.quantity), $.role, optional($._place),
+      optional(seq("maybe", $._point)), optional(seq(field("name", $.identifier), ":")),
+      optional(seq(optional(seq($.quantity, "..")), $.quantity)), $.role, optional($._place),
       optional($._turned), optional(seq("when", $._expression)), optional($.fields),
     )),
     _turned: ($) => choice(seq($.facing, optional($.jitter)), seq($.jitter, optional($.facing))),

@@ -155,6 +155,9 @@ pub struct PlayerStart {
     /// Whether they take part; depends only on parameters. Always if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub present: Option<Reg>,
+    /// Whether they are on the pitch in this episode; may be drawn. Always if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub active: Option<Reg>,
 }
 
 /// Who is controlled by agents, and what the others do.

@@ -138,7 +138,9 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
         let s = &slot.start;
         regs.extend([s.x, s.y]);
         regs.extend(
-            [s.heading, s.fatigue, s.yellow_cards, s.difficulty, s.present].into_iter().flatten(),
+            [s.heading, s.fatigue, s.yellow_cards, s.difficulty, s.present, s.active]
+                .into_iter()
+                .flatten(),
         );
         regs.extend(s.velocity.iter().flat_map(|v| [v.0, v.1]));
         regs.extend(slot.stats.iter().map(|(_, reg)| *reg));

@@ -123,3 +123,51 @@ fn who_may_overlap_may_be_drawn_onto_another() {
     let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
     environment.reset(Some(1), Some(0)).unwrap();
 }
+
+#[test]
+fn players_take_part_as_often_as_the_text_says() {
+    let text = "scenario s {
+        let wide = uniform(0, 1) < 25%
+        agents { left: all }
+        ball at (0, 0) { owner: mate }
+        team left {
+            CM at (-0.4, 0)
+            maybe 30% mate: CF at (0, 0)
+            2..4 CB in left.box
+            RM at (0, 0.3) when wide
+        }
+        team right { CB at (0.4, 0)  maybe 0% GK at (-1, 0)  LB at (0.4, 0.2) when not wide }
+        require min_gap(left) > 2m
+        require count(p in left) >= 3
+        end limit 1 step
+    }";
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let (mut mates, mut wide, mut backs) = (0, 0, [0; 5]);
+    for index in 0..DRAWS {
+        environment.reset(Some(7), Some(index)).unwrap();
+        let game = environment.state();
+        let active: Vec<bool> = game.players.iter().map(|player| player.active).collect();
+        assert_eq!(game.agents.len(), 7, "agents belong to everyone who may take part");
+        assert_eq!(game.owner.is_some(), active[1], "who is absent has no ball");
+        assert!(active[11] && !active[12]);
+        assert_ne!(active[6], active[13]);
+        mates += u32::from(active[1]);
+        wide += u32::from(active[6]);
+        backs[active[2..6].iter().filter(|active| **active).count()] += 1;
+        let places: Vec<_> =
+            (0..11).filter(|&id| active[id]).map(|id| game.players[id].pos).collect();
+        for (nth, one) in places.iter().enumerate() {
+            assert!(places[nth + 1..].iter().all(|other| one.distance(*other) > 2.0));
+        }
+    }
+    let near = |found: u32, expected: f64| {
+        let share = f64::from(found) / DRAWS as f64;
+        assert!((share - expected).abs() < 0.04, "{share} instead of {expected}");
+    };
+    // Many players in one box are discarded more often, so the numbers are nearly equal.
+    near(mates, 0.3);
+    near(wide, 0.25);
+    backs[2..=4].iter().for_each(|&n| near(n, 1.0 / 3.0));
+    assert_eq!(backs[..2], [0, 0]);
+}

@@ -44,7 +44,11 @@ pub enum TeamStmtKind {
 pub struct PlayerStmt {
     /// The name before the colon.
     pub name: Option<Ident>,
-    /// How many.
+    /// `maybe 30%`: the share of episodes with this player.
+    pub maybe: Option<Expr>,
+    /// The least number, if it is drawn: `3..5`.
+    pub least: Option<Spanned<u32>>,
+    /// How many, at most.
     pub count: Option<Spanned<u32>>,
     /// The role; in a `place` override whatever stands for it.
     pub role: Spanned<Role>,
@@ -54,7 +58,7 @@ pub struct PlayerStmt {
     pub facing: Option<Facing>,
     /// `jitter …`
     pub jitter: Option<Expr>,
-    /// `when …`: over parameters only.
+    /// `when …`
     pub when: Option<Expr>,
     /// Options.
     pub fields: Vec<Field>,

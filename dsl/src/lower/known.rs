@@ -1,9 +1,10 @@
 //! What the programs keep while they are written: each kind of program has its own.
 
+use super::people::Presence;
 use super::value::{Scope, Value};
 use crate::ast::{Arg, BehaviorItem, ScriptRef, Span};
 use crate::origins::{RegionOrigin, RequireOrigin};
-use setpiece_scenario::vocabulary::StartKind;
+use setpiece_scenario::vocabulary::{StartKind, Team};
 use setpiece_scenario::{Distribution, Reg, Require, When};
 use std::collections::BTreeMap;
 
@@ -19,6 +20,10 @@ pub(crate) struct StartState<'w> {
     pub(crate) headings: Vec<OnDemand<Reg>>,
     /// Layouts of kick-offs by roster: kicking, receiving.
     pub(crate) layouts: Vec<Option<Layouts>>,
+    /// What decides whether they take part, by roster.
+    pub(crate) presence: Vec<OnDemand<Presence>>,
+    /// The drawn numbers of players, by their team and statement.
+    pub(crate) numbers: Vec<(Team, Span, Reg)>,
     /// The ball's place.
     pub(crate) ball: OnDemand<(Reg, Reg)>,
     /// What must hold of values that are known at the draw only.

@@ -37,7 +37,8 @@ pub(super) fn check_same(
 fn says_more(world: &World<'_>, one: &Rostered<'_>, other: &Rostered<'_>) -> bool {
     let said = |player: &Rostered<'_>| -> Vec<Span> {
         let facing = player.facing.map(|facing| facing.target.span);
-        let exprs = [player.jitter, player.when].into_iter().flatten().map(|expr| expr.span);
+        let exprs =
+            [player.jitter, player.when, player.maybe].into_iter().flatten().map(|expr| expr.span);
         facing
             .into_iter()
             .chain(exprs)

@@ -3,6 +3,7 @@
 use super::value::Scope;
 use crate::ast::{Expr, Facing, Field, Ident, Place, Span};
 use crate::cast::CastTarget;
+use setpiece_scenario::Reg;
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
 
@@ -31,8 +32,39 @@ pub(crate) struct Rostered<'w> {
     pub(crate) jitter: Option<&'w Expr>,
     /// Whether they play.
     pub(crate) when: Option<&'w Expr>,
+    /// In which share of the episodes.
+    pub(crate) maybe: Option<&'w Expr>,
+    /// Which of a drawn number of players they are.
+    pub(crate) numbered: Option<Numbered>,
     /// Options: what stands later wins.
     pub(crate) fields: Vec<&'w Field>,
+}
+
+/// What decides whether a player takes part.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Presence {
+    /// Known from the parameters: who doesn't hold belongs to no episode.
+    pub(crate) present: Option<Reg>,
+    /// Drawn: who doesn't hold is absent from this episode.
+    pub(crate) active: Option<Reg>,
+}
+
+/// A copy of a statement with a drawn number of players: `3..5 CB`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Numbered {
+    /// How many copies stand before it.
+    pub(crate) before: u32,
+    /// The least number of players.
+    pub(crate) least: u32,
+    /// The greatest.
+    pub(crate) most: u32,
+}
+
+impl Presence {
+    /// Its conditions.
+    pub(crate) fn conditions(self) -> impl Iterator<Item = Reg> {
+        [self.present, self.active].into_iter().flatten()
+    }
 }
 
 /// Where a player stands in a layout.
@@ -59,6 +91,11 @@ impl Rostered<'_> {
             Some(name) => format!("player {}", name.node),
             None => format!("player {} {}", self.team, usize::from(self.id) % TEAM_MAX),
         }
+    }
+
+    /// Whether they belong to every episode.
+    pub(crate) fn is_certain(&self) -> bool {
+        self.when.is_none() && self.maybe.is_none() && self.numbered.is_none()
     }
 
     /// The player in a sentence.

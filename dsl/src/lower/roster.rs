@@ -2,7 +2,7 @@
 
 use super::known::StartState;
 use super::layouts::check_same;
-use super::people::{Rostered, Stand};
+use super::people::{Numbered, Rostered, Stand};
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, World, casting};
 use crate::ast::{
@@ -282,9 +282,21 @@ fn copies<'w>(
         facing: player.facing.as_ref(),
         jitter: player.jitter.as_ref(),
         when: player.when.as_ref(),
+        maybe: player.maybe.as_ref(),
+        numbered: None,
         fields: player.fields.iter().collect(),
     };
-    vec![one; count.min(TEAM_MAX as u32 + 1) as usize]
+    let mut players = vec![one; count.min(TEAM_MAX as u32 + 1) as usize];
+    if let Some(least) = &player.least {
+        if least.node >= count {
+            let fact = Players::NumberEndsSwapped { least: least.node, most: count };
+            world.report(Problem::new(least.span, fact));
+        }
+        for (before, one) in (0..).zip(&mut players) {
+            one.numbered = Some(Numbered { before, least: least.node, most: count });
+        }
+    }
+    players
 }
 
 /// `GK absent` and `place …`.
@@ -403,7 +415,7 @@ fn check_size(world: &World<'_>, players: &[Rostered<'_>], team: Team) {
         world.report(Problem::new(extra.span, Players::TooMany { team, most: TEAM_MAX }));
     }
     let keepers: Vec<&Rostered<'_>> =
-        players.iter().filter(|p| p.role == Role::GK && p.when.is_none()).collect();
+        players.iter().filter(|p| p.role == Role::GK && p.is_certain()).collect();
     if let [first, second, ..] = keepers.as_slice() {
         world.report(Problem::new(second.span, Players::TwoKeepers { team, first: first.span }));
     }

@@ -54,10 +54,11 @@ pub(crate) fn lower_start<'c, 'w>(
     let n = world.roster.len();
     let (places, headings, layouts) =
         (vec![OnDemand::Todo; n], vec![OnDemand::Todo; n], vec![None; n]);
+    let presence = vec![OnDemand::Todo; n];
     let mut lower = Lower::of_start(
         world,
         scope,
-        StartState { places, headings, layouts, ..StartState::default() },
+        StartState { places, headings, layouts, presence, ..StartState::default() },
     );
 
     for param in world.params.iter().filter(|param| param.bound.is_some()) {
@@ -81,7 +82,7 @@ pub(crate) fn lower_start<'c, 'w>(
     let ball = lower.ball();
     lower.check_kickoff_ball(kind, ball.as_ref());
     let options: Vec<PlayerOptions> =
-        world.roster.iter().map(|player| lower_player_options(&mut lower, player)).collect();
+        (0..n).filter_map(|index| lower_player_options(&mut lower, index)).collect();
     let difficulty =
         [lower_difficulty(&mut lower, Team::Left), lower_difficulty(&mut lower, Team::Right)];
     let agents = lower_agents(&mut lower, &options);
@@ -197,7 +198,8 @@ fn slots(
                 fatigue: option.fatigue,
                 yellow_cards: option.yellow_cards,
                 difficulty: option.difficulty,
-                present: option.present,
+                present: option.presence.present,
+                active: option.presence.active,
             },
         });
     }

@@ -1,7 +1,7 @@
 //! Options of teams and players.
 
 use super::expr::path_of;
-use super::people::Rostered;
+use super::people::Presence;
 use super::value::Repr;
 use super::{Lower, fields};
 use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
@@ -33,7 +33,7 @@ pub(crate) struct PlayerOptions {
     /// Statistics that replace the table's.
     pub(crate) stats: Vec<(Stat, Reg)>,
     /// Whether the player takes part.
-    pub(crate) present: Option<Reg>,
+    pub(crate) presence: Presence,
 }
 
 /// The difficulty of a team's bots: 1.0 for the left, 0.6 for the right unless it is written.
@@ -63,10 +63,12 @@ fn share<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, what: &str) -> Reg {
 }
 
 /// Lowers a player's options, those of `each` included.
-pub(crate) fn lower_player_options<'w>(
-    lower: &mut Lower<'_, 'w>,
-    player: &Rostered<'w>,
-) -> PlayerOptions {
+pub(crate) fn lower_player_options(
+    lower: &mut Lower<'_, '_>,
+    index: usize,
+) -> Option<PlayerOptions> {
+    let world = lower.world;
+    let player = world.roster.get(index)?;
     let mut options = PlayerOptions {
         ai: Ai::Bot,
         controllable: true,
@@ -76,7 +78,7 @@ pub(crate) fn lower_player_options<'w>(
         yellow_cards: None,
         velocity: None,
         stats: Vec::new(),
-        present: None,
+        presence: Presence::default(),
     };
     let scope = player.scope.clone();
     let stream = player.stream();
@@ -88,19 +90,15 @@ pub(crate) fn lower_player_options<'w>(
                     option(lower, field, &mut options);
                 });
             }
-            if let Some(when) = player.when {
-                let reg = lower.condition(when);
-                lower.check_not_drawn(reg, "whether a player takes part", when.span);
-                options.present = Some(reg);
-            }
         });
     });
+    options.presence = lower.presence_of(index, player.span);
     if let Some(start) = lower.start_mut()
         && let Some(used) = start.ai.take()
     {
         start.behaviors.push((player.id, used));
     }
-    options
+    Some(options)
 }
 
 /// Notes the behavior of the player whose options are read.

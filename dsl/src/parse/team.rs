@@ -46,12 +46,18 @@ impl Reader<'_> {
             }
             Rule::absent => TeamStmtKind::Absent(self.role(&nodes.next()?)?),
             _ => {
+                let maybe = nodes
+                    .want(Rule::maybe)
+                    .and_then(|maybe| CstNodes::of(maybe).seek(Rule::share))
+                    .map(|share| self.expr(share));
                 let name = nodes.want(Rule::ident).map(|name| self.value_name(&name));
                 nodes.eat(Rule::colon);
+                let least = nodes.want(Rule::least).and_then(|least| self.count(&least));
+                nodes.eat(Rule::range_dots);
                 let count = nodes.want(Rule::count).and_then(|count| self.count(&count));
                 let role = nodes.want(Rule::role).and_then(|role| self.role(&role))?;
                 let player = self.player_rest(&mut nodes, role);
-                TeamStmtKind::Player(PlayerStmt { name, count, ..player })
+                TeamStmtKind::Player(PlayerStmt { name, maybe, least, count, ..player })
             }
         })
     }
@@ -81,7 +87,9 @@ impl Reader<'_> {
             nodes.want(Rule::player_when).and_then(|when| CstNodes::of(when).seek(Rule::condition));
         let when = when.map(|when| self.expr(when));
         PlayerStmt {
+            maybe: None,
             name: None,
+            least: None,
             count: None,
             role,
             place,

@@ -83,9 +83,9 @@ impl Drawer {
         // stand there too.
         let mut placed: ArrayVec<(Vec2, bool, bool), PLAYERS_MAX> = ArrayVec::new();
         for team in Team::ALL {
-            for (_, slot) in
-                scenario.team(*team).filter(|&(id, _)| roster.present.get(id) == Some(&true))
-            {
+            for (_, slot) in scenario.team(*team).filter(|(id, slot)| {
+                roster.present.get(*id) == Some(&true) && self.is_active(&slot.start)
+            }) {
                 let own = &slot.start;
                 let at = self.point((own.x, own.y));
                 let velocity = own.velocity.map_or(Vec2::ZERO, |velocity| self.point(velocity));

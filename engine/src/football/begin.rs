@@ -70,7 +70,7 @@ pub(crate) fn blank(drawn: &Drawn) -> Match {
     let player = |slot: &Option<DrawnPlayer>| {
         let drawn_player = slot.as_ref();
         Player {
-            active: drawn_player.is_some(),
+            active: drawn_player.is_some_and(|p| p.active),
             role: drawn_player.map_or(Role::GK, |p| p.role),
             ai: drawn_player.map_or(Ai::Lazy, |p| p.ai),
             controllable: drawn_player.is_some_and(|p| p.controllable),

@@ -105,6 +105,7 @@ pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
                 role,
                 ai: if alone && i != 1 { Ai::Lazy } else { Ai::Bot },
                 controllable: true,
+                active: true,
                 pos: at(x, y),
                 vel: Vec2::ZERO,
                 heading_rad: None,

@@ -120,6 +120,14 @@ impl Writer<'_, '_> {
             _ => {}
         }
         text.push_str(&format!(" {{ {} }}", options.join(", ")));
+        if self.choices.rarely(8) {
+            // One name can't stand for several players.
+            let of_many = text.split_once(": ").map(|(_, player)| player.to_owned());
+            text = match of_many {
+                Some(player) if self.choices.rarely(6) => format!("0..2 {player}"),
+                _ => format!("maybe {}% {text}", self.choices.below(101)),
+            };
+        }
         self.line(&text);
     }
 

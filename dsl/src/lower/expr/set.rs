@@ -1,5 +1,6 @@
 //! Players as a group: `count(p in them where …)`, `nearest`, `pressed`, and the aggregates.
 
+use super::super::people::Presence;
 use super::super::value::{LocalName, Repr, SetValue, Value};
 use super::super::{Lower, ProgramStage};
 use crate::ast::{self, Arg, Expr, ExprKind, Span};
@@ -9,6 +10,8 @@ use crate::problem::{Problem, signature};
 use setpiece_scenario::vocabulary::Function;
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Over, Reg, UnaryOp};
 
+/// The gap between two players if one is absent, metres: more than the pitch has room for.
+const APART_M: f64 = 1000.0;
 /// Deepest nesting of loops over players and events that a program may have.
 const LOOPS_MAX: usize = 4;
 
@@ -68,12 +71,20 @@ impl<'w> Lower<'_, 'w> {
         };
         let indices: Vec<usize> =
             (0..world.roster.len()).filter(|&i| world.roster.get(i).is_some_and(meant)).collect();
-        let places: Vec<(Reg, Reg)> =
-            indices.iter().map(|&i| self.place_of_rostered(i, span)).collect();
+        let places: Vec<((Reg, Reg), Presence)> = indices
+            .iter()
+            .map(|&i| (self.place_of_rostered(i, span), self.presence_of(i, span)))
+            .collect();
         let mut least: Option<Reg> = None;
-        for (nth, &one) in places.iter().enumerate() {
-            for &other in places.iter().skip(nth + 1) {
-                let gap = self.distance(one, other);
+        // Who is absent is near nobody.
+        let apart = self.code.constant(APART_M);
+        for (nth, &(one, of_one)) in places.iter().enumerate() {
+            for &(other, of_other) in places.iter().skip(nth + 1) {
+                let conditions = of_one.conditions().chain(of_other.conditions());
+                let mut gap = self.distance(one, other);
+                for condition in conditions {
+                    gap = self.code.select(condition, gap, apart);
+                }
                 least =
                     Some(least.map_or(gap, |least| self.code.binary(BinaryOp::Min, least, gap)));
             }
@@ -160,10 +171,13 @@ impl<'w> Lower<'_, 'w> {
             .collect();
         let mut elements = Vec::new();
         let mut ty = None;
-        for id in ids {
-            let belongs = self.in_set(id, set);
+        for (index, id) in ids.into_iter().enumerate() {
+            let mut belongs = self.in_set(id, set);
             if self.code.constant_of(belongs) == Some(0.0) {
                 continue;
+            }
+            for condition in self.presence_of(index, span).conditions() {
+                belongs = self.code.binary(BinaryOp::And, belongs, condition);
             }
             let outer = self.scope.clone();
             if let Some((name, at)) = parts.name {

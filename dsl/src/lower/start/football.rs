@@ -184,7 +184,9 @@ fn check_pair(
     }
     if let (Some(x), Some(y)) = (constant(p), constant(q)) {
         let apart = ((x.0 - y.0).powi(2) + (x.1 - y.1).powi(2)).sqrt();
-        if apart >= SAME_SPOT_M || one.present.is_some() || other.present.is_some() {
+        if apart >= SAME_SPOT_M
+            || one.presence.conditions().chain(other.presence.conditions()).next().is_some()
+        {
             return None;
         }
         let at = |player: &Rostered<'_>| player.place_span();
@@ -206,7 +208,7 @@ fn check_pair(
     let distance = lower.distance(p, q);
     let gap = lower.code.constant(gap);
     let mut reg = lower.code.binary(BinaryOp::Ge, distance, gap);
-    for present in [one.present, other.present].into_iter().flatten() {
+    for present in one.presence.conditions().chain(other.presence.conditions()) {
         let absent = lower.code.unary(UnaryOp::Not, present);
         reg = lower.code.binary(BinaryOp::Or, reg, absent);
     }

@@ -91,6 +91,7 @@ pub(super) fn map_slot(slot: &PlayerSlot, f: &mut dyn FnMut(Reg) -> Reg) -> Play
             yellow_cards: s.yellow_cards.map(&mut *f),
             difficulty: s.difficulty.map(&mut *f),
             present: s.present.map(&mut *f),
+            active: s.active.map(&mut *f),
         },
         ..slot.clone()
     }

@@ -23,6 +23,14 @@ facts! {
         NoneInLine { role: String } = Code::OutOfRange =>
             say(format!("`0 {role}` is nobody"), "")
                 .help("leave the line out; whether a player takes part with a parameter says `when …`"),
+        /// `5..3 CB`
+        NumberEndsSwapped { least: u32, most: u32 } = Code::OutOfRange =>
+            say(format!("`{least}..{most}` players: the first number must be less"), "")
+                .help(if least == most {
+                    format!("write `{most}`")
+                } else {
+                    format!("write `{most}..{least}`")
+                }),
         /// Two keepers.
         TwoKeepers { team: Team, first: Span } = Code::TwoKeepers =>
             say(format!("the {team} team has two keepers"), "the second one")
@@ -90,6 +98,10 @@ facts! {
         PlaceInCircle { text: String } = Code::CyclicPlace =>
             say("this place depends on itself", format!("`{text}` is placed by what is placed here"))
                 .help("give one of them a place of its own: `at (x, y)`"),
+        /// Whether a player takes part depends on itself.
+        PresenceInCircle { text: String } = Code::CyclicPlace =>
+            say("whether a player takes part depends on itself", format!("`{text}` counts them"))
+                .help("draw the condition in a `let`, without counting players"),
         /// A player faces the own place.
         FacesItself = Code::Impossible =>
             say("a player can't face their own spot", "")

@@ -7,6 +7,7 @@
 
 pub(crate) mod agents;
 pub(crate) mod alone;
+mod alternatives;
 mod begin;
 pub(crate) mod behavior;
 pub(crate) mod builder;
@@ -14,6 +15,7 @@ pub(crate) mod casting;
 pub(crate) mod ending;
 pub(crate) mod expr;
 mod fields;
+mod formations;
 pub(crate) mod hidden;
 mod implies;
 pub(crate) mod interval;
@@ -33,6 +35,7 @@ pub(crate) mod record;
 pub(crate) mod reward;
 pub(crate) mod roster;
 pub(crate) mod script;
+mod seats;
 pub(crate) mod start;
 pub(crate) mod step;
 pub(crate) mod step_world;

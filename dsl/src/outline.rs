@@ -32,6 +32,8 @@ pub enum Outline<N> {
     Intersection(Arc<Outline<N>>, Arc<Outline<N>>),
     /// In the first but not in the second.
     Difference(Arc<Outline<N>>, Arc<Outline<N>>),
+    /// The first where a condition holds, else the second.
+    Either(N, Arc<Outline<N>>, Arc<Outline<N>>),
 }
 
 impl<N: Copy> Outline<N> {
@@ -75,6 +77,36 @@ impl<N: Copy> Outline<N> {
                 let (a, b) = both(a, b, f);
                 Outline::Difference(a, b)
             }
+            Outline::Either(condition, a, b) => {
+                let condition = f(*condition);
+                let (a, b) = both(a, b, f);
+                Outline::Either(condition, a, b)
+            }
+        }
+    }
+}
+
+impl Outline<f64> {
+    /// The shape of one episode: without [`Outline::Either`].
+    #[must_use]
+    pub fn drawn(&self) -> Outline<f64> {
+        let both = |a: &Outline<f64>, b: &Outline<f64>| (Arc::new(a.drawn()), Arc::new(b.drawn()));
+        match self {
+            Outline::Either(condition, a, _) if *condition != 0.0 => a.drawn(),
+            Outline::Either(_, _, b) => b.drawn(),
+            Outline::Union(a, b) => {
+                let (a, b) = both(a, b);
+                Outline::Union(a, b)
+            }
+            Outline::Intersection(a, b) => {
+                let (a, b) = both(a, b);
+                Outline::Intersection(a, b)
+            }
+            Outline::Difference(a, b) => {
+                let (a, b) = both(a, b);
+                Outline::Difference(a, b)
+            }
+            plain => plain.clone(),
         }
     }
 }

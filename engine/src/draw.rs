@@ -25,7 +25,7 @@ use setpiece_scenario::pitch::{
     YELLOW_CARDS_MAX,
 };
 use setpiece_scenario::vocabulary::{Rule, Team};
-use setpiece_scenario::{Bindings, PlayerStart, Reg, Scenario};
+use setpiece_scenario::{Ai, Bindings, PlayerSlot, PlayerStart, Reg, Scenario};
 
 /// The most attempts to find a start that meets its requirements.
 pub const ATTEMPTS_MAX: u32 = 10_000;
@@ -342,7 +342,7 @@ impl Drawer {
             ball_spin: self.vector(start.ball.spin),
             owner: start.ball.owner.and_then(|owner| {
                 let index = player_index(self.value(owner))?;
-                self.takes_part(scenario, roster, index).then_some(PlayerId(index as u8))
+                self.takes_part(scenario, index).then_some(PlayerId(index as u8))
             }),
             kind: start.kind,
             taker: start.taker.and_then(|taker| team_of_number(self.value(taker))),
@@ -362,18 +362,24 @@ impl Drawer {
     }
 
     /// Whether a player takes part in this episode.
-    fn takes_part(&self, scenario: &Scenario, roster: &Roster, index: usize) -> bool {
-        let slot = Team::ALL
-            .iter()
-            .flat_map(|team| scenario.team(*team))
-            .find(|(id, _)| *id == index)
-            .map(|(_, slot)| slot);
-        roster.present.get(index) == Some(&true)
-            && slot.is_some_and(|slot| self.is_active(&slot.start))
+    fn takes_part(&self, scenario: &Scenario, id: usize) -> bool {
+        let mut of_both = Team::ALL.iter().flat_map(|team| scenario.team(*team));
+        of_both.any(|(other, slot)| other == id && self.is_active(&slot.start))
     }
 
+    /// Whether the parameters let a player take part.
+    fn is_present(&self, start: &PlayerStart) -> bool {
+        start.present.is_none_or(|present| truth(self.value(present)))
+    }
+
+    /// Whether they take part in this episode.
     fn is_active(&self, start: &PlayerStart) -> bool {
-        start.active.is_none_or(|active| truth(self.value(active)))
+        self.is_present(start) && start.active.is_none_or(|active| truth(self.value(active)))
+    }
+
+    fn played_by(&self, slot: &PlayerSlot) -> Ai {
+        let mut sometimes = slot.sometimes.iter();
+        sometimes.find(|(when, _)| truth(self.value(*when))).map_or(slot.ai, |(_, ai)| *ai)
     }
 
     fn players(
@@ -389,13 +395,18 @@ impl Drawer {
                 // In roster order, as the places are.
                 let kickoff =
                     place_of.next().map(|at| [self.place(at.kicking), self.place(at.receiving)]);
-                if id >= PLAYERS_MAX || !roster.present[id] {
+                let start = &slot.start;
+                // Of those who share a place, the one who takes part; the first if nobody does.
+                if id >= PLAYERS_MAX
+                    || !roster.present[id]
+                    || !self.is_present(start)
+                    || players[id].is_some() && !self.is_active(start)
+                {
                     continue;
                 }
-                let start = &slot.start;
                 players[id] = Some(DrawnPlayer {
                     role: slot.role,
-                    ai: slot.ai,
+                    ai: self.played_by(slot),
                     controllable: slot.controllable,
                     active: self.is_active(start),
                     pos: self.place((start.x, start.y)),

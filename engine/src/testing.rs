@@ -145,6 +145,8 @@ pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
             role,
             name: None,
             ai: Ai::Bot,
+            sometimes: Vec::new(),
+            instead: false,
             controllable: role != Role::GK,
             overlap: false,
             stats: Vec::new(),

@@ -161,9 +161,9 @@ fn step_work(scenario: &Scenario) -> Total {
             .add(Part::Observation, counts.all.saturating_mul(work(&observation.program, &counts)));
     }
     for (at, behavior) in scenario.behaviors.iter().enumerate() {
+        let plays = |ai| ai == Ai::Behavior(at as u32);
         let played =
-            scenario.players.iter().filter(|slot| slot.ai == Ai::Behavior(at as u32)).count()
-                as u64;
+            scenario.players.iter().filter(|slot| slot.played_by().any(plays)).count() as u64;
         // Each write to a cell computes everything again, and an interrupt may lead through it
         // twice.
         let writes = behavior.nodes.iter().filter(|node| writes(node)).count() as u64;
@@ -213,7 +213,7 @@ struct Counts {
 impl Counts {
     fn of(scenario: &Scenario) -> Counts {
         let teams = [Team::Left, Team::Right]
-            .map(|team| scenario.team(team).count().min(PLAYERS_MAX) as u64);
+            .map(|team| scenario.seats(team).count().min(PLAYERS_MAX) as u64);
         Counts { teams, all: teams.iter().sum() }
     }
 

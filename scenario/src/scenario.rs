@@ -56,12 +56,19 @@ impl Scenario {
 
     /// The players of a team with their ids (`team * 11 + index`), in source order.
     pub fn team(&self, team: Team) -> impl Iterator<Item = (usize, &PlayerSlot)> {
+        self.seats(team).flat_map(|(id, slots)| slots.iter().map(move |slot| (id, slot)))
+    }
+
+    /// A team's places with their ids, and who may have each: one player, or several, and at most
+    /// one of them takes part in an episode.
+    pub fn seats(&self, team: Team) -> impl Iterator<Item = (usize, &[PlayerSlot])> {
         let base = team.index() * crate::pitch::TEAM_MAX;
-        self.players
-            .iter()
-            .filter(move |slot| slot.team == team)
-            .enumerate()
-            .map(move |(i, slot)| (base + i, slot))
+        // The left team comes first.
+        let from = self.players.partition_point(|slot| slot.team < team);
+        let to = self.players.partition_point(|slot| slot.team <= team);
+        let of_team = self.players.get(from..to).unwrap_or_default();
+        let seats = of_team.chunk_by(|_, next| next.instead);
+        seats.enumerate().map(move |(seat, slots)| (base + seat, slots))
     }
 
     /// A reward by its name, among those paid and those in scope.
@@ -93,6 +100,10 @@ fn at_the_top() -> (u32, u32) {
 pub struct PlayerSlot {
     /// The team.
     pub team: Team,
+    /// Whether they share a place in the team with the player before them. An episode has at most
+    /// one of the two.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub instead: bool,
     /// The role.
     pub role: Role,
     /// The name before the role, if any. It is also the id of their agent.
@@ -101,6 +112,9 @@ pub struct PlayerSlot {
     /// Who plays them if no agent does.
     #[serde(default)]
     pub ai: Ai,
+    /// Who does instead where a register of the start program holds; the first that does.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sometimes: Vec<(Reg, Ai)>,
     /// Whether an agent may control them.
     pub controllable: bool,
     /// Whether a draw may put them on another player's spot.
@@ -111,6 +125,13 @@ pub struct PlayerSlot {
     pub stats: Vec<(Stat, Reg)>,
     /// Where and how they start.
     pub start: PlayerStart,
+}
+
+impl PlayerSlot {
+    /// Everyone who may play them.
+    pub fn played_by(&self) -> impl Iterator<Item = Ai> {
+        self.sometimes.iter().map(|(_, ai)| *ai).chain([self.ai])
+    }
 }
 
 /// Who plays a player if no agent does.

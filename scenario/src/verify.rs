@@ -23,7 +23,7 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
     bounds::check(scenario).map_err(|excess| excess.message)?;
     verify_names(scenario)?;
     for team in Team::ALL {
-        if scenario.team(*team).count() > TEAM_MAX {
+        if scenario.seats(*team).count() > TEAM_MAX {
             return Err(format!("the {team} team has more than {TEAM_MAX} players"));
         }
     }
@@ -144,8 +144,11 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
         );
         regs.extend(s.velocity.iter().flat_map(|v| [v.0, v.1]));
         regs.extend(slot.stats.iter().map(|(_, reg)| *reg));
-        if let Ai::Behavior(behavior) = slot.ai {
-            below("behavior", behavior, scenario.behaviors.len())?;
+        regs.extend(slot.sometimes.iter().map(|(reg, _)| *reg));
+        for ai in slot.played_by() {
+            if let Ai::Behavior(behavior) = ai {
+                below("behavior", behavior, scenario.behaviors.len())?;
+            }
         }
     }
     for (team, side) in Team::ALL.iter().zip(&scenario.agents.sides) {
@@ -153,7 +156,7 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
             SideAgents::Count(reg) => regs.push(*reg),
             SideAgents::All => {}
             SideAgents::Players(players) => {
-                let n = scenario.team(*team).count();
+                let n = scenario.seats(*team).count();
                 for &player in players {
                     below("player", u32::from(player), n)?;
                 }

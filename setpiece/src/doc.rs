@@ -71,10 +71,10 @@ fn players(page: &mut String, scenario: &Scenario, start: &Drawn) {
     };
     head(page, &["team", "name", "role", "place in one start", "without an agent"]);
     for team in Team::ALL {
-        for (id, slot) in scenario.team(*team) {
+        for (id, slot) in scenario.team(*team).filter(|(_, slot)| !slot.instead) {
             let drawn = start.players.get(id).and_then(Option::as_ref);
             let at = drawn.map_or("absent".to_owned(), |player| place(player.pos.x, player.pos.y));
-            let ai = match (&slot.ai, start.others) {
+            let ai = match (&drawn.map_or(slot.ai, |player| player.ai), start.others) {
                 (Ai::Bot, Others::Bot) => "bot",
                 (Ai::Bot, Others::Hold) | (Ai::Hold, _) => "holds their place",
                 (Ai::Lazy, _) => "lazy",

@@ -6,7 +6,9 @@
     reason = "a test fails by panicking"
 )]
 
-use setpiece::engine::environment::{Environment, EnvironmentOptions};
+use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::scenario::pitch::HALF_LENGTH_M;
+use setpiece::scenario::vocabulary::Role;
 
 const DRAWS: u64 = 6000;
 
@@ -122,6 +124,80 @@ fn who_may_overlap_may_be_drawn_onto_another() {
     let loaded = setpiece::compile_text(&text("each all { overlap: allowed }"), "<test>").unwrap();
     let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
     environment.reset(Some(1), Some(0)).unwrap();
+}
+
+#[test]
+fn a_drawn_region_is_filled_evenly() {
+    let region = "choice(rect((0, 0), (0.5, 0.2)): 1, circle((-0.4, 0), 6m): 3)";
+    share(region, 0.75, |x, _| x < 0.0);
+    share(region, 0.125, |x, _| x > 0.25 * HALF_LENGTH_M);
+    let region = "(if uniform(0, 1) < 25% then left.half & circle(centre, 9m) else right.six_yard)";
+    share(region, 0.25, |x, _| x < 0.0);
+}
+
+#[test]
+fn a_player_is_played_by_one_of_several_behaviours() {
+    let text = "behavior up(way: angle) { do run(way) }
+    scenario s {
+        agents { left: 0 }
+        ball at (0, 0.3)
+        team left { CM at (-0.4, 0) { ai: choice(up(0deg): 1, hold: 1, run(180deg): 2) } }
+        end limit 10 steps
+    }";
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let [mut forth, mut back] = [0.0; 2];
+    for index in 0..600 {
+        environment.reset(Some(7), Some(index)).unwrap();
+        let from = environment.state().players[0].pos.x;
+        for _ in 0..10 {
+            environment.step(&[], &mut Scratch::default()).unwrap();
+        }
+        let way = environment.state().players[0].pos.x - from;
+        forth += f64::from(u8::from(way > 2.0)) / 600.0;
+        back += f64::from(u8::from(way < -2.0)) / 600.0;
+    }
+    assert!((forth - 0.25).abs() < 0.06, "{forth}");
+    assert!((back - 0.5).abs() < 0.06, "{back}");
+}
+
+#[test]
+fn formations_of_other_roles_share_the_places_of_a_team() {
+    let text = "
+    formation four { GK  LB  CB at (-0.6, 0.1)  CB at (-0.6, -0.1)  RB  CM  captain: CF }
+    formation three {
+        GK at (-0.9, 0)  3 CB in left.box  2 CM in left.half
+        captain: AM at (0.2, 0) { fatigue: 0.5 }
+    }
+    scenario s {
+        agents { left: all }
+        ball at captain + (0.5m, 0m) { owner: captain }
+        team left { formation: choice(four: 1, three: 3) }
+        require min_gap(left) > 1m
+        end limit 1 step
+    }";
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut threes = 0;
+    for index in 0..600 {
+        environment.reset(Some(7), Some(index)).unwrap();
+        let game = environment.state();
+        assert_eq!(game.agents.len(), 7);
+        let players = || game.players.iter().filter(|player| player.active);
+        let of = |role: Role| players().filter(|player| player.role == role).count();
+        let captain = game.player(game.owner.unwrap());
+        let roles = [Role::LB, Role::CB, Role::CM, Role::CF, Role::AM].map(of);
+        match captain.role {
+            Role::AM => {
+                threes += 1;
+                assert_eq!(roles, [0, 3, 2, 0, 1]);
+                assert_eq!(captain.fatigue, 0.5);
+            }
+            _ => assert_eq!(roles, [1, 2, 1, 1, 0]),
+        }
+        assert_eq!(players().count(), 7);
+    }
+    assert!((400..500).contains(&threes), "{threes}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! `agents { }`: who is played by agents.
 
+use super::known::PlayedBy;
 use super::mirror::Mirror;
 use super::roster::of_team;
 use super::team::PlayerOptions;
@@ -13,7 +14,7 @@ use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{Agents, Ai, Others, Reg, SideAgents, Switching};
 
 /// Lowers `agents { }`: one on the left unless it is written.
-pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions]) -> Agents {
+pub(crate) fn lower_agents(lower: &mut Lower<'_, '_>, players: &[PlayerOptions<'_>]) -> Agents {
     let (one, none) = (lower.code.constant(1.0), lower.code.constant(0.0));
     let mut agents = Agents {
         sides: match lower.world.mirror {
@@ -85,7 +86,7 @@ fn check_scripted(
     agents: &Agents,
     team: Team,
     at: [Option<Span>; 2],
-    players: &[PlayerOptions],
+    players: &[PlayerOptions<'_>],
 ) {
     let world = lower.world;
     let own = |team: Team| {
@@ -102,14 +103,11 @@ fn check_scripted(
         Some(SideAgents::All) => true,
         None => false,
     };
-    let behaves = |id: u8| {
-        let mut behaviors = lower.start().into_iter().flat_map(|start| &start.behaviors);
-        behaviors.any(|(known, _)| *known == id)
-    };
+    let scripted =
+        |(_, by): &(Option<Reg>, PlayedBy<'_>)| !matches!(by, PlayedBy::BuiltIn(Ai::Bot));
     let mut of_team = world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
-    let scripted = of_team.find(|(player, options)| {
-        options.controllable && (options.ai != Ai::Bot || behaves(player.id))
-    });
+    let scripted =
+        of_team.find(|(_, options)| options.controllable && options.ai.iter().any(scripted));
     if let Some((player, _)) = scripted.filter(|_| asks && is_some(*reg)) {
         let name = player.name.map_or_else(|| player.role.to_string(), |name| name.node.clone());
         let team = world.mirror.team(team);
@@ -143,7 +141,7 @@ fn lower_side<'w>(
     lower: &mut Lower<'_, 'w>,
     expr: &'w Expr,
     team: Team,
-    players: &[PlayerOptions],
+    players: &[PlayerOptions<'_>],
 ) -> Option<SideAgents> {
     match &expr.kind {
         ExprKind::Name(name) if name == "all" => Some(SideAgents::All),
@@ -197,11 +195,12 @@ fn listed<'w>(
         lower.report(Problem::new(name.span, Players::NotControllable { name: text }));
         return None;
     }
-    if known.contains(&(index as u8)) {
+    let seat = players.get(index).map_or(index, |player| player.seat);
+    if known.contains(&(seat as u8)) {
         lower.report(Problem::new(name.span, Players::ListedTwice { name: text }));
         return None;
     }
-    Some(index as u8)
+    Some(seat as u8)
 }
 
 /// Reports a team of which more players are asked for than it has.
@@ -210,12 +209,13 @@ fn check_count(
     agents: &Agents,
     team: Team,
     at: Option<Span>,
-    players: &[PlayerOptions],
+    players: &[PlayerOptions<'_>],
 ) {
     let world = lower.world;
     let Some(SideAgents::Count(reg)) = agents.sides.get(team.index()) else { return };
     let of_team = world.roster.iter().zip(players).filter(|(player, _)| player.team == team);
-    let controllable = of_team.filter(|(_, options)| options.controllable).count();
+    let seats = of_team.filter(|(player, _)| !player.instead);
+    let controllable = seats.filter(|(_, options)| options.controllable).count();
     let Some((_, most)) = lower.interval(*reg) else { return };
     // Who is missing where a layout could not be read has been reported.
     if most <= controllable as f64 || !world.whole_roster {
@@ -237,7 +237,7 @@ fn check_count(
 pub(crate) fn side_with_agents(
     lower: &Lower<'_, '_>,
     agents: &Agents,
-    players: &[PlayerOptions],
+    players: &[PlayerOptions<'_>],
 ) -> Option<Team> {
     let has = |team: Team| match agents.sides.get(team.index()) {
         Some(SideAgents::Count(reg)) => lower.interval(*reg).is_none_or(|(_, most)| most > 0.0),

@@ -13,7 +13,7 @@ use super::value::{LiteralFrame, Scope};
 use super::{Lower, ProgramStage};
 use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ScriptRef, Span};
 use crate::check::types::Ty;
-use crate::lower::known::{BehaviorUse, Draw};
+use crate::lower::known::{BehaviorUse, Draw, Scripted};
 use crate::problem::facts::{Assigned, Behaviors, Names};
 use crate::problem::{Guess, Problem};
 use crate::source::FileId;
@@ -30,11 +30,11 @@ const WATCHES_MAX: usize = 500;
 /// Lowers every behaviour that a player uses, and tells the players.
 pub(crate) fn lower_behaviors<'w>(
     step: &StepWorld<'_, 'w>,
-    uses: &[(u8, BehaviorUse<'w>)],
+    uses: &[Scripted<'w>],
     players: &mut [PlayerSlot],
 ) -> Vec<Behavior> {
     let mut behaviors: Vec<Behavior> = Vec::new();
-    for (player, used) in uses {
+    for Scripted { index: player, which, used } in uses {
         let mut writer = BehaviorWriter::new(step);
         let name = match used {
             BehaviorUse::Named { item, args, scope, span } => {
@@ -42,6 +42,12 @@ pub(crate) fn lower_behaviors<'w>(
                 writer.lower.streams.draw_for(&format!("behavior {}", item.name.node));
                 writer.run(item, args, *span);
                 item.name.node.clone()
+            }
+            BehaviorUse::Act { primitive, args, scope, span } => {
+                writer.lower.scope = scope.clone();
+                writer.lower.streams.draw_for(&format!("behavior {primitive}"));
+                writer.alone(*primitive, args, *span);
+                primitive.name().to_owned()
             }
             BehaviorUse::Script(script) => {
                 writer.script(script, Vec::new());
@@ -54,9 +60,9 @@ pub(crate) fn lower_behaviors<'w>(
             behaviors.push(behavior);
             behaviors.len() - 1
         });
-        let slot = step.world.roster.iter().position(|rostered| rostered.id == *player);
-        if let Some(slot) = slot.and_then(|at| players.get_mut(at)) {
-            slot.ai = Ai::Behavior(index as u32);
+        if let Some(slot) = players.get_mut(*player) {
+            let ai = slot.sometimes.get_mut(*which).map(|(_, ai)| ai);
+            *ai.unwrap_or(&mut slot.ai) = Ai::Behavior(index as u32);
         }
     }
     check_unused(step);

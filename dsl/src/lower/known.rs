@@ -4,8 +4,8 @@ use super::people::Presence;
 use super::value::{Scope, Value};
 use crate::ast::{Arg, BehaviorItem, ScriptRef, Span};
 use crate::origins::{RegionOrigin, RequireOrigin};
-use setpiece_scenario::vocabulary::{StartKind, Team};
-use setpiece_scenario::{Distribution, Reg, Require, When};
+use setpiece_scenario::vocabulary::{Primitive, StartKind, Team};
+use setpiece_scenario::{Ai, Distribution, Reg, Require, When};
 use std::collections::BTreeMap;
 
 /// A player's places at kick-offs: when their team kicks off, and when the others do.
@@ -24,14 +24,12 @@ pub(crate) struct StartState<'w> {
     pub(crate) presence: Vec<OnDemand<Presence>>,
     /// The drawn numbers of players, by their team and statement.
     pub(crate) numbers: Vec<(Team, Span, Reg)>,
+    /// When each of a team's formations is meant, by the expression that chooses one.
+    pub(crate) formations: Vec<(Team, Span, Vec<Option<Reg>>)>,
     /// The ball's place.
     pub(crate) ball: OnDemand<(Reg, Reg)>,
     /// What must hold of values that are known at the draw only.
     pub(crate) implied: Vec<(Require, RequireOrigin)>,
-    /// The behaviour of the player whose options are read.
-    pub(crate) ai: Option<BehaviorUse<'w>>,
-    /// The behaviours that players use, by the players' ids.
-    pub(crate) behaviors: Vec<(u8, BehaviorUse<'w>)>,
     /// The regions in which something is drawn.
     pub(crate) drawn_in: Vec<RegionOrigin>,
     /// The `let`s that are lowered; none where one is being lowered.
@@ -93,6 +91,25 @@ pub(crate) struct Remembered<'w> {
     pub(crate) has_view: bool,
 }
 
+/// Who plays a player without an agent.
+#[derive(Clone)]
+pub(crate) enum PlayedBy<'w> {
+    /// One of the built-in ones.
+    BuiltIn(Ai),
+    /// A behaviour of the text.
+    Behavior(BehaviorUse<'w>),
+}
+
+/// A behaviour and who uses it: a player by the roster, and which of their alternatives it is.
+pub(crate) struct Scripted<'w> {
+    /// The player.
+    pub(crate) index: usize,
+    /// The alternative.
+    pub(crate) which: usize,
+    /// The behaviour.
+    pub(crate) used: BehaviorUse<'w>,
+}
+
 /// What a player's `ai` names.
 #[derive(Clone)]
 pub(crate) enum BehaviorUse<'w> {
@@ -100,6 +117,17 @@ pub(crate) enum BehaviorUse<'w> {
     Named {
         /// Which.
         item: &'w BehaviorItem,
+        /// The arguments.
+        args: &'w [Arg],
+        /// In which scope they are read.
+        scope: Scope<'w>,
+        /// The whole expression.
+        span: Span,
+    },
+    /// What a `do` does, from the first step to the last.
+    Act {
+        /// Which act.
+        primitive: Primitive,
         /// The arguments.
         args: &'w [Arg],
         /// In which scope they are read.

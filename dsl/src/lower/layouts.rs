@@ -23,18 +23,39 @@ pub(super) fn check_same(
         }
         return;
     }
-    let roles = |players: &[Rostered<'_>]| -> String {
-        players.iter().map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
+    let (first, second) = (roles(one.iter()), roles(other.iter()));
+    world.report(Problem::new(at, Players::LayoutsDiffer { first, second }));
+}
+
+/// A layout has the same players whichever of its formations an episode has.
+/// `false` after a report.
+pub(super) fn check_whole(world: &World<'_>, players: &[Rostered<'_>], at: Span) -> bool {
+    let of = |which: usize| {
+        roles(players.iter().filter(|player| {
+            player.formations.as_ref().is_none_or(|them| them.which.contains(&which))
+        }))
     };
-    world.report(Problem::new(
-        at,
-        Players::LayoutsDiffer { first: roles(one), second: roles(other) },
-    ));
+    let first = of(0);
+    let second = players
+        .iter()
+        .filter_map(|player| player.formations.as_ref())
+        .flat_map(|them| &them.which)
+        .map(|&which| of(which))
+        .find(|roles| *roles != first);
+    let is_whole = second.is_none();
+    if let Some(second) = second {
+        world.report(Problem::new(at, Players::LayoutsDiffer { first, second }));
+    }
+    is_whole
+}
+
+fn roles<'a, 'w: 'a>(players: impl Iterator<Item = &'a Rostered<'w>>) -> String {
+    players.map(|player| player.role.name()).collect::<Vec<_>>().join(" ")
 }
 
 /// Whether the second layout says something of a player beside the place that it doesn't share
 /// with the first, as a child shares what it inherits.
-fn says_more(world: &World<'_>, one: &Rostered<'_>, other: &Rostered<'_>) -> bool {
+pub(super) fn says_more(world: &World<'_>, one: &Rostered<'_>, other: &Rostered<'_>) -> bool {
     let said = |player: &Rostered<'_>| -> Vec<Span> {
         let facing = player.facing.map(|facing| facing.target.span);
         let exprs =

@@ -10,8 +10,14 @@ use setpiece_scenario::vocabulary::{Role, Team};
 /// A player of the roster.
 #[derive(Clone)]
 pub(crate) struct Rostered<'w> {
-    /// `team * 11 + index`.
+    /// `team * 11 + seat`.
     pub(crate) id: u8,
+    /// Their place in the team, by which programs know them.
+    pub(crate) seat: usize,
+    /// Whether they share it with the player before them in the roster.
+    pub(crate) instead: bool,
+    /// The formations that they belong to, if not to all that their team may have.
+    pub(crate) formations: Option<Formations<'w>>,
     /// Their team.
     pub(crate) team: Team,
     /// Their role.
@@ -38,6 +44,15 @@ pub(crate) struct Rostered<'w> {
     pub(crate) numbered: Option<Numbered>,
     /// Options: what stands later wins.
     pub(crate) fields: Vec<&'w Field>,
+}
+
+/// Some of the formations of which an episode has one.
+#[derive(Clone)]
+pub(crate) struct Formations<'w> {
+    /// The expression that chooses one.
+    pub(crate) whole: &'w Expr,
+    /// Which of them.
+    pub(crate) which: Vec<usize>,
 }
 
 /// What decides whether a player takes part.
@@ -72,16 +87,32 @@ impl Presence {
 pub(crate) enum Stand<'w> {
     /// At a place, read in a scope; in the zone of the role without one.
     At(Option<&'w Place>, Scope<'w>),
-    /// As in one formation or another.
-    Either(&'w Expr, Box<Stand<'w>>, Box<Stand<'w>>),
+    /// As in some formations of which an episode has one.
+    Among(&'w Expr, Vec<(usize, Stand<'w>)>),
 }
 
-impl Rostered<'_> {
+impl<'w> Rostered<'w> {
+    /// Makes them a player of one of several formations.
+    pub(super) fn join(&mut self, whole: &'w Expr, which: usize) {
+        self.formations = Some(Formations { whole, which: vec![which] });
+        self.stand = Stand::Among(whole, vec![(which, self.stand.clone())]);
+    }
+
+    /// Lets them stand somewhere in a further one of the formations.
+    pub(super) fn also(&mut self, which: usize, there: Stand<'w>) {
+        if let Some(formations) = &mut self.formations {
+            formations.which.push(which);
+        }
+        if let Stand::Among(_, stands) = &mut self.stand {
+            stands.push((which, there));
+        }
+    }
+
     /// What a report of the place points at.
     pub(crate) fn place_span(&self) -> Span {
         match self.stand {
             Stand::At(Some(place), _) => place.span,
-            Stand::At(None, _) | Stand::Either(..) => self.span,
+            Stand::At(None, _) | Stand::Among(..) => self.span,
         }
     }
 
@@ -95,7 +126,10 @@ impl Rostered<'_> {
 
     /// Whether they belong to every episode.
     pub(crate) fn is_certain(&self) -> bool {
-        self.when.is_none() && self.maybe.is_none() && self.numbered.is_none()
+        self.when.is_none()
+            && self.maybe.is_none()
+            && self.numbered.is_none()
+            && self.formations.is_none()
     }
 
     /// The player in a sentence.

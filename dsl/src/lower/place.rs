@@ -62,7 +62,7 @@ impl<'w> Lower<'_, 'w> {
     /// A player's start place; which player it is may be drawn.
     fn start_place(&mut self, player: Reg, span: Span) -> (Reg, Reg) {
         if let Some(index) = self.roster_index(player) {
-            return self.place_of_rostered(index, span);
+            return self.place_of_seat(index, span);
         }
         if let Some(&Instr::Select(c, a, b)) = self.code.instr(player) {
             let (a, b) = (self.start_place(a, span), self.start_place(b, span));
@@ -70,6 +70,29 @@ impl<'w> Lower<'_, 'w> {
         }
         self.report(Problem::new(span, Players::MayBeNobody { text: self.world.text(span) }));
         self.nowhere()
+    }
+
+    /// The start place of whoever has the place in the team of a player of the roster, who is the
+    /// first there.
+    pub(crate) fn place_of_seat(&mut self, index: usize, asked: Span) -> (Reg, Reg) {
+        let others = self.world.roster.iter().skip(index + 1).take_while(|player| player.instead);
+        let places: Vec<_> = (index..=index + others.count())
+            .map(|index| {
+                let presence = self.shared_presence(index, asked);
+                (presence, self.place_of_rostered(index, asked))
+            })
+            .collect();
+        self.first_place(&places)
+    }
+
+    /// Whether a player takes part who shares their place in the team.
+    fn shared_presence(&mut self, index: usize, asked: Span) -> Option<Reg> {
+        let next = self.world.roster.get(index + 1);
+        if !next.is_some_and(|next| next.instead) {
+            return None;
+        }
+        let presence = self.presence_of(index, asked);
+        presence.conditions().fold(None, |all, one| Some(self.both(all, one)))
     }
 
     /// The start place of a player of the roster, computed when it is first asked for.
@@ -162,16 +185,16 @@ impl<'w> Lower<'_, 'w> {
     fn player_stand(&mut self, player: &Rostered<'w>, stand: &Stand<'w>) -> (Reg, Reg) {
         let (place, scope) = match stand {
             Stand::At(place, scope) => (*place, scope),
-            Stand::Either(condition, then, otherwise) => {
-                let condition = self.within(Scope::new(true, LiteralFrame::World), |lower| {
-                    lower.want_reg(condition, Ty::Bool)
-                });
-                let (a, b) =
-                    (self.player_stand(player, then), self.player_stand(player, otherwise));
-                return (
-                    self.code.select(condition, a.0, b.0),
-                    self.code.select(condition, a.1, b.1),
-                );
+            Stand::Among(whole, stands) => {
+                let conditions = self.formations_of(player.team, whole);
+                let places: Vec<(Option<Reg>, (Reg, Reg))> = stands
+                    .iter()
+                    .map(|(which, stand)| {
+                        let holds = conditions.get(*which).copied().flatten();
+                        (holds, self.player_stand(player, stand))
+                    })
+                    .collect();
+                return self.first_place(&places);
             }
         };
         self.within(scope.clone(), |lower| {
@@ -184,6 +207,19 @@ impl<'w> Lower<'_, 'w> {
             };
             lower.jittered(place, player.jitter)
         })
+    }
+
+    /// The first of several places whose condition holds; the last has none that matters.
+    fn first_place(&mut self, places: &[(Option<Reg>, (Reg, Reg))]) -> (Reg, Reg) {
+        let mut listed = places.iter().rev();
+        let Some(&(_, mut found)) = listed.next() else { return self.nowhere() };
+        for &(holds, place) in listed {
+            if let Some(holds) = holds {
+                let x = self.code.select(holds, place.0, found.0);
+                found = (x, self.code.select(holds, place.1, found.1));
+            }
+        }
+        found
     }
 
     /// Runs `f` with a team in view.

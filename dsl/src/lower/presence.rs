@@ -1,7 +1,7 @@
 //! Whether a player takes part: `when …`, `maybe 30%`, and a drawn number of players.
 
 use super::known::OnDemand;
-use super::people::{Numbered, Presence};
+use super::people::{Formations, Numbered, Presence};
 use super::{Lower, World};
 use crate::ast::Span;
 use crate::check::types::Ty;
@@ -10,7 +10,7 @@ use crate::problem::facts::Players;
 use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{BinaryOp, Distribution, Instr, Reg};
 
-impl Lower<'_, '_> {
+impl<'w> Lower<'_, 'w> {
     /// What decides whether a player of the roster takes part, computed when it is first asked for.
     pub(crate) fn presence_of(&mut self, index: usize, asked: Span) -> Presence {
         match self.start().and_then(|start| start.presence.get(index).copied()) {
@@ -36,21 +36,27 @@ impl Lower<'_, '_> {
     }
 
     fn compute_presence(&mut self, index: usize) -> Presence {
-        let world: &World<'_> = self.world;
+        let world: &'_ World<'w> = self.world;
         let Some(player) = world.roster.get(index) else { return Presence::default() };
         let (scope, stream) = (player.scope.clone(), player.stream());
         self.for_team(player.team.index() as f64, |lower| {
             lower.within(scope, |lower| {
                 let mut presence = Presence::default();
-                if let Some(when) = player.when {
-                    let reg =
-                        lower.drawing(&format!("{stream} when"), |lower| lower.condition(when));
-                    let drawn =
-                        |instr: &Instr| matches!(instr, Instr::Random { .. } | Instr::EpisodeIndex);
-                    if lower.code.depends(reg, &drawn) {
+                if let Some(formations) = &player.formations {
+                    let reg = lower.of_formations(player.team, formations);
+                    if lower.is_drawn(reg) {
                         presence.active = Some(reg);
                     } else {
                         presence.present = Some(reg);
+                    }
+                }
+                if let Some(when) = player.when {
+                    let reg =
+                        lower.drawing(&format!("{stream} when"), |lower| lower.condition(when));
+                    if lower.is_drawn(reg) {
+                        presence.active = Some(lower.both(presence.active, reg));
+                    } else {
+                        presence.present = Some(lower.both(presence.present, reg));
                     }
                 }
                 if let Some(share) = player.maybe {
@@ -74,8 +80,18 @@ impl Lower<'_, '_> {
         })
     }
 
-    fn both(&mut self, one: Option<Reg>, other: Reg) -> Reg {
-        one.map_or(other, |one| self.code.binary(BinaryOp::And, one, other))
+    /// Whether an episode has one of these formations.
+    fn of_formations(&mut self, team: Team, formations: &Formations<'w>) -> Reg {
+        let conditions = self.formations_of(team, formations.whole);
+        let mut which = formations.which.iter();
+        let meant = which.by_ref().filter_map(|which| conditions.get(*which).copied().flatten());
+        let any = meant.reduce(|one, other| self.code.binary(BinaryOp::Or, one, other));
+        any.unwrap_or_else(|| self.code.constant(1.0))
+    }
+
+    fn is_drawn(&self, reg: Reg) -> bool {
+        let drawn = |instr: &Instr| matches!(instr, Instr::Random { .. } | Instr::EpisodeIndex);
+        self.code.depends(reg, &drawn)
     }
 
     /// How many players a statement has in this episode: one draw for all its copies.

@@ -1,19 +1,16 @@
 //! Who plays: formations and players of both teams as one list.
 
-use super::known::StartState;
-use super::layouts::check_same;
+use super::formations::formation_players;
+use super::layouts::{check_same, check_whole};
 use super::people::{Numbered, Rostered, Stand};
-use super::value::{LiteralFrame, Repr, Scope, Value};
-use super::{Lower, World, casting};
-use crate::ast::{
-    Expr, ExprKind, Field, FieldValue, FormationItem, Ident, PlayerStmt, Span, Spanned,
-    TeamStmtKind,
-};
+use super::seats::take_seats;
+use super::value::{LiteralFrame, Scope};
+use super::{World, casting};
+use crate::ast::{Field, FieldValue, Ident, PlayerStmt, Span, Spanned};
 use crate::cast::CastTarget;
-use crate::check::types::Ty;
 use crate::problem::facts::{Kind, Names, Players, Types};
 use crate::problem::{Guess, Problem};
-use crate::resolve::{FlatTeam, formation_chain};
+use crate::resolve::FlatTeam;
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
 
@@ -42,9 +39,10 @@ pub(super) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
         let each: Vec<_> = flat.each.iter().copied().chain(side).collect();
         apply_each(world, &mut players, &each, *team, &|who| world.flat.is_own(who));
         casting::apply(world, &mut players, *team);
-        check_size(world, &players, *team);
-        for (index, player) in players.iter_mut().enumerate() {
-            player.id = (team.index() * TEAM_MAX + index) as u8;
+        let seats = take_seats(world, &mut players);
+        check_size(world, &players, seats, *team);
+        for player in &mut players {
+            player.id = (team.index() * TEAM_MAX + player.seat) as u8;
         }
         roster.extend(players);
     }
@@ -88,7 +86,12 @@ fn from_statements<'w>(world: &World<'w>, team: Team, flat: &FlatTeam<'w>) -> Ve
 const WRITTEN_MAX: usize = 4 * TEAM_MAX;
 
 /// Whether a team may write a further player; reports one that it may not.
-fn has_room(world: &World<'_>, players: &[Rostered<'_>], span: Span, team: Team) -> bool {
+pub(super) fn has_room(
+    world: &World<'_>,
+    players: &[Rostered<'_>],
+    span: Span,
+    team: Team,
+) -> bool {
     if players.len() >= WRITTEN_MAX {
         let fact = Players::TooManyWritten { team, most: WRITTEN_MAX, team_max: TEAM_MAX };
         world.report(Problem::new(span, fact));
@@ -145,11 +148,15 @@ fn from_layouts<'w>(
             });
         }
     }
-    let (Some((mut kicking, _)), Some((receiving, at))) = (layout("kicking"), layout("receiving"))
+    let (Some((mut kicking, of_kicking)), Some((receiving, at))) =
+        (layout("kicking"), layout("receiving"))
     else {
         return Vec::new();
     };
-    if team == Team::Left {
+    if team == Team::Left
+        && check_whole(world, &kicking, of_kicking)
+        && check_whole(world, &receiving, at)
+    {
         check_same(world, &kicking, &receiving, at);
     }
     for (player, other) in kicking.iter_mut().zip(receiving) {
@@ -158,97 +165,7 @@ fn from_layouts<'w>(
     kicking
 }
 
-/// The players of a formation value: its name, a call with arguments, or a choice of two, which has
-/// the places of both and is the first in everything else.
-fn formation_players<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<Rostered<'w>> {
-    if let ExprKind::If(condition, then, otherwise) = &expr.kind {
-        let mut players = formation_players(world, then, team);
-        let others = formation_players(world, otherwise, team);
-        check_same(world, &players, &others, expr.span);
-        for (player, other) in players.iter_mut().zip(others) {
-            let stand =
-                Stand::Either(condition, Box::new(player.stand.clone()), Box::new(other.stand));
-            player.stand = stand;
-        }
-        return players;
-    }
-    let mut lower =
-        Lower::of_start(world, Scope::new(true, LiteralFrame::World), StartState::default());
-    if let ExprKind::Call { name, args } = &expr.kind
-        && let Some(found) = world.library.find(name.span.file, &name.node)
-        && let crate::ast::ItemKind::Formation(item) = &found.item.kind
-    {
-        world.mark_used(found.name.span);
-        let mut scope = Scope::new(false, LiteralFrame::Own);
-        lower.bind_params(&name.node, &item.params, args, expr.span, &mut scope, false);
-        return chain_players(world, item, &scope, team);
-    }
-    let value: Value<'w> = lower.want(expr, Ty::Formation);
-    match value.repr {
-        Repr::Formation(item) => {
-            let mut scope = Scope::new(false, LiteralFrame::Own);
-            lower.bind_params(&item.name.node, &item.params, &[], expr.span, &mut scope, false);
-            chain_players(world, item, &scope, team)
-        }
-        _ => Vec::new(),
-    }
-}
-
-fn chain_players<'w>(
-    world: &World<'w>,
-    item: &'w FormationItem,
-    scope: &Scope<'w>,
-    team: Team,
-) -> Vec<Rostered<'w>> {
-    let mut found = Vec::new();
-    let chain = formation_chain(world.library, item, &mut found);
-    for problem in found {
-        world.report(problem);
-    }
-    let mut players: Vec<Rostered<'w>> = Vec::new();
-    for (link, reference) in chain {
-        let mut scope = scope.clone();
-        scope.players_of = Some(team);
-        if !std::ptr::eq(link, item) {
-            world.mark_used(link.name.span);
-            // A parent's parameters are bound by the reference of its child.
-            let mut lower = Lower::of_start(world, scope, StartState::default());
-            scope = Scope::new(false, LiteralFrame::Own);
-            let args = reference.map_or(&[][..], |reference| reference.args.as_slice());
-            lower.bind_params(
-                &link.name.node,
-                &link.params,
-                args,
-                link.name.span,
-                &mut scope,
-                false,
-            );
-            scope.players_of = Some(team);
-        }
-        let (mut absent, mut overrides, mut each) = (Vec::new(), Vec::new(), Vec::new());
-        for stmt in &link.body {
-            match &stmt.kind {
-                TeamStmtKind::Player(_) if !has_room(world, &players, stmt.span, team) => break,
-                TeamStmtKind::Player(player) => {
-                    players.extend(copies(world, player, stmt.span, &scope, team));
-                }
-                TeamStmtKind::Override { who, change } => overrides.push((who, change)),
-                TeamStmtKind::Each { who, fields } => each.push((who, fields.as_slice())),
-                TeamStmtKind::Absent(role) => absent.push(role.clone()),
-                TeamStmtKind::Field(field) => world.report(Problem::new(
-                    field.key.span,
-                    Names::NoFormationOption { option: field.key.node.clone() },
-                )),
-                TeamStmtKind::Broken => {}
-            }
-        }
-        adjust(world, &mut players, &absent, &overrides, &scope);
-        apply_each(world, &mut players, &each, team, &|_| true);
-    }
-    players
-}
-
-fn copies<'w>(
+pub(super) fn copies<'w>(
     world: &World<'w>,
     player: &'w PlayerStmt,
     span: Span,
@@ -272,6 +189,9 @@ fn copies<'w>(
     }
     let one = Rostered {
         id: 0,
+        seat: 0,
+        instead: false,
+        formations: None,
         team,
         role: player.role.node,
         name: player.name.as_ref(),
@@ -300,7 +220,7 @@ fn copies<'w>(
 }
 
 /// `GK absent` and `place …`.
-fn adjust<'w>(
+pub(super) fn adjust<'w>(
     world: &World<'w>,
     players: &mut Vec<Rostered<'w>>,
     absent: &[Spanned<Role>],
@@ -367,7 +287,7 @@ fn adjust<'w>(
 
 /// `each …`: defaults, behind the players' own options; `is_own` tells whether it must fit
 /// somebody.
-fn apply_each<'w>(
+pub(super) fn apply_each<'w>(
     world: &World<'w>,
     players: &mut [Rostered<'w>],
     each: &[(&'w Ident, &'w [Field])],
@@ -410,8 +330,9 @@ fn apply_each<'w>(
     }
 }
 
-fn check_size(world: &World<'_>, players: &[Rostered<'_>], team: Team) {
-    if let Some(extra) = players.get(TEAM_MAX) {
+fn check_size(world: &World<'_>, players: &[Rostered<'_>], seats: usize, team: Team) {
+    let extra = players.iter().find(|player| player.seat == TEAM_MAX);
+    if let Some(extra) = extra.filter(|_| seats > TEAM_MAX) {
         world.report(Problem::new(extra.span, Players::TooMany { team, most: TEAM_MAX }));
     }
     let keepers: Vec<&Rostered<'_>> =
@@ -424,7 +345,8 @@ fn check_size(world: &World<'_>, players: &[Rostered<'_>], team: Team) {
 fn check_names(world: &World<'_>, roster: &[Rostered<'_>]) {
     for (index, player) in roster.iter().enumerate() {
         let Some(name) = player.name else { continue };
-        let earlier = roster.iter().take(index).filter_map(|other| other.name);
+        let earlier = roster.iter().take(index).filter(|other| other.id != player.id);
+        let earlier = earlier.filter_map(|other| other.name);
         let first =
             earlier.into_iter().find(|other| other.node == name.node && other.span != name.span);
         if let Some(first) = first {

@@ -7,7 +7,7 @@ mod remap;
 
 use super::agents::{lower_agents, side_with_agents};
 use super::builder::RegisterLayout;
-use super::known::{BehaviorUse, OnDemand, StartState};
+use super::known::{OnDemand, PlayedBy, Scripted, StartState};
 use super::people::Rostered;
 use super::step_world::{LetSlot, LetSource, StepWorld};
 use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
@@ -23,7 +23,7 @@ use remap::{map_agents, map_slot, map_start};
 use setpiece_scenario::pitch::{LONGEST_S, STEP_S};
 use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{
-    Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
+    Agents, Ai, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
 };
 use std::collections::BTreeMap;
 
@@ -37,8 +37,8 @@ pub(crate) struct LoweredStart<'c, 'w> {
     pub(crate) agents: Agents,
     /// What the programs of a step know beside the world.
     pub(crate) step: StepWorld<'c, 'w>,
-    /// The behaviours that players use, by the players' ids.
-    pub(crate) behaviors: Vec<(u8, BehaviorUse<'w>)>,
+    /// The behaviours that players use.
+    pub(crate) behaviors: Vec<Scripted<'w>>,
     /// Where its requirements come from.
     pub(crate) requires: Vec<RequireOrigin>,
     /// Its regions, if they are wanted.
@@ -81,7 +81,7 @@ pub(crate) fn lower_start<'c, 'w>(
         (0..n).map(|i| lower.heading_of(i, roster_span(world, i))).collect();
     let ball = lower.ball();
     lower.check_kickoff_ball(kind, ball.as_ref());
-    let options: Vec<PlayerOptions> =
+    let options: Vec<PlayerOptions<'w>> =
         (0..n).filter_map(|index| lower_player_options(&mut lower, index)).collect();
     let difficulty =
         [lower_difficulty(&mut lower, Team::Left), lower_difficulty(&mut lower, Team::Right)];
@@ -107,7 +107,6 @@ pub(crate) fn lower_start<'c, 'w>(
     let of_requires = written.chain(of_implied).collect();
     requires.append(&mut implied);
 
-    let behaviors = state.behaviors;
     let (lets, let_regs) = lower.let_slots(state.lets);
     let mut wanted: Vec<Reg> = Vec::new();
     let mut collect = |reg: Reg| {
@@ -132,7 +131,7 @@ pub(crate) fn lower_start<'c, 'w>(
         limit,
         requires,
     };
-    let players = slots(world, &places, &headings, options);
+    let (players, behaviors) = slots(world, &places, &headings, options);
     map_start(&start, &mut collect);
     for slot in &players {
         map_slot(slot, &mut collect);
@@ -166,27 +165,42 @@ fn roster_span(world: &World<'_>, index: usize) -> Span {
     world.roster.get(index).map_or(own, |player| player.span)
 }
 
-fn slots(
-    world: &World<'_>,
+fn slots<'w>(
+    world: &World<'w>,
     places: &[(Reg, Reg)],
     headings: &[Option<Reg>],
-    options: Vec<PlayerOptions>,
-) -> Vec<PlayerSlot> {
-    let mut slots = Vec::new();
-    for (((player, place), heading), option) in
-        world.roster.iter().zip(places).zip(headings).zip(options)
+    options: Vec<PlayerOptions<'w>>,
+) -> (Vec<PlayerSlot>, Vec<Scripted<'w>>) {
+    let (mut slots, mut behaviors) = (Vec::new(), Vec::new());
+    for (index, (((player, place), heading), option)) in
+        world.roster.iter().zip(places).zip(headings).zip(options).enumerate()
     {
+        let mut played = Vec::new();
+        for (which, (when, by)) in option.ai.into_iter().enumerate() {
+            match by {
+                PlayedBy::BuiltIn(ai) => played.push((when, ai)),
+                PlayedBy::Behavior(used) => {
+                    behaviors.push(Scripted { index, which, used });
+                    // Its number is known when it is written.
+                    played.push((when, Ai::Bot));
+                }
+            }
+        }
+        let ai = played.pop().map_or(Ai::Bot, |(_, ai)| ai);
+        let sometimes = played.into_iter().filter_map(|(when, ai)| Some((when?, ai))).collect();
         slots.push(PlayerSlot {
             team: player.team,
             role: player.role,
+            instead: player.instead,
             // A formation that both teams use names two players alike; then neither bears the name
             // alone.
             name: player.name.map(|name| name.node.clone()).filter(|name| {
                 let same =
                     |other: &&Rostered<'_>| other.name.is_some_and(|other| other.node == *name);
-                world.roster.iter().filter(same).count() == 1
+                world.roster.iter().filter(|player| !player.instead).filter(same).count() == 1
             }),
-            ai: option.ai,
+            ai,
+            sometimes,
             controllable: option.controllable,
             overlap: option.overlap,
             stats: option.stats,
@@ -203,7 +217,7 @@ fn slots(
             },
         });
     }
-    slots
+    (slots, behaviors)
 }
 
 impl<'w> Lower<'_, 'w> {

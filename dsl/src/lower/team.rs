@@ -7,17 +7,18 @@ use super::{Lower, fields};
 use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
 use crate::check::options::{PLAYER, TEAM};
 use crate::check::types::Ty;
-use crate::lower::known::BehaviorUse;
+use crate::lower::known::{BehaviorUse, PlayedBy};
 use crate::problem::facts::{Bounds, Chance, Kind, Names, Types};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{PLAYER_SPEED_MAX_MPS, YELLOW_CARDS_MAX};
-use setpiece_scenario::vocabulary::{Stat, Team};
+use setpiece_scenario::vocabulary::{Primitive, Stat, Team};
 use setpiece_scenario::{Ai, Reg};
 
 /// The options of a player.
-pub(crate) struct PlayerOptions {
-    /// Who plays the player without an agent.
-    pub(crate) ai: Ai,
+pub(crate) struct PlayerOptions<'w> {
+    /// Who plays the player without an agent: one of several, by their conditions. The built-in bot
+    /// if there are none.
+    pub(crate) ai: Vec<(Option<Reg>, PlayedBy<'w>)>,
     /// Whether an agent may control the player.
     pub(crate) controllable: bool,
     /// Whether the player may stand where another one does.
@@ -63,14 +64,14 @@ fn share<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, what: &str) -> Reg {
 }
 
 /// Lowers a player's options, those of `each` included.
-pub(crate) fn lower_player_options(
-    lower: &mut Lower<'_, '_>,
+pub(crate) fn lower_player_options<'w>(
+    lower: &mut Lower<'_, 'w>,
     index: usize,
-) -> Option<PlayerOptions> {
+) -> Option<PlayerOptions<'w>> {
     let world = lower.world;
     let player = world.roster.get(index)?;
     let mut options = PlayerOptions {
-        ai: Ai::Bot,
+        ai: Vec::new(),
         controllable: true,
         overlap: false,
         difficulty: None,
@@ -84,7 +85,6 @@ pub(crate) fn lower_player_options(
     let stream = player.stream();
     lower.for_team(player.team.index() as f64, |lower| {
         lower.within(scope, |lower| {
-            set_ai(lower, None);
             for field in &player.fields {
                 lower.drawing(&format!("{stream} {}", field.key.node), |lower| {
                     option(lower, field, &mut options);
@@ -93,22 +93,10 @@ pub(crate) fn lower_player_options(
         });
     });
     options.presence = lower.presence_of(index, player.span);
-    if let Some(start) = lower.start_mut()
-        && let Some(used) = start.ai.take()
-    {
-        start.behaviors.push((player.id, used));
-    }
     Some(options)
 }
 
-/// Notes the behavior of the player whose options are read.
-fn set_ai<'w>(lower: &mut Lower<'_, 'w>, ai: Option<BehaviorUse<'w>>) {
-    if let Some(start) = lower.start_mut() {
-        start.ai = ai;
-    }
-}
-
-fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
+fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions<'w>) {
     if !fields::is_known(lower, field, PLAYER, "a player") {
         return;
     }
@@ -118,7 +106,9 @@ fn option<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerO
                 stats(lower, stat, options);
             }
         }
-        ("ai", FieldValue::Script(script)) => set_ai(lower, Some(BehaviorUse::Script(script))),
+        ("ai", FieldValue::Script(script)) => {
+            options.ai = vec![(None, PlayedBy::Behavior(BehaviorUse::Script(script)))];
+        }
         (key, FieldValue::Expr(expr)) => expression(lower, key, expr, options),
         ("stats", FieldValue::Script(script)) => not_a_group(lower, script.span),
         _ => {
@@ -135,10 +125,14 @@ fn expression<'w>(
     lower: &mut Lower<'_, 'w>,
     key: &str,
     expr: &'w Expr,
-    options: &mut PlayerOptions,
+    options: &mut PlayerOptions<'w>,
 ) {
     match key {
-        "ai" => ai(lower, expr, options),
+        "ai" => {
+            let alternatives = lower.alternatives(expr);
+            let found = alternatives.into_iter();
+            options.ai = found.filter_map(|(when, expr)| Some((when, ai(lower, expr)?))).collect();
+        }
         "stats" => not_a_group(lower, expr.span),
         "difficulty" => options.difficulty = Some(share(lower, expr, "`difficulty`")),
         "fatigue" => options.fatigue = Some(share(lower, expr, "`fatigue`")),
@@ -183,45 +177,52 @@ fn expression<'w>(
     }
 }
 
-fn ai<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, options: &mut PlayerOptions) {
+/// What plays a player; `None` after a report.
+fn ai<'w>(lower: &Lower<'_, 'w>, expr: &'w Expr) -> Option<PlayedBy<'w>> {
     let (path, args): (_, &'w [Arg]) = match &expr.kind {
         ExprKind::Call { name, args } => (Some(name.node.clone()), args),
         _ => (path_of(expr), &[]),
     };
     let Some(name) = path else {
         lower.report(Problem::new(expr.span, Types::NoAi));
-        return;
+        return None;
     };
     let built_in = [("bot", Ai::Bot), ("hold", Ai::Hold), ("lazy", Ai::Lazy)];
     if let (Some((_, ai)), true) =
         (built_in.iter().find(|(known, _)| *known == name), args.is_empty())
     {
-        options.ai = *ai;
-        set_ai(lower, None);
-        return;
+        return Some(PlayedBy::BuiltIn(*ai));
     }
     let library = lower.world.library;
     let found = library.find(expr.span.file, &name);
     if let Some((found, ItemKind::Behavior(item))) = found.map(|found| (found, &found.item.kind)) {
         if let Some(problem) = library.ambiguous(expr.span.file, &name, expr.span) {
             lower.report(problem);
-            return;
+            return None;
         }
         lower.world.mark_used(found.name.span);
         let used = BehaviorUse::Named { item, args, scope: lower.scope.clone(), span: expr.span };
-        set_ai(lower, Some(used));
-        return;
+        return Some(PlayedBy::Behavior(used));
+    }
+    // `wait` says how long in its statement; `hold` is the same without an end.
+    let acts = || Primitive::ALL.iter().filter(|primitive| **primitive != Primitive::Wait);
+    if let Some(&primitive) = acts().find(|primitive| primitive.name() == name) {
+        let (scope, span) = (lower.scope.clone(), expr.span);
+        return Some(PlayedBy::Behavior(BehaviorUse::Act { primitive, args, scope, span }));
     }
     let behaviors = library
         .visible(expr.span.file)
         .filter(|(_, found)| matches!(found.item.kind, ItemKind::Behavior(_)));
     let known: Vec<&str> =
         behaviors.map(|(name, _)| name).chain(built_in.iter().map(|(name, _)| *name)).collect();
+    let known: Vec<&str> =
+        known.into_iter().chain(acts().map(|primitive| primitive.name())).collect();
     let guess = Guess::similar_or(&name, &known, &[]);
     lower.report(Problem::new(expr.span, Names::Unknown { kind: Kind::Ai, name, guess }));
+    None
 }
 
-fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions) {
+fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions<'w>) {
     let Some(stat) = Stat::from_name(&field.key.node) else {
         lower.report({
             let known: Vec<&str> = Stat::ALL.iter().map(|stat| stat.name()).collect();

@@ -47,16 +47,23 @@ impl Actors {
         let mut scripted = false;
         for team in Team::ALL {
             for (id, slot) in scenario.team(*team) {
-                let Ai::Behavior(which) = slot.ai else { continue };
-                let Some(plan) = scenario.behaviors.get(which as usize) else { continue };
                 if !roster.present.get(id).copied().unwrap_or_default() {
                     continue;
                 }
-                scripted |= plan
-                    .nodes
-                    .iter()
-                    .any(|node| matches!(node, Node::Do(Do { act: Act::Script { .. }, .. })));
-                list.push(Actor::new(PlayerId(id as u8), which as usize, plan));
+                for ai in slot.played_by() {
+                    let Ai::Behavior(which) = ai else { continue };
+                    let Some(plan) = scenario.behaviors.get(which as usize) else { continue };
+                    let same =
+                        |actor: &Actor| (actor.player.index(), actor.plan) == (id, which as usize);
+                    if list.iter().any(same) {
+                        continue;
+                    }
+                    scripted |= plan
+                        .nodes
+                        .iter()
+                        .any(|node| matches!(node, Node::Do(Do { act: Act::Script { .. }, .. })));
+                    list.push(Actor::new(PlayerId(id as u8), which as usize, plan));
+                }
             }
         }
         Actors {
@@ -135,6 +142,10 @@ impl Actors {
         let plans = self.plans.clone();
         for actor in &mut self.list {
             let id = actor.player;
+            // Of several behaviours that a player may have, the episode has drawn one.
+            if game.player(id).ai != Ai::Behavior(actor.plan as u32) {
+                continue;
+            }
             game.play.acting[id.index()].chosen = None;
             if !game.player(id).active {
                 continue;

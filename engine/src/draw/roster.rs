@@ -3,7 +3,6 @@
 
 use super::{DrawKey, Drawer};
 use crate::in_place::clone_in_place;
-use crate::judge::machine::truth;
 use crate::state::PlayerId;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
@@ -94,8 +93,7 @@ impl Roster {
         let mut roster = Roster { present: [false; PLAYERS_MAX], agents: Vec::new() };
         for team in Team::ALL {
             for (id, slot) in scenario.team(*team).filter(|&(id, _)| id < PLAYERS_MAX) {
-                roster.present[id] =
-                    slot.start.present.is_none_or(|present| truth(drawer.value(present)));
+                roster.present[id] |= drawer.is_present(&slot.start);
             }
         }
         for team in Team::ALL {
@@ -131,8 +129,10 @@ impl Roster {
         team: Team,
     ) -> impl Iterator<Item = PlayerId> + 'a {
         scenario
-            .team(team)
-            .filter(|(id, slot)| slot.controllable && self.present.get(*id) == Some(&true))
+            .seats(team)
+            .filter(|(id, slots)| {
+                slots.iter().any(|slot| slot.controllable) && self.present.get(*id) == Some(&true)
+            })
             .map(|(id, _)| PlayerId(id as u8))
     }
 
@@ -195,7 +195,8 @@ pub(crate) fn player_name(scenario: &Scenario, team: Team, player: PlayerId) -> 
     slot.name.clone().unwrap_or_else(|| {
         let before = scenario
             .team(team)
-            .filter(|(id, other)| *id <= player.index() && other.role == slot.role);
+            .filter(|(id, other)| !other.instead && *id <= player.index())
+            .filter(|(_, other)| other.role == slot.role);
         format!("{team}_{}_{}", slot.role, before.count())
     })
 }

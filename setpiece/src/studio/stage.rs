@@ -115,7 +115,8 @@ impl StudioStage {
         let origins = &loaded.origins;
         let mut regions: Vec<RegionReply> = Vec::new();
         for region in &origins.regions {
-            let shape = region.shape.map(&mut |reg| drawer.register(reg).unwrap_or_default());
+            let shape =
+                region.shape.map(&mut |reg| drawer.register(reg).unwrap_or_default()).drawn();
             let name = name(region.span);
             // A named region in which something is drawn is one region.
             if !regions.iter().any(|known| known.name == name && known.shape == shape) {

@@ -73,6 +73,13 @@ impl<'w> BehaviorWriter<'_, 'w> {
         self.nodes.extend(done.map(Node::Do));
     }
 
+    /// One act, without a statement around it.
+    pub(super) fn alone(&mut self, primitive: Primitive, args: &'w [Arg], span: Span) {
+        let act = self.drawing(|writer| writer.act(primitive, args, span));
+        let alone = |act| Node::Do(Do { act, sprint: false, until: None, seconds: None });
+        self.nodes.extend(act.map(alone));
+    }
+
     fn refuse_sprint(&self, stmt: &DoStmt, what: &str) {
         let Some(at) = stmt.sprinting else { return };
         let runs: Vec<&str> =

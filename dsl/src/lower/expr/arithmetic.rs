@@ -455,6 +455,10 @@ impl<'w> Lower<'_, 'w> {
         } else {
             (x.clone(), y.clone())
         };
+        if let (Repr::Region(x), Repr::Region(y)) = (&x.repr, &y.repr) {
+            let either = RegionValue::Either(c, x.clone(), y.clone());
+            return Value { ty, repr: Repr::Region(Arc::new(either)) };
+        }
         let (p, q) = (x.regs(), y.regs());
         let picked: Vec<Reg> = p.iter().zip(&q).map(|(&p, &q)| self.code.select(c, p, q)).collect();
         match (picked.as_slice(), p.len() == q.len()) {

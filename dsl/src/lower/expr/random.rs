@@ -149,37 +149,53 @@ impl<'w> Lower<'_, 'w> {
         self.imply(any, &Implied::AnyWeight { text: self.world.text(span) }, Some(span));
     }
 
-    /// `choice(a, b, c)`, `choice(a: 3, b: 1)`
-    pub(super) fn choice(&mut self, args: &'w [Arg], span: Span) -> Value<'w> {
+    /// Draws one of the arguments of a `choice` by its index; `read` is called for each of them.
+    /// `None` after a report.
+    pub(crate) fn pick(
+        &mut self,
+        args: &'w [Arg],
+        span: Span,
+        read: &mut dyn FnMut(&mut Self, &'w Expr),
+    ) -> Option<Reg> {
         if !self.may_draw(Function::Choice, span) {
-            return Value::error();
+            return None;
         }
         if args.is_empty() {
-            return self.fail(Problem::new(span, Chance::NoChoices));
+            self.report(Problem::new(span, Chance::NoChoices));
+            return None;
         }
         let weighted = args.iter().any(|arg| arg.key.is_some());
         if let Some(bare) = args.iter().find(|arg| weighted && arg.key.is_none()) {
-            return self.fail(Problem::new(bare.span, Chance::WeightMissing));
+            self.report(Problem::new(bare.span, Chance::WeightMissing));
+            return None;
         }
         let mut weights = Vec::new();
-        let mut options: Vec<(Value<'w>, &'w Expr)> = Vec::new();
         for arg in args {
             let (option, weight) = match &arg.key {
                 Some(key) => (key, self.want_reg(&arg.value, Ty::Number)),
                 None => (&arg.value, self.code.constant(1.0)),
             };
-            options.push((self.expr(option), option));
+            read(self, option);
             weights.push(weight);
-        }
-        if options.iter().any(|(value, _)| value.is_error()) {
-            return Value::error();
         }
         if weighted {
             let given: Vec<(Reg, Span)> =
                 weights.iter().zip(args).map(|(reg, arg)| (*reg, arg.value.span)).collect();
             self.check_weights(&given, span);
         }
-        let index = self.random(Distribution::Weighted(weights));
+        Some(self.random(Distribution::Weighted(weights)))
+    }
+
+    /// `choice(a, b, c)`, `choice(a: 3, b: 1)`
+    pub(super) fn choice(&mut self, args: &'w [Arg], span: Span) -> Value<'w> {
+        let mut options: Vec<(Value<'w>, &'w Expr)> = Vec::new();
+        let index = self.pick(args, span, &mut |lower, option| {
+            options.push((lower.expr(option), option));
+        });
+        let Some(index) = index else { return Value::error() };
+        if options.iter().any(|(value, _)| value.is_error()) {
+            return Value::error();
+        }
         let mut options = options.into_iter().enumerate().rev();
         let Some((_, (mut picked, mut picked_at))) = options.next() else { return Value::error() };
         for (i, (option, at)) in options {
@@ -243,10 +259,14 @@ impl<'w> Lower<'_, 'w> {
             return self.fail(Problem::new(span, Chance::AlternateInConstant));
         }
         let (x, y) = (self.expr(a), self.expr(b));
+        let even = self.is_even_episode();
+        self.choose(even, (&x, a), (&y, b))
+    }
+
+    pub(crate) fn is_even_episode(&mut self) -> Reg {
         let (index, two) = (self.code.episode_index(), self.code.constant(2.0));
         let odd = self.code.binary(BinaryOp::Mod, index, two);
-        let even = self.code.unary(UnaryOp::Not, odd);
-        self.choose(even, (&x, a), (&y, b))
+        self.code.unary(UnaryOp::Not, odd)
     }
 
     /// Draws from the stream of what is being drawn: its name and the draw's ordinal in it.

@@ -242,6 +242,10 @@ impl<'w> Lower<'_, 'w> {
                 let outside = self.code.unary(UnaryOp::Not, b);
                 self.code.binary(BinaryOp::And, a, outside)
             }
+            RegionValue::Either(condition, a, b) => {
+                let (a, b) = (self.inside(place, a), self.inside(place, b));
+                self.code.select(*condition, a, b)
+            }
         }
     }
 

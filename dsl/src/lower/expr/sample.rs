@@ -82,7 +82,9 @@ impl Lower<'_, '_> {
                 let (xs, ys): (Vec<Reg>, Vec<Reg>) = corners.iter().copied().unzip();
                 Some([hull(&xs)?, hull(&ys)?])
             }
-            RegionValue::Union(a, b) => both(a, b, |a, b| (a.0.min(b.0), a.1.max(b.1))),
+            RegionValue::Union(a, b) | RegionValue::Either(_, a, b) => {
+                both(a, b, |a, b| (a.0.min(b.0), a.1.max(b.1)))
+            }
             RegionValue::Intersection(a, b) => both(a, b, |a, b| (a.0.max(b.0), a.1.min(b.1))),
             RegionValue::Difference(a, _) => self.bounds(a),
         }
@@ -110,6 +112,20 @@ impl Lower<'_, '_> {
                 Some(self.accepting(drawn, outside))
             }
             RegionValue::Union(..) => self.draw_in_union(region, span),
+            RegionValue::Either(condition, a, b) => {
+                let (a, b) = (self.candidate(a, span)?, self.candidate(b, span)?);
+                let place = (
+                    self.code.select(*condition, a.place.0, b.place.0),
+                    self.code.select(*condition, a.place.1, b.place.1),
+                );
+                if a.accepted.is_none() && b.accepted.is_none() {
+                    return direct(place);
+                }
+                let yes = self.code.bool(true);
+                let (a, b) = (a.accepted.unwrap_or(yes), b.accepted.unwrap_or(yes));
+                let accepted = self.code.select(*condition, a, b);
+                Some(Candidate { place, accepted: Some(accepted) })
+            }
         }
     }
 
@@ -198,6 +214,10 @@ impl Lower<'_, '_> {
                 }
             }
             RegionValue::Difference(a, _) => self.drawn_area(a),
+            RegionValue::Either(condition, a, b) => {
+                let (a, b) = (self.drawn_area(a), self.drawn_area(b));
+                self.code.select(*condition, a, b)
+            }
             RegionValue::Union(a, b) => {
                 let (a, b) = (self.drawn_area(a), self.drawn_area(b));
                 self.code.binary(BinaryOp::Add, a, b)

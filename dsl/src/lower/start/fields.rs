@@ -123,7 +123,7 @@ impl<'w> Lower<'_, 'w> {
     /// Whoever is too far from the ball doesn't have it.
     fn check_owner(&mut self, owner: Reg, ball: (Reg, Reg), at: Span) {
         let Some(index) = self.roster_index(owner) else { return };
-        let place = self.place_of_rostered(index, at);
+        let place = self.place_of_seat(index, at);
         let [Some(x), Some(y), Some(ball_x), Some(ball_y)] =
             [place.0, place.1, ball.0, ball.1].map(|reg| self.code.constant_of(reg))
         else {

@@ -26,7 +26,7 @@ type Situation = Vec<(Reg, Reg)>;
 pub(super) fn check_places(
     lower: &mut Lower<'_, '_>,
     places: &[(Reg, Reg)],
-    options: &[PlayerOptions],
+    options: &[PlayerOptions<'_>],
     ball: Option<&BallStart>,
 ) {
     if let (Some(ball), Some((kind, span))) = (ball, lower.said_place()) {
@@ -167,7 +167,7 @@ fn check_pair(
     lower: &mut Lower<'_, '_>,
     situation: &Situation,
     (a, b): (usize, usize),
-    options: &[PlayerOptions],
+    options: &[PlayerOptions<'_>],
     nth: usize,
 ) -> Option<Reg> {
     let (one, other) = (options.get(a)?, options.get(b)?);

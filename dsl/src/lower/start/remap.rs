@@ -81,6 +81,7 @@ pub(super) fn map_start(start: &Start, f: &mut dyn FnMut(Reg) -> Reg) -> Start {
 pub(super) fn map_slot(slot: &PlayerSlot, f: &mut dyn FnMut(Reg) -> Reg) -> PlayerSlot {
     let s = &slot.start;
     PlayerSlot {
+        sometimes: slot.sometimes.iter().map(|(when, ai)| (f(*when), *ai)).collect(),
         stats: slot.stats.iter().map(|(stat, reg)| (*stat, f(*reg))).collect(),
         start: PlayerStart {
             x: f(s.x),

@@ -257,7 +257,7 @@ facts! {
 const OTHER_NAME: &str = "choose another name for one of them";
 const LEAVE_ONE_OUT: &str = "leave one of them out";
 const NO_CIRCLE: &str = "give one of the circle a value of its own";
-const WHO_PLAYS: &str = "it can be `bot`, `hold`, `lazy`, a `behavior` or `script \"file.rhai\"`";
+const WHO_PLAYS: &str = "it can be `bot`, `hold`, `lazy`, an act such as `press`, a `behavior` or `script \"file.rhai\"`";
 
 /// The kinds of names that have a list of their own.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -155,7 +155,7 @@ facts! {
         /// `ai` is no name.
         NoAi = Code::WrongType =>
             say("expected who plays the player", "")
-                .help("write `ai: bot`, `ai: hold`, `ai: lazy`, a behavior or `ai: script \"file.rhai\"`"),
+                .help("write `ai: bot`, `ai: hold`, `ai: lazy`, an act such as `ai: press`, a behavior or `ai: script \"file.rhai\"`"),
         /// `score` is no list.
         NoScore = Code::WrongType => say("expected the goals of both teams", "").help("write `score: [1, 0]`"),
         /// `spin` is no triple.

@@ -76,6 +76,8 @@ pub enum ItemKind {
     Fn(FnItem),
     /// `region NAME [(…)] = …`
     Region(FnItem),
+    /// `table NAME [over REGION] = …`
+    Table(TableItem),
     /// `ending NAME [(…)] = …`
     Ending(FnItem),
     /// `behavior NAME …`
@@ -100,6 +102,7 @@ impl ItemKind {
             ItemKind::Const(_) => "a constant",
             ItemKind::Fn(_) => "a function",
             ItemKind::Region(_) => "a region",
+            ItemKind::Table(_) => "a table",
             ItemKind::Ending(_) => "an ending",
             ItemKind::Behavior(_) => "a behavior",
             ItemKind::Suite(_) => "a suite",
@@ -119,12 +122,33 @@ impl ItemKind {
             ItemKind::Behavior(item) => &item.params,
             ItemKind::Import { .. }
             | ItemKind::Const(_)
+            | ItemKind::Table(_)
             | ItemKind::Suite(_)
             | ItemKind::Check(_)
             | ItemKind::Curriculum(_)
             | ItemKind::Broken => &[],
         }
     }
+}
+
+/// A table of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableItem {
+    /// Its name.
+    pub name: Ident,
+    /// The part of the pitch that it covers; all of it if absent.
+    pub over: Option<Expr>,
+    /// Its numbers.
+    pub rows: TableRows,
+}
+
+/// Where a table's numbers come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TableRows {
+    /// A list of lists.
+    Written(Expr),
+    /// A file of comma-separated values.
+    File(Spanned<String>),
 }
 
 /// A scenario.

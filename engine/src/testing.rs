@@ -275,7 +275,7 @@ pub(crate) fn checkpoints() -> Reward {
         name: "checkpoints".to_owned(),
         doc: String::new(),
         body: RewardBody {
-            init: Program { code: Vec::new(), cells: 1 },
+            init: Program { code: Vec::new(), cells: 1, ..Program::default() },
             step: code.program,
             terms: vec!["region".to_owned(), "rest".to_owned()],
             hooks: Vec::new(),

@@ -117,11 +117,12 @@ module.exports = grammar({
     // ---------------------------------------------------------------- items
 
     _item: ($) => choice(
-      $.import, $.scenario, $.reward, $.formation, $.constant, $.function, $.region, $.ending, $.behavior, $.suite, $.check, $.curriculum,
+      $.import, $.scenario, $.reward, $.formation, $.constant, $.function, $.region, $.table, $.ending, $.behavior, $.suite, $.check, $.curriculum,
     ),
     import: ($) => seq("import", $.string, optional(seq("as", $.identifier))),
     constant: ($) => seq("const", field("name", $.identifier), optional($._annotation), "=", $._value),
     function: ($) => seq("fn", field("name", $.identifier), $.parameters, optional(seq("->", $._type)), "=", $._value),
+    table: ($) => seq("table", field("name", $.identifier), optional(seq("over", $._expression)), choice(seq("from", $.string), seq("=", $._expression))),
     region: ($) => seq("region", field("name", $.identifier), optional($.parameters), "=", $._expression),
     ending: ($) => seq("ending", field("name", $.identifier), optional($.parameters), "=", $._expression),
     behavior: ($) => seq("behavior", field("name", $.identifier), optional($.parameters), choice($.script, $.opaque)),

@@ -221,6 +221,7 @@ impl Counts {
     fn of_loop(&self, over: &Over, code: &[Instr]) -> u64 {
         match over {
             Over::Events(_) => EVENTS_MAX as u64,
+            Over::Numbers(number) => u64::from(*number),
             Over::Players { team, .. } => match code.get(team.index()) {
                 Some(Instr::Const(team)) if *team == 0.0 => self.teams[0],
                 Some(Instr::Const(team)) if *team == 1.0 => self.teams[1],
@@ -332,6 +333,7 @@ mod tests {
         let mut program = Program {
             code: vec![Instr::Const(-1.0), each(2), each(1), Instr::Us, Instr::Us],
             cells: 0,
+            ..Program::default()
         };
         // The constant, the outer loop, 22 inner loops, 22 · 22 bodies, and what follows.
         assert_eq!(work(&program, &counts), 1 + 23 + 22 * 23 + 22 * 22 + 1);
@@ -342,7 +344,11 @@ mod tests {
     #[test]
     fn totals_never_overflow() {
         let counts = Counts { teams: [u64::MAX, 0], all: u64::MAX };
-        let program = Program { code: vec![Instr::Us, each(2), each(1), Instr::Us], cells: 0 };
+        let program = Program {
+            code: vec![Instr::Us, each(2), each(1), Instr::Us],
+            cells: 0,
+            ..Program::default()
+        };
         assert_eq!(work(&program, &counts), u64::MAX);
         assert_eq!(grouped(u64::MAX), "18,446,744,073,709,551,615");
         assert_eq!(

@@ -19,6 +19,7 @@ pub mod program;
 pub mod scenario;
 #[cfg(feature = "schema")]
 pub mod schema;
+pub mod table;
 pub mod verify;
 pub mod vocabulary;
 
@@ -34,6 +35,7 @@ pub use scenario::{
     ObservedValue, Others, PlayerSlot, PlayerStart, Record, Require, Reward, RewardBody,
     RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Switching,
 };
+pub use table::Table;
 pub use vocabulary::{
     Action, EventField, EventKind, Field, GameMode, Qualifier, Role, Rule, StartKind, Stat, Team,
     Type, Verdict,

@@ -3,8 +3,8 @@
 //! A program is straight-line code over `f64` registers. **Instruction `i` writes register `i`**
 //! and reads only earlier ones. So a program needs no register allocation, shares equal
 //! subexpressions, and can be checked in one pass ([`crate::verify`]). The only control flow is
-//! [`Instr::Each`], which runs the instructions after it once per player or event. Their number is
-//! bounded, so every program ends.
+//! [`Instr::Each`], which runs the instructions after it once per player, event or number. Their
+//! number is bounded, so every program ends.
 //!
 //! - Booleans are 0 and 1, teams 0 (left), 1 (right) and -1 (none), players are ids `team * 11 +
 //!   index` or -1 (nobody).
@@ -18,6 +18,7 @@
 //! - On the start state of an episode a step program runs once *silently*: temporal instructions
 //!   see it, but effects don't happen.
 
+use crate::table::Table;
 use crate::vocabulary::{EventField, EventKind, Field, Qualifier};
 use serde::{Deserialize, Serialize};
 
@@ -43,6 +44,9 @@ pub struct Program {
     pub code: Vec<Instr>,
     /// Number of memory cells, all 0 at reset until `init` code assigns them.
     pub cells: u32,
+    /// Its tables of numbers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tables: Vec<Table>,
 }
 
 /// The most that one `give` pays. A step's reward is a float32, which can hold hundreds of millions
@@ -90,6 +94,18 @@ pub enum Instr {
     Binary(BinaryOp, Reg, Reg),
     /// `if 0 then 1 else 2`.
     Select(Reg, Reg, Reg),
+    /// A number of one of [`Program::tables`].
+    Table {
+        /// Which.
+        table: u32,
+        /// Share of its length.
+        x: Reg,
+        /// Share of its width.
+        y: Reg,
+        /// Whether it is linear between the centres of cells, else the number of the cell.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        linear: bool,
+    },
     /// Whether the episode terminates in this step: 1 or 0. The limit doesn't terminate it.
     /// Rewards and records know it; endings, which decide it, and everything else read 0.
     Terminated,
@@ -189,11 +205,11 @@ fn is_now(when: &When) -> bool {
     *when == When::Now
 }
 
-/// A loop over players or events: runs the next `body` instructions once per element.
+/// A loop over players, events or numbers: runs the next `body` instructions once per element.
 ///
-/// While the body runs, the register of the `Each` itself holds the element (a player id, or the
-/// event's number). Afterwards it holds the result of the fold. Registers written in the body may
-/// only be read in the body.
+/// While the body runs, the register of the `Each` itself holds the element (a player id, an
+/// event's number, a number). Afterwards it holds the result of the fold. Registers written in the
+/// body may only be read in the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Each {
@@ -220,6 +236,8 @@ pub enum Over {
     },
     /// The events of this step that match a filter.
     Events(EventFilter),
+    /// The numbers from 0 on, this many.
+    Numbers(u32),
 }
 
 /// A filter for events.
@@ -407,7 +425,8 @@ impl Program {
                 | Instr::Let(_)
                 | Instr::EpisodeIndex
                 | Instr::Binary(..)
-                | Instr::Select(..) => true,
+                | Instr::Select(..)
+                | Instr::Table { .. } => true,
                 _ => false,
             };
             instr.operands(&mut |reg| all &= fixed.get(reg.index()).copied().unwrap_or_default());
@@ -458,6 +477,10 @@ impl Instr {
                 f(*b);
                 f(*c);
             }
+            Instr::Table { x, y, .. } => {
+                f(*x);
+                f(*y);
+            }
             Instr::Load { of, .. } => of.iter().for_each(|&reg| f(reg)),
             Instr::Each(each) => match &each.over {
                 Over::Players { team, except } => {
@@ -466,6 +489,7 @@ impl Instr {
                         f(*reg);
                     }
                 }
+                Over::Numbers(_) => {}
                 Over::Events(filter) => {
                     for who in filter.by.iter().chain(&filter.to) {
                         match who {

@@ -8,6 +8,7 @@ use crate::bounds::{self, NAME_MAX_BYTES};
 use crate::pitch::TEAM_MAX;
 use crate::program::{Fold, Instr, Program, Reg};
 use crate::scenario::{Ai, RewardBody, Scenario, SideAgents};
+use crate::table::TABLE_MAX;
 use crate::vocabulary::{Owner, Team};
 
 /// The most instructions of one program.
@@ -183,6 +184,15 @@ fn verify_program(
     if program.code.len() > CODE_MAX || program.cells as usize > CODE_MAX {
         return Err("too large".to_owned());
     }
+    for table in &program.tables {
+        let whole = table.columns > 0
+            && !table.values.is_empty()
+            && table.values.len() <= TABLE_MAX
+            && table.values.len().is_multiple_of(table.columns as usize);
+        if !whole || table.values.iter().any(|value| !value.is_finite()) {
+            return Err("a table is not a rectangle of finite numbers".to_owned());
+        }
+    }
     // Ends of the bodies around the current instruction, innermost last.
     let mut open: Vec<(usize, usize, Fold, bool)> = Vec::new();
     for (at, instr) in program.code.iter().enumerate() {
@@ -204,6 +214,7 @@ fn verify_program(
             (Instr::Const(value), _) if !value.is_finite() => {
                 return Err(format!("constant {at} is not finite"));
             }
+            (Instr::Table { table, .. }, _) => below("table", *table, program.tables.len())?,
             (Instr::Param(param), _) => below("parameter", *param, n_params)?,
             (Instr::Let(_), ProgramPlace::Start) => {
                 return Err("a `let` is read in the start itself".to_owned());

@@ -47,12 +47,12 @@ fn nested(instructions: usize) -> Program {
         code.push(Instr::Each(Box::new(Each { over, body: (instructions + depth) as u32, fold })));
     }
     code.extend(std::iter::repeat_n(Instr::Us, instructions));
-    Program { code, cells: 0 }
+    Program { code, cells: 0, ..Program::default() }
 }
 
 #[test]
 fn memory_is_bounded_over_all_parts() {
-    let cells = |n: u32| Program { code: vec![Instr::Us], cells: n };
+    let cells = |n: u32| Program { code: vec![Instr::Us], cells: n, ..Program::default() };
     let report = refused(|scenario| scenario.records = vec![record(cells(100_000)); 500]);
     assert!(report.contains(" memory cells, where a scenario may have 100,000"), "{report}");
     let report = refused(|scenario| {
@@ -60,7 +60,7 @@ fn memory_is_bounded_over_all_parts() {
         scenario.rewards = vec![Reward { name: "r".to_owned(), doc: String::new(), body }];
     });
     assert!(report.contains("memory cells"), "{report}");
-    let long = Program { code: vec![Instr::Us; 90_000], cells: 0 };
+    let long = Program { code: vec![Instr::Us; 90_000], cells: 0, ..Program::default() };
     let report = refused(|scenario| scenario.records = vec![record(long.clone()); 3]);
     assert!(
         report.contains(&format!("instructions, where a scenario may have {}", "200,000")),

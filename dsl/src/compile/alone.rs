@@ -21,6 +21,7 @@ impl<'a> Compilation<'a> {
                 ItemKind::Fn(item) | ItemKind::Region(item) | ItemKind::Ending(item) => {
                     !self.unused.is_used(item.name.span)
                 }
+                ItemKind::Table(item) => !self.unused.is_used(item.name.span),
                 ItemKind::Formation(item) => !self.unused.is_used(item.name.span),
                 // Every scenario lowers those that it can, used or not.
                 ItemKind::Behavior(item) => !has_scenario && !self.unused.is_used(item.name.span),

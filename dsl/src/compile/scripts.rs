@@ -1,9 +1,9 @@
-//! Finds and loads every script that the files name.
+//! Finds and loads every script and table that the files name.
 
 use crate::ast::{
     BehaviorBody, BehaviorStmt, BehaviorStmtKind, DoStmt, DoWhat, EndCondition, EndStmt,
     FieldValue, GiveStmt, GiveValue, ItemKind, RewardStmt, RewardStmtKind, RewardUseKind,
-    ScenarioStmtKind, ScriptRef, ScriptSource, TeamStmt, TeamStmtKind,
+    ScenarioStmtKind, ScriptRef, ScriptSource, TableItem, TableRows, TeamStmt, TeamStmtKind,
 };
 use crate::lower::loaded_scripts::LoadedScripts;
 use crate::problem::Problem;
@@ -11,14 +11,14 @@ use crate::problem::facts::Files;
 use crate::resolve::Library;
 use crate::source::{Source, SourceLoader};
 
-/// Loads every script that a file names, so that reports can show its text.
+/// Loads every script and table that a file names, so that reports can show its text.
 pub(super) fn load(
     library: &mut Library,
     scripts: &mut LoadedScripts<'_>,
     loader: &dyn SourceLoader,
     problems: &mut Vec<Problem>,
 ) {
-    let mut named = Vec::new();
+    let (mut named, mut tables) = (Vec::new(), Vec::new());
     for item in library.files.iter().flat_map(|file| &file.items) {
         match &item.kind {
             ItemKind::Formation(formation) => of_team(&formation.body, &mut named),
@@ -27,6 +27,7 @@ pub(super) fn load(
                 BehaviorBody::Block(body) => of_behavior(body, &mut named),
                 BehaviorBody::Script(script) => named.push(script),
             },
+            ItemKind::Table(TableItem { rows: TableRows::File(path), .. }) => tables.push(path),
             ItemKind::Scenario(scenario) => {
                 for stmt in &scenario.body {
                     match &stmt.kind {
@@ -47,8 +48,13 @@ pub(super) fn load(
             _ => {}
         }
     }
-    for script in named {
-        let ScriptSource::File(path) = &script.source else { continue };
+    let of_script = |script: &'_ ScriptRef| match &script.source {
+        ScriptSource::File(path) => Some(path.clone()),
+        ScriptSource::Inline(_) => None,
+    };
+    let files: Vec<_> =
+        named.into_iter().filter_map(of_script).chain(tables.into_iter().cloned()).collect();
+    for path in &files {
         if let Some(limit) = scripts.limit() {
             problems.push(Problem::new(path.span, Files::TooManyScripts { limit }));
             break;

@@ -63,6 +63,7 @@ impl Unused {
                 ItemKind::Const(binding) => (Declared::Const, &binding.name),
                 ItemKind::Fn(item) => (Declared::Function, &item.name),
                 ItemKind::Region(item) => (Declared::Region, &item.name),
+                ItemKind::Table(item) => (Declared::Table, &item.name),
                 ItemKind::Ending(item) => (Declared::Ending, &item.name),
                 ItemKind::Formation(item) => (Declared::Formation, &item.name),
                 ItemKind::Behavior(item) => (Declared::Behavior, &item.name),

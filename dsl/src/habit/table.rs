@@ -224,8 +224,16 @@ pub(super) const HABITS: &[Habit] = &[
         "a body stands between braces: `{ … }`",
     ),
     // Brackets.
-    row(Reward, "_ | [ _", "a list has no entries by number: write `if {2} == 0 then … else …`"),
-    row(Reward, "_ | [", "a list has no entries by number: give each value a name"),
+    row(
+        Reward,
+        "_ | [ _",
+        "a `table` is looked up at a place: `{1}(ball)`; a list has no numbers of entries",
+    ),
+    row(
+        Reward,
+        "_ | [",
+        "a `table` is looked up at a place: `{1}(ball)`; a list has no numbers of entries",
+    ),
     row(Anywhere, "ROLE | (", "write `{1} at (…)`"),
     row(Anywhere, "ball | (", "write `ball at (…)`"),
     row(Anywhere, "EVENT | ( left¦right¦us¦them¦me )", "write `{1} by {2}`"),

@@ -32,6 +32,10 @@ pub(crate) fn check_alone<'w>(step: &StepWorld<'_, 'w>, item: &'w Item) -> Vec<P
         }),
         ItemKind::Fn(item) => as_called(step, item, None, LiteralFrame::Own),
         ItemKind::Region(item) => as_called(step, item, Some(Ty::Region), LiteralFrame::World),
+        ItemKind::Table(item) => found_by(step, || {
+            let mut lower = Caller::Reward.program(step);
+            lower.table_of(item);
+        }),
         ItemKind::Ending(item) => found_by(step, || ending::lower_alone(step, item)),
         ItemKind::Reward(item) => found_by(step, || reward::lower_alone(step, item)),
         ItemKind::Behavior(item) => found_by(step, || behavior::lower_alone(step, item)),

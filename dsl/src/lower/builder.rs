@@ -7,9 +7,10 @@
 
 mod layout;
 
+use crate::ast::Span;
 use setpiece_scenario::{
-    BinaryOp, Distribution, Each, EventField, Field, Fold, FoldKind, Instr, Over, Reg, UnaryOp,
-    When,
+    BinaryOp, Distribution, Each, EventField, Field, Fold, FoldKind, Instr, Over, Reg, Table,
+    UnaryOp, When,
 };
 use std::collections::HashMap;
 
@@ -48,6 +49,7 @@ enum Key {
     Unary(UnaryOp, u32),
     Binary(BinaryOp, u32, u32),
     Select(u32, u32, u32),
+    Table(u32, u32, u32, bool),
     Load(Field, Option<u32>, When),
     Event(usize),
     /// A cell and how often it had been written.
@@ -81,6 +83,8 @@ pub(crate) struct Builder {
     blocks: Vec<CodeBlock>,
     open: Vec<BlockId>,
     writes: Vec<u32>,
+    /// The tables and where they are declared.
+    tables: Vec<(Span, Table)>,
 }
 
 /// Where the virtual registers went.
@@ -101,6 +105,7 @@ impl Builder {
             blocks: vec![CodeBlock::default(), CodeBlock::default()],
             open: vec![ROOT],
             writes: Vec::new(),
+            tables: Vec::new(),
         }
     }
 
@@ -294,6 +299,36 @@ impl Builder {
             None => {}
         }
         self.shared(self.block_of(&[c, a, b]), Key::Select(c.0, a.0, b.0), Instr::Select(c, a, b))
+    }
+
+    /// A table of the program by its declaration.
+    pub(crate) fn known_table(&self, declared: Span) -> Option<u32> {
+        let known = self.tables.iter().position(|(at, _)| *at == declared);
+        known.map(|known| known as u32)
+    }
+
+    /// Adds a table.
+    pub(crate) fn add_table(&mut self, declared: Span, table: Table) -> u32 {
+        self.tables.push((declared, table));
+        self.tables.len() as u32 - 1
+    }
+
+    /// The numbers of one of its tables.
+    pub(crate) fn numbers_of(&self, table: u32) -> &[f64] {
+        self.tables.get(table as usize).map_or(&[], |(_, table)| &table.values)
+    }
+
+    /// A number of a table at the shares of its length and width.
+    pub(crate) fn look_up(&mut self, table: u32, (x, y): (Reg, Reg), linear: bool) -> Reg {
+        if let (Some((_, known)), Some(x), Some(y)) =
+            (self.tables.get(table as usize), self.constant_of(x), self.constant_of(y))
+        {
+            let value = if linear { known.between(x, y) } else { known.at(x, y) };
+            return self.constant(value);
+        }
+        let block = self.block_of(&[x, y]);
+        let key = Key::Table(table, x.0, y.0, linear);
+        self.shared(block, key, Instr::Table { table, x, y, linear })
     }
 
     /// A number of the match.

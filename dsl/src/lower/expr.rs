@@ -5,6 +5,7 @@ mod call;
 mod episode;
 mod event;
 mod function;
+mod grid;
 mod member;
 mod name;
 mod random;

@@ -84,6 +84,13 @@ impl Search<'_> {
                 NEVER
             }
             Instr::Binary(op, a, b) => binary(*op, of(*a)?, of(*b)?)?,
+            Instr::Table { table, .. } => {
+                let numbers = self.code.numbers_of(*table).iter();
+                numbers.fold(None, |found: Option<Interval>, &number| {
+                    let (low, high) = found.unwrap_or((number, number));
+                    Some((low.min(number), high.max(number)))
+                })?
+            }
             Instr::Load { field: Field::Elapsed | Field::Remaining, .. } => {
                 (0.0, in_play?.longest?)
             }

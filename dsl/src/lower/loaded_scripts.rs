@@ -44,6 +44,12 @@ impl<'a> LoadedScripts<'a> {
         larger.then_some(ScriptLimit::Bytes(MAX_IMPORTED_BYTES))
     }
 
+    /// A file that was named, if the compilation came so far.
+    pub(super) fn find(&self, from: FileId, path: &str) -> Option<&Result<FileId, LoadError>> {
+        let mut loaded = self.loaded.iter();
+        loaded.find(|known| known.from == from && known.path == path).map(|known| &known.found)
+    }
+
     /// Takes a script to be checked; says why it can't be.
     pub(super) fn take(&self, text: &str) -> Result<(), Files> {
         if text.len() > SCRIPT_MAX_BYTES {

@@ -179,7 +179,7 @@ fn lower_script<'w>(
     let weight = weight.map(|weight| lower.want_reg(weight, Ty::Number));
     let hooks = RewardWriter::script_alone(&mut lower, script, weight);
     let (step, _) = lower.code.finish(&[]);
-    let init = Program { code: Vec::new(), cells: step.cells };
+    let init = Program { code: Vec::new(), cells: step.cells, ..Program::default() };
     let body = RewardBody { init, step, terms: vec![SCRIPT_TERM.to_owned()], hooks };
     Reward { name: name.to_owned(), doc: String::new(), body }
 }

@@ -2,7 +2,7 @@
 
 use super::value::{LocalName, Repr, Value};
 use super::{Lower, World};
-use crate::ast::{ParamDecl, ScriptRef, ScriptSource, Span};
+use crate::ast::{ParamDecl, ScriptRef, ScriptSource, Span, Spanned};
 use crate::check::types::Ty;
 use crate::problem::Problem;
 use crate::problem::facts::{Files, Types};
@@ -56,6 +56,19 @@ fn script_type(value: &Value<'_>) -> Option<Type> {
     }
 }
 
+/// A file that stands beside the text; `None` after a report.
+pub(super) fn named_file(world: &World<'_>, path: &Spanned<String>) -> Option<FileId> {
+    match world.scripts_loaded.find(path.span.file, &path.node)? {
+        Ok(file) => Some(*file),
+        Err(error) => {
+            let (why, similar) = (error.message.clone(), error.similar.first().cloned());
+            let fact = Files::Missing { why, similar, is_script: true };
+            world.report(Problem::new(path.span, fact));
+            None
+        }
+    }
+}
+
 /// Embeds a script and gives its place in the scenario; `None` after a report. `own` are the names
 /// that its hook finds among the scenario's parameters.
 pub(crate) fn embed(
@@ -66,24 +79,9 @@ pub(crate) fn embed(
 ) -> Option<u32> {
     let (name, source, text_at) = match &script.source {
         ScriptSource::File(path) => {
-            let loaded = world.scripts_loaded.loaded.iter();
-            let found = loaded
-                .into_iter()
-                .find(|known| known.from == path.span.file && known.path == path.node)?;
-            match &found.found {
-                Ok(file) => {
-                    let source = world.library.sources.get(*file)?;
-                    (path.node.clone(), source.clone(), (*file, 0))
-                }
-                Err(error) => {
-                    let (why, similar) = (error.message.clone(), error.similar.first().cloned());
-                    world.report(Problem::new(
-                        path.span,
-                        Files::Missing { why, similar, is_script: true },
-                    ));
-                    return None;
-                }
-            }
+            let file = named_file(world, path)?;
+            let source = world.library.sources.get(file)?;
+            (path.node.clone(), source.clone(), (file, 0))
         }
         ScriptSource::Inline(text) => {
             let name = format!(

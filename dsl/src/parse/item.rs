@@ -4,7 +4,8 @@ use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
     BehaviorBody, BehaviorItem, Binding, CheckItem, CurriculumItem, Domain, FnItem, FormationItem,
-    Ident, Item, ItemKind, ParamDecl, Ref, RewardItem, ScenarioItem, SuiteItem,
+    Ident, Item, ItemKind, ParamDecl, Ref, RewardItem, ScenarioItem, SuiteItem, TableItem,
+    TableRows,
 };
 use crate::source::Span;
 use pest::iterators::Pairs;
@@ -91,6 +92,20 @@ impl Reader<'_> {
                     BehaviorBody::Block(self.behavior_body(body))
                 };
                 ItemKind::Behavior(BehaviorItem { name, params, body })
+            }
+            Rule::table => {
+                let name = nodes.seek(Rule::ident).map(|name| self.callable_name(&name))?;
+                let over = if nodes.eat(Rule::kw_over) { nodes.next() } else { None };
+                let over = over.map(|over| self.expr(over));
+                nodes.eat(Rule::equals);
+                let rows = nodes.next()?;
+                let rows = if rows.as_rule() == Rule::table_file {
+                    let path = CstNodes::of(rows).seek(Rule::string)?;
+                    TableRows::File(self.string(&path))
+                } else {
+                    TableRows::Written(self.expr(rows))
+                };
+                ItemKind::Table(TableItem { name, over, rows })
             }
             Rule::suite => {
                 let name = nodes.seek(Rule::ident).map(|name| self.ident(&name))?;

@@ -27,6 +27,7 @@ mod scenario;
 mod scope;
 mod start;
 mod syntax;
+mod tables;
 mod types;
 
 pub(crate) use behaviors::Behaviors;
@@ -45,6 +46,7 @@ pub(crate) use scenario::{Declared, Whole};
 pub(crate) use scope::{BeforeOutside, Scopes, ViewOutside};
 pub(crate) use start::Starts;
 pub(crate) use syntax::{Hint, Syntax, UnitGuess};
+pub(crate) use tables::Tables;
 pub(crate) use types::{Instead, Operand, Types, Use, Verb};
 
 use super::Code;
@@ -140,6 +142,8 @@ subjects! {
     Plans,
     /// Imports and scripts.
     Files,
+    /// Tables.
+    Tables,
     /// Syntax.
     Syntax,
     /// Brackets, strings and comments.

@@ -482,6 +482,7 @@ fn item_name(item: &Item) -> Option<&Ident> {
         ItemKind::Const(binding) => Some(&binding.name),
         ItemKind::Fn(f) | ItemKind::Region(f) | ItemKind::Ending(f) => Some(&f.name),
         ItemKind::Behavior(behavior) => Some(&behavior.name),
+        ItemKind::Table(table) => Some(&table.name),
         ItemKind::Suite(suite) => Some(&suite.name),
         ItemKind::Curriculum(curriculum) => Some(&curriculum.name),
         // Its name is a sentence, which nothing refers to.

@@ -36,7 +36,7 @@ fn script_reward(source: &str) -> Scenario {
         name: "own".to_owned(),
         doc: String::new(),
         body: RewardBody {
-            init: Program { code: Vec::new(), cells: 1 },
+            init: Program { code: Vec::new(), cells: 1, ..Program::default() },
             step: Program {
                 code: vec![
                     Instr::Cell(0),
@@ -45,6 +45,7 @@ fn script_reward(source: &str) -> Scenario {
                     Instr::Give { term: 0, value: Reg(2), guard: None },
                 ],
                 cells: 1,
+                ..Program::default()
             },
             terms: vec!["script".to_owned()],
             hooks: vec![RewardHook { script: 0, cell: 0, args: Vec::new() }],

@@ -6,12 +6,12 @@
 //! running allocates nothing; registers and cells belong to the caller. Programs must have passed
 //! [`setpiece_scenario::verify`].
 
+mod chance;
 mod fold;
 mod plan;
 
 use crate::in_place::clone_in_place;
 use crate::judge::view::{Sight, ids, player_number, team_number, team_of_number};
-use crate::random::Stream;
 use crate::state::PlayerId;
 use crate::state::event::Event;
 use fold::Folding;
@@ -21,9 +21,7 @@ pub use setpiece_scenario::operators::truth;
 use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Qualifier, Team};
-use setpiece_scenario::{
-    BinaryOp, Distribution, EventFilter, Instr, Over, Program, Reg, UnaryOp, When, Who,
-};
+use setpiece_scenario::{BinaryOp, EventFilter, Instr, Over, Program, Reg, UnaryOp, When, Who};
 use std::array;
 use std::sync::Arc;
 
@@ -298,6 +296,16 @@ impl<const W: usize> Machine<'_, W> {
                 let (c, a, b) = (self.lanes::<N>(*c), self.lanes::<N>(*a), self.lanes::<N>(*b));
                 array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] })
             }
+            Instr::Table { table, x, y, linear } => {
+                let (x, y) = (self.lanes::<N>(*x), self.lanes::<N>(*y));
+                let Some(table) = self.plan.tables.get(*table as usize) else {
+                    return [f64::NAN; N];
+                };
+                array::from_fn(|lane| {
+                    let (x, y) = (x[lane], y[lane]);
+                    if *linear { table.between(x, y) } else { table.at(x, y) }
+                })
+            }
             Instr::Terminated => [f64::from(u8::from(input.terminated)); N],
             Instr::Us => [input.us.index() as f64; N],
             Instr::Me => array::from_fn(|lane| self.crew.players[lane]),
@@ -466,6 +474,12 @@ impl<const W: usize> Machine<'_, W> {
                     }
                 }
             }
+            Over::Numbers(count) => {
+                for number in 0..*count {
+                    let number = (f64::from(number), None);
+                    self.element(each, at, number, (&around, &[true; W]), &mut folding);
+                }
+            }
         }
         self.crew.seated = around;
         folding.result()
@@ -487,47 +501,6 @@ impl<const W: usize> Machine<'_, W> {
         let guard = each.fold.guard.map_or([true; N], |guard| self.lanes::<N>(guard).map(truth));
         let value = each.fold.value.map_or([0.0; N], |value| self.lanes::<N>(value));
         folding.add(element, array::from_fn(|lane| taken[lane] & guard[lane]), value);
-    }
-
-    /// Draws from the stream of a key; the distribution's registers have their current values.
-    pub fn draw(&self, key: u64, from: &Distribution) -> f64 {
-        let Some(draws) = self.draws else { return f64::NAN };
-        let random = &mut Stream::of_draw(draws.seed, draws.index, draws.attempt, key);
-        let value = |reg: &Reg| self.regs[reg.index()][0];
-        match from {
-            Distribution::Uniform(low, high) => {
-                let (low, high) = (value(low), value(high));
-                low + (high - low) * random.unit_f64()
-            }
-            Distribution::Normal(mean, sd) => value(mean) + value(sd) * random.normal(),
-            Distribution::TruncatedNormal(mean, sd, low, high) => {
-                random.truncated_normal(value(mean), value(sd), value(low), value(high))
-            }
-            Distribution::Integer(low, high) => {
-                let (low, high) = (libm::ceil(value(low)), libm::floor(value(high)));
-                if low <= high {
-                    (low + libm::floor(random.unit_f64() * (high - low + 1.0))).min(high)
-                } else {
-                    f64::NAN
-                }
-            }
-            Distribution::Weighted(weights) => {
-                let weight = |reg: &Reg| value(reg).max(0.0);
-                let total: f64 = weights.iter().map(weight).sum();
-                let mut left = random.unit_f64() * total;
-                let mut chosen = f64::NAN;
-                for (index, reg) in weights.iter().enumerate() {
-                    if weight(reg) > 0.0 {
-                        chosen = index as f64;
-                        left -= weight(reg);
-                        if left < 0.0 {
-                            break;
-                        }
-                    }
-                }
-                chosen
-            }
-        }
     }
 
     fn passes(&self, filter: &EventFilter, event: &Event, lane: usize) -> bool {

@@ -17,6 +17,7 @@
 (reward name: (_) @function)
 (formation name: (_) @function)
 (region name: (_) @constant)
+(table name: (_) @constant)
 (ending name: (_) @function)
 (behavior name: (_) @function)
 (function name: (_) @function)
@@ -33,7 +34,7 @@
 (call function: (member (identifier) @function.call .))
 
 [
-  "abstract" "scenario" "reward" "formation" "behavior" "region" "ending" "const" "fn" "let" "param"
+  "abstract" "scenario" "reward" "formation" "behavior" "region" "table" "ending" "const" "fn" "let" "param"
   "state" "record" "curriculum" "suite" "check" "import"
 ] @keyword
 

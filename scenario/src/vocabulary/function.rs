@@ -57,6 +57,7 @@ words! {
         Circle = "circle", "circle(centre, radius): a disc";
         Polygon = "polygon", "polygon(a, b, c, …): between corners, in order";
         Sector = "sector", "sector(at, radius, from, to): the slice of a disc between two angles";
+        Grid = "grid", "sum(E for p in grid(columns, rows, region)): the centres of the cells of a grid, over the pitch without a region";
         MinGap = "min_gap", "min_gap(team) or min_gap(players): the least distance between two of them at the start";
     }
 }

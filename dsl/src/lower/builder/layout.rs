@@ -1,7 +1,9 @@
 //! The last step of a builder: drops what nothing uses, and lays the blocks out in order.
 
 use super::{BlockId, Builder, PROLOGUE, ROOT, RegisterLayout};
-use setpiece_scenario::{Distribution, Each, EventFilter, Fold, Instr, Over, Program, Reg, Who};
+use setpiece_scenario::{
+    Distribution, Each, EventFilter, Fold, Instr, Over, Program, Reg, Table, Who,
+};
 
 impl Builder {
     /// Lays the program out; `roots` are the registers whose values are wanted besides the effects.
@@ -10,7 +12,34 @@ impl Builder {
         let mut out = LaidOutCode { code: Vec::new(), layout: vec![None; self.nodes.len()] };
         self.lay_out(PROLOGUE, &live, &mut out);
         self.lay_out(ROOT, &live, &mut out);
-        (Program { code: out.code, cells: self.writes.len() as u32 }, RegisterLayout(out.layout))
+        let mut program =
+            Program { code: out.code, cells: self.writes.len() as u32, tables: Vec::new() };
+        self.keep_tables(&mut program);
+        (program, RegisterLayout(out.layout))
+    }
+
+    /// Gives the program the tables that it reads.
+    fn keep_tables(self, program: &mut Program) {
+        let mut kept: Vec<Option<u32>> = vec![None; self.tables.len()];
+        let mut number = 0;
+        for instr in &mut program.code {
+            if let Instr::Table { table, .. } = instr
+                && let Some(slot) = kept.get_mut(*table as usize)
+            {
+                *table = *slot.get_or_insert_with(|| {
+                    number += 1;
+                    number - 1
+                });
+            }
+        }
+        let mut tables: Vec<(u32, Table)> = self
+            .tables
+            .into_iter()
+            .zip(kept)
+            .filter_map(|((_, table), kept)| Some((kept?, table)))
+            .collect();
+        tables.sort_by_key(|(kept, _)| *kept);
+        program.tables = tables.into_iter().map(|(_, table)| table).collect();
     }
 
     fn live(&self, roots: &[Reg]) -> Vec<bool> {
@@ -94,8 +123,12 @@ impl LaidOutCode {
             Instr::Load { field, of, when } => {
                 Instr::Load { field: *field, of: of.as_ref().map(p), when: *when }
             }
+            Instr::Table { table, x, y, linear } => {
+                Instr::Table { table: *table, x: p(x), y: p(y), linear: *linear }
+            }
             Instr::Each(each) => {
                 let over = match &each.over {
+                    Over::Numbers(number) => Over::Numbers(*number),
                     Over::Players { team, except } => {
                         Over::Players { team: p(team), except: except.as_ref().map(p) }
                     }

@@ -37,6 +37,7 @@ impl<'w> Lower<'_, 'w> {
             match &found.item.kind {
                 ItemKind::Fn(item) => return self.call_fn(item, args, span),
                 ItemKind::Region(item) => return self.call_region(item, args, span, false),
+                ItemKind::Table(item) => return self.call_table(item, args, span),
                 _ => {}
             }
         }
@@ -55,7 +56,12 @@ impl<'w> Lower<'_, 'w> {
         }
         let of_file = library.visible(name.span.file);
         let mut known: Vec<&str> = of_file
-            .filter(|(_, found)| matches!(found.item.kind, ItemKind::Fn(_) | ItemKind::Region(_)))
+            .filter(|(_, found)| {
+                matches!(
+                    found.item.kind,
+                    ItemKind::Fn(_) | ItemKind::Region(_) | ItemKind::Table(_)
+                )
+            })
             .map(|(name, _)| name)
             .collect();
         known.extend(Function::ALL.iter().map(|function| function.name()));

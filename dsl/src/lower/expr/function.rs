@@ -77,6 +77,7 @@ impl<'w> Lower<'_, 'w> {
                     (F::Nearest, &[set, to]) => self.nearest(set, to),
                     (F::Pressed, &[who, within]) => self.pressed(who, within),
                     (F::MinGap, &[set]) => self.min_gap(set, span),
+                    (F::Grid, _) => self.fail(Problem::new(span, Calls::GridAlone)),
                     _ => self.math(function, &given, span),
                 }
             }
@@ -378,6 +379,7 @@ fn signature(function: Function) -> (&'static [&'static str], usize) {
         F::Circle => (&["centre", "radius"], 2),
         F::Sector => (&["at", "radius", "from", "to"], 4),
         F::MinGap => (&["players"], 1),
+        F::Grid => (&["columns", "rows", "region"], 2),
         F::Min
         | F::Max
         | F::Count

@@ -208,7 +208,9 @@ impl<'w> Lower<'_, 'w> {
                 value.unwrap_or_else(Value::error)
             }
             ItemKind::Formation(formation) => formation_value(formation),
-            ItemKind::Fn(_) | ItemKind::Region(_) => self.fail(no_value(Some(Use::Called))),
+            ItemKind::Fn(_) | ItemKind::Region(_) | ItemKind::Table(_) => {
+                self.fail(no_value(Some(Use::Called)))
+            }
             // A scenario or a reward may bear the name of a property; the property is meant here.
             _ if names::is_value(name) => return None,
             ItemKind::Reward(_)
@@ -380,7 +382,11 @@ impl<'w> Lower<'_, 'w> {
         let values = |kind: &ItemKind| {
             matches!(
                 kind,
-                ItemKind::Const(_) | ItemKind::Region(_) | ItemKind::Formation(_) | ItemKind::Fn(_)
+                ItemKind::Const(_)
+                    | ItemKind::Region(_)
+                    | ItemKind::Formation(_)
+                    | ItemKind::Fn(_)
+                    | ItemKind::Table(_)
             )
         };
         let visible = self.world.library.visible(span.file);

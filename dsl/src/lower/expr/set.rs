@@ -3,6 +3,7 @@
 use super::super::people::Presence;
 use super::super::value::{LocalName, Repr, SetValue, Value};
 use super::super::{Lower, ProgramStage};
+use super::grid::as_grid;
 use crate::ast::{self, Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
 use crate::problem::facts::{Calls, Chance, Instead, Scopes};
@@ -136,18 +137,34 @@ impl<'w> Lower<'_, 'w> {
         if !self.players_known(span, name) {
             return Value::error();
         }
-        let Some(set) = self.want_set(parts.set) else { return Value::error() };
-        let open = self.code.open_loop(Over::Players { team: set.team, except: set.except });
+        let grid = as_grid(parts.set).map(|args| self.grid(parts.set, args));
+        let over = match grid {
+            Some(Some(grid)) => Over::Numbers(grid.points()),
+            Some(None) => return Value::error(),
+            None => {
+                let Some(set) = self.want_set(parts.set) else { return Value::error() };
+                Over::Players { team: set.team, except: set.except }
+            }
+        };
+        let grid = grid.flatten();
+        let open = self.code.open_loop(over);
         let outer = self.scope.clone();
         if let Some((name, at)) = parts.name {
             self.check_hides_local(name, at, &outer);
-            self.scope.bind(name, LocalName::Value(Value::one(Ty::Player, open.element())));
+            let element = match &grid {
+                Some(grid) => self.grid_point(grid, open.element()),
+                None => Value::one(Ty::Player, open.element()),
+            };
+            self.scope.bind(name, LocalName::Value(element));
         }
         let filter = parts.filter.map(|filter| self.condition(filter));
         let value = parts.value.map(|value| (self.expr(value), value));
         self.scope = outer;
         let (fold, ty) = self.fold_of(function, value, filter);
         let result = self.code.close_loop(open, fold);
+        if let (Some(grid), Ty::Player) = (&grid, ty) {
+            return self.chosen_point(grid, result);
+        }
         Value { ty, repr: if ty == Ty::Error { Repr::Nothing } else { Repr::One(result) } }
     }
 
@@ -158,6 +175,9 @@ impl<'w> Lower<'_, 'w> {
         parts: &Comprehension<'w>,
         span: Span,
     ) -> Value<'w> {
+        if as_grid(parts.set).is_some() {
+            return self.fail(Problem::new(parts.set.span, Calls::GridAtStart));
+        }
         let Some(set) = self.want_set(parts.set) else { return Value::error() };
         let ids: Vec<Reg> = self
             .world

@@ -71,6 +71,18 @@ facts! {
         /// `mean` and its like of a team without players, at the start.
         NobodyToCount { function: &'static str } = Code::Impossible =>
             say(format!("`{function}` goes through nobody"), "the team has no players"),
+        /// `grid(…)` outside of a loop.
+        GridAlone = Code::WrongType =>
+            say("a grid is gone through by a loop", "no value")
+                .help("write, for example, `mean(distance(p, ball) for p in grid(16, 12))`"),
+        /// A grid in the start.
+        GridAtStart = Code::WrongScope =>
+            say("the start has no loops over points", "the match hasn't begun here")
+                .help("compute it in a reward, a record or an ending"),
+        /// A side of a grid that is no small number.
+        GridSide { most: f64 } = Code::OutOfRange =>
+            say(format!("a grid has 1 to {most} points, as many in every episode"), "")
+                .help("write whole numbers, for example `grid(16, 12)`"),
         /// `min_gap` of fewer than two players.
         NoGap = Code::Impossible =>
             say("a gap needs two players", "there are fewer").help("leave the requirement out"),

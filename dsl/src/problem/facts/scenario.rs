@@ -63,6 +63,8 @@ pub(crate) enum Declared {
     Reward,
     /// `state`
     State,
+    /// `table`
+    Table,
 }
 
 impl Declared {
@@ -78,6 +80,7 @@ impl Declared {
             Declared::Region => "region",
             Declared::Reward => "reward",
             Declared::State => "state",
+            Declared::Table => "table",
         }
     }
 

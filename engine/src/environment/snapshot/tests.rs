@@ -288,8 +288,8 @@ fn scripted(source: &str) -> Scenario {
         source: source.to_owned(),
     });
     let body = RewardBody {
-        init: Program { code: Vec::new(), cells: 1 },
-        step: Program { code: Vec::new(), cells: 1 },
+        init: Program { code: Vec::new(), cells: 1, ..Program::default() },
+        step: Program { code: Vec::new(), cells: 1, ..Program::default() },
         terms: Vec::new(),
         hooks: vec![RewardHook { script: 0, cell: 0, args: Vec::new() }],
     };

@@ -1,7 +1,7 @@
 //! A program prepared to run: what must run how often, and in which lanes.
 
 use setpiece_scenario::vocabulary::Field;
-use setpiece_scenario::{BinaryOp, Fold, Instr, Over, Program, Reg, UnaryOp, When};
+use setpiece_scenario::{BinaryOp, Fold, Instr, Over, Program, Reg, Table, UnaryOp, When};
 
 /// A program in the form that a [`Machine`](super::Machine) runs.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +13,8 @@ pub struct Plan {
     /// The instructions without an [`Op`] of their own.
     pub(super) rare: Vec<Instr>,
     pub(super) loops: Vec<Loop>,
+    /// The program's tables.
+    pub(super) tables: Vec<Table>,
 }
 
 /// An instruction, small and flat, so that one jump reaches its code.
@@ -91,7 +93,7 @@ impl Plan {
             code: &program.code,
             uniform: vec![false; program.code.len()],
             open: Vec::new(),
-            plan: Plan::default(),
+            plan: Plan { tables: program.tables.clone(), ..Plan::default() },
         };
         let fixed = program.fixed();
         let mut at = 0;

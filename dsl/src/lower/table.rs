@@ -1,0 +1,196 @@
+//! Tables: numbers over a part of the pitch, and how they are looked up.
+
+use super::Lower;
+use super::script::named_file;
+use super::value::{LiteralFrame, RegionValue, Scope, Value};
+use crate::ast::{Arg, Expr, ExprKind, Span, Spanned, TableItem, TableRows};
+use crate::check::types::Ty;
+use crate::problem::Problem;
+use crate::problem::facts::Tables;
+use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::table::TABLE_MAX;
+use setpiece_scenario::{BinaryOp, Reg, Table};
+
+/// A rectangle in the reader's frame: the corner with the least x and y, and the other one.
+#[derive(Clone, Copy)]
+pub(super) struct Rectangle {
+    pub(super) low: (Reg, Reg),
+    pub(super) high: (Reg, Reg),
+}
+
+impl<'w> Lower<'_, 'w> {
+    /// `xt(ball)`, `xt(ball, linear)`: the number at a place, in the reader's frame.
+    pub(super) fn call_table(
+        &mut self,
+        item: &'w TableItem,
+        args: &'w [Arg],
+        span: Span,
+    ) -> Value<'w> {
+        let is_plain =
+            |arg: &&Arg| arg.key.is_none() && arg.binder.is_none() && arg.filter.is_none();
+        let plain = args.iter().take_while(is_plain).count() == args.len();
+        let is_linear = |how: &Expr| matches!(&how.kind, ExprKind::Name(word) if word == "linear");
+        let (at, linear) = match args {
+            [at] if plain => (&at.value, false),
+            [at, how] if plain && is_linear(&how.value) => (&at.value, true),
+            _ => {
+                let name = item.name.node.clone();
+                return self.fail(Problem::new(span, Tables::Arguments { name }));
+            }
+        };
+        let place = self.want_point(at);
+        let place = self.turned(place);
+        let over = self.rectangle(item.over.as_ref());
+        let (Some(table), Some(over)) = (self.table_of(item), over) else {
+            return Value::error();
+        };
+        let x = self.share_of(place.0, over.low.0, over.high.0);
+        let y = self.share_of(place.1, over.low.1, over.high.1);
+        Value::one(Ty::Number, self.code.look_up(table, (x, y), linear))
+    }
+
+    /// How far a coordinate is from one to another.
+    fn share_of(&mut self, at: Reg, low: Reg, high: Reg) -> Reg {
+        let from = self.code.binary(BinaryOp::Sub, at, low);
+        let whole = self.code.binary(BinaryOp::Sub, high, low);
+        self.code.binary(BinaryOp::Div, from, whole)
+    }
+
+    /// A rectangle, the pitch if nothing is written; `None` after a report.
+    pub(super) fn rectangle(&mut self, over: Option<&'w Expr>) -> Option<Rectangle> {
+        let (a, b) = match over {
+            None => {
+                let (x, y) = (HALF_LENGTH_M, HALF_WIDTH_M);
+                let low = (self.code.constant(-x), self.code.constant(-y));
+                (low, (self.code.constant(x), self.code.constant(y)))
+            }
+            Some(over) => {
+                let region = self.region(over)?;
+                let RegionValue::Rect(a, b) = *region else {
+                    let text = self.world.text(over.span);
+                    self.report(Problem::new(over.span, Tables::NoRectangle { text }));
+                    return None;
+                };
+                (a, b)
+            }
+        };
+        let (a, b) = (self.turned(a), self.turned(b));
+        let mut end = |op| (self.code.binary(op, a.0, b.0), self.code.binary(op, a.1, b.1));
+        Some(Rectangle { low: end(BinaryOp::Min), high: end(BinaryOp::Max) })
+    }
+
+    /// The program's number of a table; `None` after a report.
+    pub(crate) fn table_of(&mut self, item: &'w TableItem) -> Option<u32> {
+        if let Some(known) = self.code.known_table(item.name.span) {
+            return Some(known);
+        }
+        let table = match &item.rows {
+            TableRows::Written(rows) => self.written_table(rows)?,
+            TableRows::File(path) => self.table_file(path)?,
+        };
+        Some(self.code.add_table(item.name.span, table))
+    }
+
+    fn written_table(&self, rows: &'w Expr) -> Option<Table> {
+        let ExprKind::List(list) = &rows.kind else {
+            self.report(Problem::new(rows.span, Tables::NoRows));
+            return None;
+        };
+        let mut lower = Lower::constant(self.world, Scope::new(false, LiteralFrame::World));
+        let found = self.world.found();
+        let mut read = ReadRows::default();
+        for row in list {
+            let ExprKind::List(numbers) = &row.kind else {
+                self.report(Problem::new(row.span, Tables::NoRows));
+                return None;
+            };
+            let mut values = Vec::new();
+            for number in numbers {
+                let reg = lower.want_reg(number, Ty::Number);
+                match lower.code.constant_of(reg) {
+                    Some(value) => values.push(value),
+                    None if self.world.found() > found || lower.code.is_unknown(reg) => {
+                        return None;
+                    }
+                    None => {
+                        let text = self.world.text(number.span);
+                        self.report(Problem::new(number.span, Tables::NoNumber { text }));
+                        return None;
+                    }
+                }
+            }
+            self.add_row(&mut read, values, row.span)?;
+        }
+        self.whole(read, rows.span)
+    }
+
+    /// Reads comma-separated values; semicolons, tabs and spaces separate as well.
+    fn table_file(&self, path: &Spanned<String>) -> Option<Table> {
+        let world = self.world;
+        let file = named_file(world, path)?;
+        let text = &world.library.sources.get(file)?.text;
+        let mut read = ReadRows::default();
+        let mut start = 0;
+        for line in text.split_inclusive('\n') {
+            let span = |at: usize, length: usize| Span {
+                file,
+                start: (start + at) as u32,
+                end: (start + at + length) as u32,
+            };
+            let content = line.trim_end();
+            let mut values = Vec::new();
+            let mut at = 0;
+            for cell in content.split(|c: char| matches!(c, ',' | ';') || c.is_whitespace()) {
+                let word = span(at, cell.len());
+                at += cell.len()
+                    + content[at + cell.len()..].chars().next().map_or(0, char::len_utf8);
+                if cell.is_empty() || content.starts_with('#') {
+                    continue;
+                }
+                match cell.trim_start_matches('\u{feff}').parse::<f64>() {
+                    Ok(value) if value.is_finite() => values.push(value),
+                    _ => {
+                        let text = cell.to_owned();
+                        self.report(Problem::new(word, Tables::NoNumberInFile { text }));
+                        return None;
+                    }
+                }
+            }
+            if !values.is_empty() {
+                self.add_row(&mut read, values, span(0, content.len()))?;
+            }
+            start += line.len();
+        }
+        self.whole(read, path.span)
+    }
+
+    fn add_row(&self, read: &mut ReadRows, values: Vec<f64>, row: Span) -> Option<()> {
+        if read.columns != 0 && values.len() != read.columns {
+            let fact = Tables::UnequalRows { found: values.len(), wanted: read.columns };
+            self.report(Problem::new(row, fact));
+            return None;
+        }
+        read.columns = values.len();
+        read.values.extend(values);
+        if read.values.len() > TABLE_MAX {
+            self.report(Problem::new(row, Tables::TooLarge { most: TABLE_MAX }));
+            return None;
+        }
+        Some(())
+    }
+
+    fn whole(&self, read: ReadRows, at: Span) -> Option<Table> {
+        if read.values.is_empty() {
+            self.report(Problem::new(at, Tables::NoRows));
+            return None;
+        }
+        Some(Table { columns: read.columns as u32, values: read.values })
+    }
+}
+
+/// The rows of a table so far.
+#[derive(Default)]
+struct ReadRows {
+    columns: usize,
+    values: Vec<f64>,
+}

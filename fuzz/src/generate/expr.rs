@@ -114,7 +114,7 @@ impl Writer<'_, '_> {
     }
 
     fn leaf(&mut self, view: View) -> String {
-        match self.choices.below(10) {
+        match self.choices.below(11) {
             0 => format!("{:.2}", self.choices.between(0.0, 3.0)),
             1 => "ball.x".to_owned(),
             2 if !self.numbers.is_empty() && view != View::Behavior => {
@@ -130,6 +130,7 @@ impl Writer<'_, '_> {
                 let at = self.choices.below(self.records.len());
                 self.records[at].clone()
             }
+            9 => format!("({}.metres.y / 1m)", self.player(view)),
             _ => "(ball.height / 1m)".to_owned(),
         }
     }

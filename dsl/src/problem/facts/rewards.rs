@@ -124,7 +124,7 @@ impl Because {
     fn words(self) -> String {
         match self {
             Because::Places => {
-                "x lies between about -1 and 1, y between -0.42 and 0.42; metres are `(ball - centre).x > 20m`"
+                "x lies between about -1 and 1, y between -0.42 and 0.42; metres are `ball.metres.x > 20m`"
             }
             Because::BallSpeed => "no ball flies as fast",
             Because::PlayerSpeed => "nobody runs as fast",

@@ -269,6 +269,12 @@ pub(super) const HABITS: &[Habit] = &[
         "| end success¦failure",
         "`end` is an event only after `on`: `give … on end {1}`",
     ),
+    row(
+        Scenario,
+        "reward … | for",
+        "who receives a reward stands behind its name: `reward {1} for …`",
+    ),
+    row(Reward, "give … | to", "who receives it stands behind the value: `give 1 to {1} on …`"),
     // Loops, functions, classes.
     row(Behavior, "^ | while", "write `repeat until … { … }`"),
     row(Behavior, "^ | for", "write `repeat 3 times { … }`"),

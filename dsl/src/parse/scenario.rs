@@ -144,21 +144,25 @@ impl Reader<'_> {
 
     fn reward_use(&mut self, nodes: &mut CstNodes<'_>) -> Option<ScenarioStmtKind> {
         let node = nodes.next()?;
+        let mut audience = None;
         let what = match node.as_rule() {
             Rule::script => RewardUseKind::Script(self.script(node)?),
             Rule::reference => RewardUseKind::Named(self.reference(node)?),
             _ => {
                 let mut inner = CstNodes::of(node);
                 let name = inner.want(Rule::ident).map(|name| self.ident(&name))?;
+                audience = self.clause(&mut inner, Rule::audience);
                 let body = inner.want(Rule::reward_body)?;
                 RewardUseKind::Inline { name, body: self.reward_body(body) }
             }
         };
+        let audience = audience.or_else(|| self.clause(nodes, Rule::audience));
         let label = self.label(nodes);
         let weight =
             nodes.want(Rule::weight).and_then(|weight| CstNodes::of(weight).seek(Rule::factor));
         Some(ScenarioStmtKind::Reward(RewardUse {
             what,
+            audience,
             label,
             weight: weight.map(|weight| self.expr(weight)),
         }))

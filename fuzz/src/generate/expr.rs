@@ -6,6 +6,7 @@ use super::{View, Writer};
 const DEPTH: usize = 3;
 const EVENTS: &[&str] = &[
     "goal",
+    "assist",
     "shot",
     "pass",
     "touch",

@@ -22,7 +22,7 @@ struct Comprehension<'w> {
 
 impl<'w> Lower<'_, 'w> {
     /// Whether a player belongs to a set.
-    pub(super) fn in_set(&mut self, player: Reg, set: SetValue) -> Reg {
+    pub(crate) fn in_set(&mut self, player: Reg, set: SetValue) -> Reg {
         let team = self.code.unary(UnaryOp::TeamOf, player);
         let mut inside = match self.code.constant_of(set.team) {
             Some(both) if both < 0.0 => {

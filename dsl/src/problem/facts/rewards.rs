@@ -4,7 +4,7 @@ use super::facts;
 use crate::problem::Code;
 use crate::problem::said::say;
 use crate::source::Span;
-use setpiece_scenario::vocabulary::{EventKind, Rule};
+use setpiece_scenario::vocabulary::{EventKind, Rule, Team};
 
 facts! {
     /// Facts about rewards, endings and observations.
@@ -16,6 +16,23 @@ facts! {
         NeverPays {
             why: Never,
         } = Code::NeverPays => say("this `give` never pays", "").help(why.words()),
+        /// A receiver that is relative to the agent who is judged.
+        ReceiverOfView { name: String, word: &'static str } = Code::WrongType => {
+            let said = say(format!("`{word} {name}` says nothing: every agent is judged for itself"), "");
+            match name.as_str() {
+                "us" | "me" | "players" => said.help(format!("leave it out, or name a team or a player: `{word} left`")),
+                _ => said.help(format!(
+                    "name a team or a player, `{word} left`, or write whose deeds pay: `give 1 on goal by them`"
+                )),
+            }
+        },
+        /// An empty list of receivers.
+        NoReceiver { word: &'static str } = Code::WrongArguments =>
+            say("nobody receives it", "").help(format!("name a team or players: `{word} left`, `{word} [striker, winger]`")),
+        /// A reward for a team without agents.
+        PaysNobody { team: Team } = Code::NeverPays =>
+            say(format!("no agent plays for {team}"), "pays nobody")
+                .help(format!("write `agents {{ {team}: 1 }}`, or name the other team")),
         /// A payment above the limit.
         MoreThanPayable { text: String } = Code::OutOfRange =>
             say(format!("`{text}` is more than can be paid"), "").help("rewards are small numbers: `give 1`"),

@@ -31,6 +31,10 @@ facts! {
         /// An event's `by` or `to` is neither a team nor a player.
         NeitherTeamNorPlayer { found: Ty, text: String } = Code::WrongType =>
             expected("a team or a player", *found, text).help("write, for example, `by left` or `by me`"),
+        /// What is paid goes to no team, player or role.
+        NoReceiver { found: Ty, text: String } = Code::WrongType =>
+            expected("a team, players or a role", *found, text)
+                .help("write, for example, `for left`, `for striker`, `to event.by` or `to assist`"),
         /// A rule is neither on nor off.
         NeitherOnNorOff { rule: &'static str, found: Ty, text: String } = Code::WrongType =>
             expected("`on` or `off`", *found, text).help(format!("write `{rule}: on` or `{rule}: off`")),

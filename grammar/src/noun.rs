@@ -14,6 +14,10 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::kw_absent => "`absent`",
         Rule::kw_agents => "`agents`",
         Rule::kw_stage => "`stage`",
+        Rule::kw_delayed | Rule::delayed => "`delayed`",
+        Rule::kw_noise | Rule::noise => "`noise`",
+        Rule::kw_stack | Rule::stack => "`stack`",
+        Rule::sight => "`noise`, `when`, `delayed` or `stack`",
         Rule::kw_seed => "`seed`",
         Rule::kw_play => "`play`",
         Rule::kw_params => "`params`",
@@ -256,6 +260,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::verdict => "`success` or `failure`",
         Rule::trigger
         | Rule::player_when
+        | Rule::seen_when
         | Rule::give_when
         | Rule::block_when
         | Rule::when_block => "`when`",

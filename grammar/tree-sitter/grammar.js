@@ -206,7 +206,8 @@ module.exports = grammar({
       seq(choice("reward", "end", "require", "record"), choice($.identifier, $.string)), "ball",
     )),
     mirror: ($) => seq("mirror", ":", $.identifier),
-    observe: ($) => seq("observe", "vector", block(seq($._expression, optional($.label)))),
+    _sight: ($) => seq(choice("noise", "when", "delayed", "stack"), $._expression),
+    observe: ($) => seq("observe", "vector", block(seq($._expression, repeat($._sight), optional($.label)))),
     end: ($) => seq("end", choice(
       seq("limit", $._expression),
       choice("success", "failure"),

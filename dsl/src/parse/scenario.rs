@@ -3,9 +3,11 @@
 use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
-    BallStmt, EndCondition, EndStmt, Expr, RewardUse, RewardUseKind, ScenarioStmt,
+    BallStmt, EndCondition, EndStmt, Observed, RewardUse, RewardUseKind, ScenarioStmt,
     ScenarioStmtKind, Spanned,
 };
+use crate::problem::Problem;
+use crate::problem::facts::Names;
 use crate::source::Span;
 use setpiece_grammar::Rule;
 
@@ -130,10 +132,32 @@ impl Reader<'_> {
         Some(crate::ast::Binding { name, ty: None, value })
     }
 
-    fn observed(&mut self, node: CstNode<'_>) -> Option<(Expr, Option<Spanned<String>>)> {
+    fn observed(&mut self, node: CstNode<'_>) -> Option<Observed> {
         let mut nodes = CstNodes::of(node);
         let value = self.take_expr(&mut nodes, Rule::expr)?;
-        Some((value, self.label(&mut nodes)))
+        let mut line =
+            Observed { value, noise: None, when: None, delay: None, stack: None, label: None };
+        while nodes.peek() == Some(Rule::sight) {
+            let Some(clause) = nodes.next().and_then(|sight| CstNodes::of(sight).next()) else {
+                break;
+            };
+            let rule = clause.as_rule();
+            let Some(inner) = CstNodes::of(clause).last() else { break };
+            let given = self.expr(inner);
+            let (slot, word) = match rule {
+                Rule::noise => (&mut line.noise, "noise"),
+                Rule::seen_when => (&mut line.when, "when"),
+                Rule::delayed => (&mut line.delay, "delayed"),
+                _ => (&mut line.stack, "stack"),
+            };
+            let span = given.span;
+            if let Some(first) = slot.replace(given) {
+                let (what, first) = (format!("`{word}`"), first.span);
+                self.push(Problem::new(span, Names::GivenTwice { what, first }));
+            }
+        }
+        line.label = self.label(&mut nodes);
+        Some(line)
     }
 
     /// `as "x"`

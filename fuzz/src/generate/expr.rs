@@ -139,7 +139,7 @@ impl Writer<'_, '_> {
     fn condition_at(&mut self, view: View, depth: usize) -> String {
         let depth = depth.saturating_sub(1);
         let plain = depth == 0;
-        match self.choices.below(14) {
+        match self.choices.below(15) {
             0 | 1 => {
                 let sign = self.choices.one(&["<", ">", "<=", ">=", "==", "!="]);
                 format!("{} {sign} {}", self.number_at(view, depth), self.number_at(view, depth))
@@ -148,6 +148,7 @@ impl Writer<'_, '_> {
             3 => format!("{} has ball", self.team(view)),
             4 => format!("possession == {}", self.team(view)),
             5 => format!("pressed({}, within: {}m)", self.player(view), 1 + self.choices.below(20)),
+            14 => format!("sees({}, ball, within: 120deg)", self.player(view)),
             6 if !plain => format!("(not ({}))", self.condition_at(view, depth)),
             7 if !plain => {
                 let word = self.choices.one(&["and", "or"]);

@@ -70,7 +70,18 @@ impl Writer<'_, '_> {
                 2 => self.condition(view),
                 _ => "ball.velocity".to_owned(),
             };
-            self.line(&format!("({value}) as \"o{n}\""));
+            let sight = match self.choices.below(6) {
+                0 => "",
+                1 => "delayed 0.3s",
+                2 => "stack 3",
+                3 => "when sees(me, ball, within: 120deg)",
+                4 => "delayed uniform(0s, 0.5s) stack 2",
+                _ => "when us has ball stack 2",
+            };
+            self.line(&format!("({value}) {sight} as \"o{n}\""));
+            if self.choices.rarely(3) {
+                self.line(&format!("ball noise normal(0, 0.3m) stack 2 as \"noisy{n}\""));
+            }
         }
         self.line("}");
     }

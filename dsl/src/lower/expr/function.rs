@@ -77,6 +77,7 @@ impl<'w> Lower<'_, 'w> {
                     ) => self.draw(function, &given, span),
                     (F::Nearest, &[set, to]) => self.nearest(set, to),
                     (F::Pressed, &[who, within]) => self.pressed(who, within),
+                    (F::Sees, &[who, place, within]) => self.sees(who, place, within),
                     (F::MinGap, &[set]) => self.min_gap(set, span),
                     _ => self.math(function, &given, span),
                 }
@@ -370,6 +371,7 @@ fn signature(function: Function) -> (&'static [&'static str], usize) {
         F::Nearest => (&["S", "to"], 2),
         F::Exists => (&["p"], 1),
         F::Pressed => (&["p", "within"], 2),
+        F::Sees => (&["p", "a", "within"], 3),
         F::OffsideLine => (&["team"], 1),
         F::Prev | F::Delta => (&["e"], 1),
         F::Potential => (&["e", "gamma"], 2),

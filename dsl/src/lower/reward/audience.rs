@@ -83,7 +83,7 @@ impl<'w> Lower<'_, 'w> {
     fn did_it(&mut self, event: &'w EventExpr) -> Option<Reg> {
         let loops = self.code.leave_loops();
         let outer = self.event.take();
-        let done = self.open_events(event).and_then(|matching| {
+        let done = self.open_events(event).map(|matching| {
             if !matching.filter.kind.has_actor() {
                 let name = event.name.node.clone();
                 self.report(Problem::new(event.span, Calls::NobodyDoes { event: name }));
@@ -101,7 +101,7 @@ impl<'w> Lower<'_, 'w> {
             }
             let guard = matching.guard;
             let fold = Fold { kind: FoldKind::Any, value: Some(value), guard };
-            Some(self.close_events(matching, fold))
+            self.close_events(matching, fold)
         });
         self.event = outer;
         self.code.return_to(loops);

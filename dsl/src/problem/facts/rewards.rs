@@ -66,6 +66,18 @@ facts! {
         /// An ending without a condition.
         EndsWhen = Code::Syntax =>
             say("the ending doesn't say when", "").help("write, for example, `end success when goal by left`"),
+        /// Noise of what is no number.
+        NoNoise { noun: String } = Code::WrongType =>
+            say(format!("{noun} has no noise"), "not a number")
+                .help("noise is added to numbers, quantities, places and vectors"),
+        /// A delay without a known upper end.
+        EndlessDelay { text: String } = Code::NotConstant =>
+            say(format!("it isn't known how long `{text}` is at most"), "may be any duration")
+                .help("write a duration, a parameter with a range, or `uniform(0.1s, 0.3s)`"),
+        /// The length of a stack that is known only later.
+        StackNotConstant { text: String } = Code::NotConstant =>
+            say(format!("`{text}` is not known before the match"), "decides how many numbers there are")
+                .help("write a number or a `const`: `stack 4`"),
         /// An observation without numbers, or with too many.
         Numbers { most: usize } = Code::WrongArguments =>
             say(format!("an observation has 1 to {most} numbers"), "")

@@ -1,6 +1,7 @@
 """Noise, delays and stacks of declared observations: spaces, batches, faults, snapshots."""
 
 import numpy as np
+
 import setpiece
 
 EYES = """

@@ -10,8 +10,8 @@ use crate::lower::Lower;
 use crate::lower::value::{LiteralFrame, Repr, Scope, Value};
 use crate::problem::Problem;
 use crate::problem::facts::{Calls, Rewards, Types};
-use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Team};
-use setpiece_scenario::{BinaryOp, Fold, FoldKind, Reg};
+use setpiece_scenario::vocabulary::{EventField, EventKind, Field};
+use setpiece_scenario::{BinaryOp, Fold, FoldKind, Reg, Who};
 
 impl<'w> Lower<'_, 'w> {
     /// The weight and the receivers that a scenario gives to a reward.
@@ -50,11 +50,12 @@ impl<'w> Lower<'_, 'w> {
         match (value.ty, &value.repr) {
             (Ty::Error, _) => None,
             (Ty::Team, Repr::One(team)) => {
-                self.check_paid_team(*team, who);
+                self.check_paid(Who::Team(*team), who);
                 let us = self.code.us();
                 Some(self.code.binary(BinaryOp::Eq, us, *team))
             }
             (Ty::Player, Repr::One(player)) => {
+                self.check_paid(Who::Player(*player), who);
                 let same = self.code.binary(BinaryOp::Eq, me, *player);
                 if self.code.constant_of(*player).is_some() {
                     return Some(same);
@@ -108,17 +109,12 @@ impl<'w> Lower<'_, 'w> {
         done
     }
 
-    /// Warns of a team that has no agents.
-    fn check_paid_team(&self, team: Reg, who: &Expr) {
-        let paid = self.code.constant_of(team).and_then(|index| match index {
-            0.0 => Some(Team::Left),
-            1.0 => Some(Team::Right),
-            _ => None,
-        });
-        if let (Some(paid), Some(side)) = (paid, self.side_with_agents())
-            && paid != side
+    /// Warns of a team that has no agents, and of its players.
+    fn check_paid(&self, paid: Who, who: &Expr) {
+        if let (Some(team), Some(side)) = (self.team_of(paid), self.side_with_agents())
+            && team != side
         {
-            self.report(Problem::new(who.span, Rewards::PaysNobody { team: paid }));
+            self.report(Problem::new(who.span, Rewards::PaysNobody { team }));
         }
     }
 }

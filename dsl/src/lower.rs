@@ -323,7 +323,7 @@ impl<'c, 'w> Lower<'c, 'w> {
     }
 
     /// Makes a value one of the wanted type, or reports what it is instead.
-    pub(crate) fn convert(&mut self, value: Value<'w>, wanted: Ty, expr: &Expr) -> Value<'w> {
+    pub(crate) fn convert(&mut self, value: Value<'w>, wanted: Ty, expr: &'w Expr) -> Value<'w> {
         if value.is_error() || value.ty == wanted {
             return value;
         }
@@ -355,7 +355,11 @@ impl<'c, 'w> Lower<'c, 'w> {
         if value.ty.fits(wanted) {
             return Value { ty: wanted, repr: value.repr };
         }
-        self.fail(self.mismatch(value.ty, wanted, expr.span))
+        let metres = (wanted == Ty::LENGTH && value.ty.is_plain())
+            .then(|| self.written_in_metres(expr))
+            .flatten();
+        let instead = metres.map_or(Instead::Usual, |text| Instead::Metres { text });
+        self.fail(self.mismatch_with(value.ty, wanted, expr.span, instead))
     }
 
     /// "expected a length, found `3s` (a duration)".

@@ -76,7 +76,10 @@ impl Judge {
             endings: EndingJudge::new(endings),
             rewards: RewardJudge::new(rewards.clone(), &scripts, n_agents),
             records: RecordJudge::new(&scenario.records, n_agents),
-            observation: scenario.observation.as_ref().map(ObservationJudge::new),
+            observation: scenario
+                .observation
+                .as_ref()
+                .map(|observation| ObservationJudge::new(observation, n_agents)),
             known: Known::new(scripts, scripted, Purpose::Script),
             memory: if scripted { ViewMemory::All } else { memory(scenario, &rewards) },
             prev: MatchView::EMPTY,
@@ -107,8 +110,14 @@ impl Judge {
             return false;
         }
         let input = self.known.input(Sight::Live(game), &self.before, endings::judged_side(game));
-        observation.write(game, agent, &input, out);
+        observation.write(game, agent, &input, self.known.key().0, out);
         true
+    }
+
+    /// The numbers of the declared observation that could not be computed in this episode, and how
+    /// often.
+    pub fn observed_faults(&self) -> impl Iterator<Item = (&str, u32)> {
+        self.observation.iter().flat_map(ObservationJudge::faults)
     }
 
     /// The rewards and what they have paid.
@@ -130,6 +139,9 @@ impl Judge {
         self.endings.reset(&input);
         self.rewards.reset(game, &input);
         self.records.reset(game, &input);
+        if let Some(observation) = &mut self.observation {
+            observation.reset(game, &input, given.seed);
+        }
     }
 
     /// Writes or reads an episode's memory; on the way in [`Self::reset`] has come before.
@@ -139,8 +151,9 @@ impl Judge {
         shelf: &mut Shelf,
     ) -> Result<(), SnapshotError> {
         self.prev.archive("prev", self.memory, archive)?;
-        if self.observation.is_some() {
+        if let Some(observation) = &mut self.observation {
             self.before.archive("before", self.memory, archive)?;
+            archive.part("observation", |archive| observation.archive(archive))?;
         }
         self.known.archive(archive, shelf)?;
         archive.part("endings", |archive| self.endings.archive(archive, shelf))?;
@@ -191,6 +204,11 @@ impl Judge {
             self.before = self.prev;
         }
         self.prev.keep(game, self.memory);
+        if let Some(observation) = &mut self.observation {
+            let side = endings::judged_side(game);
+            let input = self.known.input(Sight::Live(game), &self.before, side);
+            observation.step(game, &input, self.known.key().0);
+        }
     }
 }
 

@@ -28,6 +28,8 @@ pub enum Purpose {
     Resample = 8,
     /// What a source of levels chooses.
     Level = 9,
+    /// Noise of observations.
+    Observe = 10,
 }
 
 /// The most proposals of one draw. That all of them are rejected is less likely than a hardware
@@ -55,6 +57,13 @@ impl Stream {
             index.wrapping_add(u64::from(attempt) << 40),
             Purpose::Draw,
         )
+    }
+
+    /// The seed of what an agent's observation draws in one step.
+    pub fn seed_of_observation(seed: u64, index: u64, step: u32, agent: usize) -> u64 {
+        let turn = (u64::from(step) << 8) | agent as u64;
+        let mut own = Stream::new(mix(seed ^ mix(turn)), index, Purpose::Observe);
+        (u64::from(own.bits()) << 32) | u64::from(own.bits())
     }
 
     /// The next 32 bits.

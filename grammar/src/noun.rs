@@ -14,6 +14,10 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::kw_absent => "`absent`",
         Rule::kw_agents => "`agents`",
         Rule::kw_stage => "`stage`",
+        Rule::kw_delayed | Rule::delayed => "`delayed`",
+        Rule::kw_noise | Rule::noise => "`noise`",
+        Rule::kw_stack | Rule::stack => "`stack`",
+        Rule::sight => "`noise`, `when`, `delayed` or `stack`",
         Rule::kw_seed => "`seed`",
         Rule::kw_play => "`play`",
         Rule::kw_params => "`params`",
@@ -260,11 +264,13 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::verdict => "`success` or `failure`",
         Rule::trigger
         | Rule::player_when
+        | Rule::seen_when
         | Rule::give_when
         | Rule::block_when
         | Rule::when_block => "`when`",
         Rule::reward_use | Rule::reward_item => "`reward`",
         Rule::inline_reward => "a reward",
+        Rule::audience => "`for`",
         Rule::label => "`as`",
         Rule::script => "`script`",
         Rule::field => "an option, for example `ai: bot`",
@@ -286,6 +292,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::state => "`state`",
         Rule::assign => "an assignment",
         Rule::give => "`give`",
+        Rule::give_to => "`to`",
         Rule::per_second => "`per second`",
         Rule::give_on | Rule::give_rest | Rule::on_block => "`on`",
         Rule::else_when => "`else when`",

@@ -6,7 +6,7 @@
  */
 const ROLES = ["GK", "CB", "LB", "RB", "DM", "CM", "LM", "RM", "AM", "CF"];
 const EVENTS = [
-  "advantage", "ball_lost", "ball_won", "catch", "corner", "foul", "free_kick", "full_time", "goal_kick", "goal",
+  "advantage", "assist", "ball_lost", "ball_won", "catch", "corner", "foul", "free_kick", "full_time", "goal_kick", "goal",
   "half_time", "handball", "header", "interception", "kickoff", "offside", "out_of_play", "own_goal", "parry", "pass",
   "penalty", "red_card", "save", "shot", "slide", "tackle", "throw_in", "touch", "woodwork", "yellow_card",
 ];
@@ -207,7 +207,8 @@ module.exports = grammar({
       seq(choice("reward", "end", "require", "record"), choice($.identifier, $.string)), "ball",
     )),
     mirror: ($) => seq("mirror", ":", $.identifier),
-    observe: ($) => seq("observe", "vector", block(seq($._expression, optional($.label)))),
+    _sight: ($) => seq(choice("noise", "when", "delayed", "stack"), $._expression),
+    observe: ($) => seq("observe", "vector", block(seq($._expression, repeat($._sight), optional($.label)))),
     end: ($) => seq("end", choice(
       seq("limit", $._expression),
       choice("success", "failure"),
@@ -215,9 +216,14 @@ module.exports = grammar({
     )),
     _trigger: ($) => choice(seq("when", $._expression), $.script),
     reward_use: ($) => seq(
-      "reward", choice($.script, seq(field("name", $.identifier), $._body), $.reference), optional($.label),
+      "reward", choice(
+        seq($.script, optional($._audience)),
+        seq(field("name", $.identifier), optional($._audience), $._body),
+        seq($.reference, optional($._audience)),
+      ), optional($.label),
       optional(seq("*", $._expression)),
     ),
+    _audience: ($) => seq("for", $._expression),
     label: ($) => seq("as", $.string),
     script: ($) => seq("script", choice($.string, seq("rhai", $.raw_string))),
     fields: ($) => block($.field),
@@ -264,7 +270,7 @@ module.exports = grammar({
     assign: ($) => seq(field("name", $.identifier), "=", $._value),
     // `on` and `when` behind a `give` may begin a block of their own, which its brace decides.
     give: ($) => seq(
-      "give", choice($.script, $._expression), optional(seq("per", "second")), optional("once"), optional($.label),
+      "give", choice($.script, $._expression), optional(seq("to", $._expression)), optional(seq("per", "second")), optional("once"), optional($.label),
       optional(choice(
         seq("on", $._events, optional(seq("when", $._expression))),
         seq("when", $._expression, optional(seq("on", $._events))),

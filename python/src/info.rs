@@ -87,6 +87,11 @@ impl InfoWriter {
             summary.set_item("digest", format!("{:016x}", engine.digest()))?;
             summary.set_item("success", outcome.verdict == Some(Verdict::Success))?;
             summary.set_item("faults", engine.faults())?;
+            let observed = PyDict::new(py);
+            for (name, times) in engine.observed_faults() {
+                observed.set_item(name, times)?;
+            }
+            summary.set_item("observation_faults", observed)?;
             info.set_item(intern!(py, "setpiece"), summary)?;
         }
         Ok(())

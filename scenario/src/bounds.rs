@@ -30,6 +30,8 @@ pub const PARTS_MAX: u64 = 2_000;
 pub const NUMBERS_MAX: u64 = 10_000;
 /// The most nodes of all behaviours.
 pub const NODES_MAX: u64 = 250_000;
+/// Most numbers that the agents' observations keep of earlier steps.
+const KEPT_MAX: u64 = 1_000_000;
 /// The most numbers that all series keep per step: 8 kB, for as long as the episode lasts.
 pub const SERIES_MAX: u64 = 1_000;
 /// The most bytes of all scripts.
@@ -123,6 +125,11 @@ pub fn check(scenario: &Scenario) -> Result<(), Excess> {
         series.add(Part::Record(at), times * record.values.len() as u64);
     }
     series.within(SERIES_MAX, "keep fewer series")?;
+    if let Some(observation) = &scenario.observation {
+        let kept = (observation.columns().len() as u64).saturating_mul(observation.history.into());
+        Total::count("numbers that observations keep", Part::Observation, kept.saturating_mul(all))
+            .within(KEPT_MAX, "delay or stack fewer numbers, or look back less far")?;
+    }
     code.within(CODE_MAX, "name what is used often with a `let`, and leave some of it out")?;
     cells.within(CELLS_MAX, "leave some of its `state`s, `held`s and `once`s out")?;
     terms.within(TERMS_MAX, "leave some of its `give`s out")?;

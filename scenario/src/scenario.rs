@@ -434,18 +434,44 @@ pub struct Record {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Observation {
-    /// Runs after every step and reset, in the agent's own frame; it has no memory.
+    /// Runs after every step and reset, in the agent's own frame; it has no memory cells. What it
+    /// draws is new in every step and for every agent.
     pub program: Program,
     /// The numbers, in order.
     pub values: Vec<ObservedValue>,
+    /// How many steps the numbers look back at most. At 0 nothing is kept.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub history: u32,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+fn is_zero(steps: &u32) -> bool {
+    *steps == 0
+}
+
+impl Observation {
+    /// The registers that are kept in every step, each once.
+    pub fn columns(&self) -> Vec<Reg> {
+        let all = self.values.iter().flat_map(|value| [Some(value.value), value.delay]);
+        let mut columns: Vec<Reg> = all.flatten().collect();
+        columns.sort_unstable();
+        columns.dedup();
+        columns
+    }
 }
 
 /// A number of an [`Observation`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ObservedValue {
-    /// The label, else the author's text.
+    /// The label, else the author's text; with its age in a stack.
     pub name: String,
     /// Its register.
     pub value: Reg,
+    /// How late it is seen, seconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub delay: Option<Reg>,
+    /// How many steps older than the delay it is.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub ago: u32,
 }

@@ -76,11 +76,14 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
         }
     }
     if let Some(observation) = &scenario.observation {
-        check("the observation", &observation.program, ProgramPlace::Step { terms: 0 })?;
+        check("the observation", &observation.program, ProgramPlace::Observation)?;
         observation
-            .values
-            .iter()
-            .try_for_each(|value| visible(&observation.program, value.value))?;
+            .columns()
+            .into_iter()
+            .try_for_each(|column| visible(&observation.program, column))?;
+        if observation.values.iter().any(|value| value.ago > observation.history) {
+            return Err("the observation looks back further than it keeps".to_owned());
+        }
         if observation.program.cells > 0 {
             return Err("the observation remembers something".to_owned());
         }
@@ -173,6 +176,14 @@ enum ProgramPlace {
     Start,
     Init,
     Step { terms: usize },
+    Observation,
+}
+
+impl ProgramPlace {
+    /// Whether the match is under way.
+    fn is_step(self) -> bool {
+        matches!(self, ProgramPlace::Step { .. } | ProgramPlace::Observation)
+    }
 }
 
 fn verify_program(
@@ -225,7 +236,7 @@ fn verify_program(
                 if wanted != of.is_some() {
                     return Err(format!("instruction {at} loads `{field}` of the wrong thing"));
                 }
-                if !matches!(place, ProgramPlace::Step { .. }) {
+                if !place.is_step() {
                     return Err(format!("instruction {at} reads the match before it has begun"));
                 }
             }
@@ -238,11 +249,17 @@ fn verify_program(
             (Instr::Give { term, .. }, ProgramPlace::Step { terms }) => {
                 below("term", *term, terms)?;
             }
-            (Instr::Random { .. }, ProgramPlace::Start)
+            (Instr::Random { .. }, ProgramPlace::Observation) if !open.is_empty() => {
+                return Err(format!("instruction {at} draws inside a loop"));
+            }
+            (Instr::Random { .. }, ProgramPlace::Start | ProgramPlace::Observation)
             | (Instr::Assign { .. }, ProgramPlace::Init | ProgramPlace::Step { .. })
-            | (Instr::Terminated | Instr::Us | Instr::Me, ProgramPlace::Step { .. })
+            | (
+                Instr::Terminated | Instr::Us | Instr::Me,
+                ProgramPlace::Step { .. } | ProgramPlace::Observation,
+            )
             | (Instr::Us, ProgramPlace::Init) => {}
-            (_, ProgramPlace::Step { .. }) if instr.looks_back() => {}
+            (_, ProgramPlace::Step { .. } | ProgramPlace::Observation) if instr.looks_back() => {}
             _ if instr.looks_back() => return misplaced(at),
             (
                 Instr::Random { .. }
@@ -259,7 +276,7 @@ fn verify_program(
                 if end > limit {
                     return Err(format!("the loop at {at} runs past its end"));
                 }
-                if !matches!(place, ProgramPlace::Step { .. }) {
+                if !place.is_step() {
                     return Err(format!("instruction {at} reads the match before it has begun"));
                 }
                 if open.len() >= LOOPS_MAX {

@@ -170,3 +170,34 @@ fn a_further_match_takes_at_most_32_kib() {
     let bytes = counted.bytes_current as usize + std::mem::size_of::<Environment>();
     assert!(another.is_some() && bytes <= 32 * 1024, "{bytes} bytes");
 }
+
+/// What looks back is kept in every step, in a memory that is there from the start.
+#[test]
+fn an_observation_with_a_memory_allocates_nothing() {
+    let text = "scenario s extends academy_3_vs_1_with_keeper {
+        observe vector {
+            ball - me noise normal(0, 0.1m) delayed uniform(0s, 0.5s) stack 4
+            nearest(them, to: me) when sees(me, nearest(them, to: me), within: 120deg)
+        }
+    }";
+    let scenario = setpiece::compile_text(text, "<test>").unwrap().scenario;
+    let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
+    let (mut scratch, mut played) = (Scratch::default(), 0);
+    let mut out = vec![0.0; environment.observed_names().len()];
+    for index in 0..4 {
+        environment.reset(Some(1), Some(index)).unwrap();
+        while environment.is_running() {
+            let asked = scratch.rigid();
+            let counted = allocation_counter::measure(|| {
+                environment.step(&[Action::BuiltinAi], &mut scratch).unwrap();
+                environment.observe_vector(0, &mut out).unwrap();
+            });
+            // An ending may create the label of its outcome.
+            let is_running = environment.is_running();
+            let is_warm = index > 0 && is_running && scratch.rigid() == asked;
+            assert!(!is_warm || counted.count_total == 0, "step {}", environment.steps());
+            played += u32::from(is_warm);
+        }
+    }
+    assert!(played > 20);
+}

@@ -363,3 +363,30 @@ fn every_order_of_a_shuffle_is_as_likely() {
     assert_eq!(counts.len(), 6, "{counts:?}");
     assert!(counts.values().all(|&count| (150..250).contains(&count)), "{counts:?}");
 }
+
+const METRES: &str = "scenario metres extends academy {
+    agents { left: 1  right: 1 }
+    ball at (27.2m, -8m)
+    team left { CM at (20m, 3m) }
+    team right { CM at (30m, 5m) }
+    observe vector {
+        ball.metres.x / 1m as \"x\"
+        ball.metres.y / 1m as \"y\"
+        me.metres as \"me\"
+        (30m, 5m).metres as \"same\"
+        ball.x as \"normalised\"
+    }
+    end limit 5 steps
+}";
+
+#[test]
+fn a_place_in_metres_is_read_in_the_own_frame() {
+    let mut environment = environment(METRES);
+    environment.reset(Some(1), None).unwrap();
+    let mut seen = [0.0; 7];
+    environment.observe_vector(0, &mut seen).unwrap();
+    assert_eq!(seen, [27.2, -8.0, 20.0, 3.0, 30.0, 5.0, 0.5]);
+    // The right team's x and y are turned, and so are its literals.
+    environment.observe_vector(1, &mut seen).unwrap();
+    assert_eq!(seen, [-27.2, 8.0, -30.0, -5.0, 30.0, 5.0, -0.5]);
+}

@@ -21,6 +21,8 @@ pub struct RewardItem {
 pub struct RewardUse {
     /// What is used.
     pub what: RewardUseKind,
+    /// `for …`: who receives it.
+    pub audience: Option<Expr>,
     /// `as "x"`
     pub label: Option<Spanned<String>>,
     /// `* 0.5`
@@ -99,11 +101,13 @@ pub enum GiveValue {
     Script(ScriptRef),
 }
 
-/// `give VALUE [per second] [once] [on EVENTS] [when C] [as "label"]`
+/// `give VALUE [to WHO] [per second] [once] [on EVENTS] [when C] [as "label"]`
 #[derive(Clone, Debug, PartialEq)]
 pub struct GiveStmt {
     /// How much.
     pub value: GiveValue,
+    /// `to …`: who receives it.
+    pub to: Option<Expr>,
     /// `per second`
     pub per_second: bool,
     /// `once`

@@ -89,9 +89,26 @@ pub enum ScenarioStmtKind {
     /// `mirror: flanks`
     Mirror(Ident),
     /// `observe vector { … }`
-    Observe(Vec<(Expr, Option<Spanned<String>>)>),
+    Observe(Vec<Observed>),
     /// Something that could not be read; a problem tells why.
     Broken,
+}
+
+/// A line of `observe vector`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observed {
+    /// What is seen.
+    pub value: Expr,
+    /// `noise …`: what is added.
+    pub noise: Option<Expr>,
+    /// `when …`: whether it is seen.
+    pub when: Option<Expr>,
+    /// `delayed …`: how late.
+    pub delay: Option<Expr>,
+    /// `stack …`: how many steps of it.
+    pub stack: Option<Expr>,
+    /// `as "x"`
+    pub label: Option<Spanned<String>>,
 }
 
 /// `key: value`

@@ -335,6 +335,9 @@ fn may_break(last: &SourcePiece<'_>, piece: &SourcePiece<'_>) -> bool {
             | Rule::kw_else
             | Rule::kw_as
             | Rule::kw_on
+            | Rule::kw_noise
+            | Rule::kw_delayed
+            | Rule::kw_stack
             | Rule::kw_when
             | Rule::kw_where
             | Rule::kw_with

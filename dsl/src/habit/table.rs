@@ -28,6 +28,11 @@ pub(super) const HABITS: &[Habit] = &[
         "write `them` in a reward, `left` or `right` elsewhere",
     ),
     row(Name, "teammates¦team_mates", "write `mates`, or `us` for `me`, too"),
+    row(
+        Name,
+        "seen¦visible",
+        "an angle of view is a condition: `… when sees(me, ball, within: 120deg)`",
+    ),
     row(Name, "end", "`end` is an event only after `on`: `give 1 on end`"),
     // Letters.
     row(Anywhere, "| é", "a name is of the letters a to z, digits and `_`"),
@@ -277,6 +282,12 @@ pub(super) const HABITS: &[Habit] = &[
         "| end success¦failure",
         "`end` is an event only after `on`: `give … on end {1}`",
     ),
+    row(
+        Scenario,
+        "reward _ … | for *",
+        "who receives a reward stands behind its name: `reward {1} for {2}`",
+    ),
+    row(Reward, "give … | to *", "who receives it stands behind the value: `give 1 to {1} on …`"),
     // Loops, functions, classes.
     row(Behavior, "^ | while", "write `repeat until … { … }`"),
     row(Behavior, "^ | for", "write `repeat 3 times { … }`"),

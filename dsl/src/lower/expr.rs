@@ -7,6 +7,7 @@ mod event;
 mod function;
 mod grid;
 mod member;
+mod metres;
 mod name;
 mod random;
 mod region;
@@ -138,11 +139,16 @@ impl<'w> Lower<'_, 'w> {
         if let Some(at) = (0..kinds.len()).find(|&i| kinds.get(i) != Some(&wanted(i))) {
             let spans =
                 (parts.first().map_or(span, |p| p.span), parts.get(at).map_or(span, |p| p.span));
-            let operand = |i: usize, span: Span| Operand {
-                ty: values.get(i).map_or(Ty::Error, |value| value.ty),
-                text: self.world.text(span),
-                span,
-                is_quoted: false,
+            let mut operand = |i: usize, span: Span| {
+                let ty = values.get(i).map_or(Ty::Error, |value| value.ty);
+                let plain = parts.get(i).filter(|_| ty.is_plain() && at < 2);
+                Operand {
+                    ty,
+                    text: self.world.text(span),
+                    span,
+                    is_quoted: false,
+                    metres: plain.and_then(|part| self.written_in_metres(part)),
+                }
             };
             let (first, other) = (operand(0, spans.0), operand(at, spans.1));
             return self.fail(Problem::new(

@@ -1,5 +1,6 @@
 //! Rewards: a program at every step that pays into terms, and one at reset that sets the states.
 
+mod audience;
 mod state;
 mod writer;
 
@@ -10,7 +11,6 @@ use crate::ast::{
     Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse,
     RewardUseKind, ScriptRef, Span,
 };
-use crate::check::types::Ty;
 use crate::problem::facts::{Chance, Kind, Names, Rewards};
 use crate::problem::{Guess, Problem};
 use crate::resolve::reward_chain;
@@ -103,12 +103,10 @@ pub(crate) fn lower_use<'w>(
         check_weight(world, weight, name);
     }
     match &used.what {
-        RewardUseKind::Script(script) => {
-            Some(lower_script(step, name, script, used.weight.as_ref()))
-        }
+        RewardUseKind::Script(script) => Some(lower_script(step, name, script, used)),
         RewardUseKind::Inline { .. } | RewardUseKind::Named(_) => {
             let (written, doc) = written(world, used, span)?;
-            Some(lower_written(step, name, doc, &written, used.weight.as_ref()))
+            Some(lower_written(step, name, doc, &written, Some(used)))
         }
     }
 }
@@ -172,12 +170,14 @@ fn lower_script<'w>(
     step: &StepWorld<'_, 'w>,
     name: &str,
     script: &'w ScriptRef,
-    weight: Option<&'w Expr>,
+    used: &'w RewardUse,
 ) -> Reward {
     let mut lower =
         Lower::in_step(step, ProgramStage::Reward, Scope::new(true, LiteralFrame::World));
-    let weight = weight.map(|weight| lower.want_reg(weight, Ty::Number));
-    let hooks = RewardWriter::script_alone(&mut lower, script, weight);
+    let us = lower.code.us();
+    lower.team = Some(us);
+    let payment = lower.payment(Some(used));
+    let hooks = RewardWriter::script_alone(&mut lower, script, payment);
     let (step, _) = lower.code.finish(&[]);
     let init = Program { code: Vec::new(), cells: step.cells, ..Program::default() };
     let body = RewardBody { init, step, terms: vec![SCRIPT_TERM.to_owned()], hooks };
@@ -214,7 +214,7 @@ fn lower_written<'w>(
     name: &str,
     doc: String,
     written: &WrittenReward<'w>,
-    weight: Option<&'w Expr>,
+    used: Option<&'w RewardUse>,
 ) -> Reward {
     let world = step.world;
     let statements = written.statements();
@@ -243,11 +243,7 @@ fn lower_written<'w>(
         .iter()
         .map(|first| first.regs().iter().map(|_| lower.code.new_cell()).collect())
         .collect();
-    let weight = weight.map(|weight| {
-        lower.within(Scope::new(true, LiteralFrame::World), |lower| {
-            lower.want_reg(weight, Ty::Number)
-        })
-    });
+    let payment = lower.payment(used);
     lower.scope = written.bind(&mut lower);
     for ((state, first), cells) in states.iter().zip(&firsts).zip(cells) {
         let before = cells.iter().map(|&cell| lower.code.cell_before(cell)).collect();
@@ -255,7 +251,7 @@ fn lower_written<'w>(
     }
     let params: Vec<&ParamDecl> = written.links.iter().flat_map(|(link, _)| &link.params).collect();
     let writer::WrittenProgram { terms, mut hooks } =
-        RewardWriter::write(&mut lower, &statements, weight, true, params);
+        RewardWriter::write(&mut lower, &statements, Some(payment), params);
     let (mut init, _) = init.code.finish(&[]);
     let roots: Vec<Reg> =
         hooks.iter().flat_map(|hook| &hook.args).flat_map(|arg| &arg.regs).copied().collect();

@@ -2,7 +2,7 @@
 
 use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
-use crate::ast::{GiveStmt, GiveValue, RewardStmt, RewardStmtKind};
+use crate::ast::{Expr, GiveStmt, GiveValue, RewardStmt, RewardStmtKind};
 use crate::problem::Problem;
 use crate::problem::facts::Syntax;
 use crate::source::Span;
@@ -139,6 +139,12 @@ impl Reader<'_> {
         Some(RewardStmt { span, kind: RewardStmtKind::When { condition, then, otherwise } })
     }
 
+    /// `for WHO`, `to WHO`: who receives what is paid.
+    pub(super) fn clause(&mut self, nodes: &mut CstNodes<'_>, rule: Rule) -> Option<Expr> {
+        let who = nodes.want(rule).and_then(|clause| CstNodes::of(clause).seek(Rule::actor))?;
+        Some(self.expr(who))
+    }
+
     fn give(&mut self, node: CstNode<'_>) -> Option<GiveStmt> {
         let mut nodes = CstNodes::of(node);
         nodes.eat(Rule::kw_give);
@@ -148,10 +154,12 @@ impl Reader<'_> {
         } else {
             GiveValue::Expr(self.expr(value))
         };
+        let to = self.clause(&mut nodes, Rule::give_to);
         let per_second = nodes.eat(Rule::per_second);
         let once = nodes.want(Rule::kw_once).map(|once| self.span(&once));
         let mut give = GiveStmt {
             value,
+            to,
             per_second,
             once,
             on: Vec::new(),

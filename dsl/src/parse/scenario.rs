@@ -3,9 +3,11 @@
 use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
-    BallStmt, EndCondition, EndStmt, Expr, RewardUse, RewardUseKind, ScenarioStmt,
+    BallStmt, EndCondition, EndStmt, Observed, RewardUse, RewardUseKind, ScenarioStmt,
     ScenarioStmtKind, Spanned,
 };
+use crate::problem::Problem;
+use crate::problem::facts::Names;
 use crate::source::Span;
 use setpiece_grammar::Rule;
 
@@ -130,10 +132,32 @@ impl Reader<'_> {
         Some(crate::ast::Binding { name, ty: None, value })
     }
 
-    fn observed(&mut self, node: CstNode<'_>) -> Option<(Expr, Option<Spanned<String>>)> {
+    fn observed(&mut self, node: CstNode<'_>) -> Option<Observed> {
         let mut nodes = CstNodes::of(node);
         let value = self.take_expr(&mut nodes, Rule::expr)?;
-        Some((value, self.label(&mut nodes)))
+        let mut line =
+            Observed { value, noise: None, when: None, delay: None, stack: None, label: None };
+        while nodes.peek() == Some(Rule::sight) {
+            let Some(clause) = nodes.next().and_then(|sight| CstNodes::of(sight).next()) else {
+                break;
+            };
+            let rule = clause.as_rule();
+            let Some(inner) = CstNodes::of(clause).last() else { break };
+            let given = self.expr(inner);
+            let (slot, word) = match rule {
+                Rule::noise => (&mut line.noise, "noise"),
+                Rule::seen_when => (&mut line.when, "when"),
+                Rule::delayed => (&mut line.delay, "delayed"),
+                _ => (&mut line.stack, "stack"),
+            };
+            let span = given.span;
+            if let Some(first) = slot.replace(given) {
+                let (what, first) = (format!("`{word}`"), first.span);
+                self.push(Problem::new(span, Names::GivenTwice { what, first }));
+            }
+        }
+        line.label = self.label(&mut nodes);
+        Some(line)
     }
 
     /// `as "x"`
@@ -144,21 +168,25 @@ impl Reader<'_> {
 
     fn reward_use(&mut self, nodes: &mut CstNodes<'_>) -> Option<ScenarioStmtKind> {
         let node = nodes.next()?;
+        let mut audience = None;
         let what = match node.as_rule() {
             Rule::script => RewardUseKind::Script(self.script(node)?),
             Rule::reference => RewardUseKind::Named(self.reference(node)?),
             _ => {
                 let mut inner = CstNodes::of(node);
                 let name = inner.want(Rule::ident).map(|name| self.ident(&name))?;
+                audience = self.clause(&mut inner, Rule::audience);
                 let body = inner.want(Rule::reward_body)?;
                 RewardUseKind::Inline { name, body: self.reward_body(body) }
             }
         };
+        let audience = audience.or_else(|| self.clause(nodes, Rule::audience));
         let label = self.label(nodes);
         let weight =
             nodes.want(Rule::weight).and_then(|weight| CstNodes::of(weight).seek(Rule::factor));
         Some(ScenarioStmtKind::Reward(RewardUse {
             what,
+            audience,
             label,
             weight: weight.map(|weight| self.expr(weight)),
         }))

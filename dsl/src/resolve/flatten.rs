@@ -10,8 +10,9 @@ mod team;
 use super::load::{Library, distinct_params};
 use super::parts::chain;
 use crate::ast::{
-    Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, ParamDecl, PlayerStmt,
-    Ref, RewardUse, RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span, Spanned,
+    Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, Observed, ParamDecl,
+    PlayerStmt, Ref, RewardUse, RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span,
+    Spanned,
 };
 use crate::problem::facts::{Calls, Names, Types};
 use crate::problem::{Guess, Problem};
@@ -130,9 +131,6 @@ fn holds(item: &ScenarioItem, part: Span) -> bool {
         .chain(item.params.iter().map(|param| param.span))
         .any(|own| own.holds(part))
 }
-
-/// A line of `observe vector { … }`: a value and its label.
-pub(crate) type Observed = (Expr, Option<Spanned<String>>);
 
 /// A parameter: its declaration, and the argument or newer default that stands for the declared
 /// one.

@@ -135,6 +135,13 @@ impl Environment {
         self.judge.observed_names()
     }
 
+    /// The numbers of the scenario's own observation that could not be computed in this episode
+    /// (such as a division by zero), and how often; they were shown as 0. Without `delayed` and
+    /// `stack`, only what was asked for is counted.
+    pub fn observed_faults(&self) -> impl Iterator<Item = (&str, u32)> {
+        self.judge.observed_faults()
+    }
+
     /// The layout of an observation's numbers.
     pub fn layout(&self, floats: Floats) -> Layout {
         match floats {

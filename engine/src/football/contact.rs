@@ -2,7 +2,7 @@
 
 use crate::football::{forecast, offside, report, whistle};
 use crate::state::event::{Event, Events};
-use crate::state::play::Flight;
+use crate::state::play::{Flight, Received};
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M, TEAM_MAX};
@@ -92,7 +92,9 @@ fn settle(game: &mut Match, events: &mut Events, by: PlayerId) {
                     .qualified(qualifier)
                     .length(length),
             );
-            if !mate {
+            if mate {
+                game.play.received = Some(Received { from: pass.by, by, length_m: length });
+            } else {
                 report::did(game, events, EventKind::Interception, by, Some(pass.by));
             }
             game.play.pass = None;
@@ -130,6 +132,7 @@ pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
     if game.last_touch != Some(by) || game.player(by).body.touched_at != game.tick as i32 {
         game.play.unseen = [game.ball.pos.truncate(), game.ball.vel.truncate()];
     }
+    game.play.received = game.play.received.filter(|pass| pass.by == by);
     game.last_touch = Some(by);
     game.play.lead = by.team();
     game.players[by.index()].body.touched_at = game.tick as i32;

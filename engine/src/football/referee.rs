@@ -47,6 +47,11 @@ fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
         Some(id) => base.by(id),
         None => base,
     });
+    let received = game.play.received.filter(|pass| pass.by.team() == scorers);
+    if let Some(pass) = received.filter(|pass| scorer == Some(pass.by)) {
+        let assist = report::event(game, EventKind::Assist).by(pass.from).to(scorer);
+        events.push(assist.length(pass.length_m));
+    }
     if game.play.advantage.is_some_and(|advantage| advantage.restart.team == scorers) {
         advantage::played(game, events);
     }

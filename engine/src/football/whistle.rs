@@ -18,6 +18,7 @@ pub fn stop(game: &mut Match, events: &mut Events, mode: GameMode, team: Team, s
     }
     game.dead = true;
     game.owner = None;
+    game.play.received = None;
     game.play.pending = Some(Restart { mode, team, spot });
     let spot = spot.extend(BALL_RADIUS_M as f32);
     events.push(report::event(game, event_of(mode)).team(team).at(spot));

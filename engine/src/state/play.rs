@@ -26,6 +26,8 @@ pub struct Play {
     pub pass: Option<Flight>,
     /// The shot under way.
     pub shot: Option<Flight>,
+    /// The last completed pass, while nobody but its receiver has touched the ball since.
+    pub received: Option<Received>,
     /// The keeper who holds the ball in their hands, and since which tick.
     pub hands: Option<(PlayerId, u32)>,
     /// Who had the ball last.
@@ -144,6 +146,17 @@ pub struct Flight {
     pub tick: u32,
 }
 
+/// A completed pass.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Received {
+    /// Who passed.
+    pub from: PlayerId,
+    /// Who received.
+    pub by: PlayerId,
+    /// How far the ball came, metres.
+    pub length_m: f32,
+}
+
 /// A keeper's plan against a ball on its way.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Save {
@@ -170,6 +183,7 @@ impl Play {
             advantage: None,
             pass: None,
             shot: None,
+            received: None,
             hands: None,
             unseen: [Vec2::ZERO; 2],
             bounced_at: NEVER,

@@ -6,6 +6,7 @@ use super::{View, Writer};
 const DEPTH: usize = 3;
 const EVENTS: &[&str] = &[
     "goal",
+    "assist",
     "shot",
     "pass",
     "touch",
@@ -114,7 +115,7 @@ impl Writer<'_, '_> {
     }
 
     fn leaf(&mut self, view: View) -> String {
-        match self.choices.below(10) {
+        match self.choices.below(11) {
             0 => format!("{:.2}", self.choices.between(0.0, 3.0)),
             1 => "ball.x".to_owned(),
             2 if !self.numbers.is_empty() && view != View::Behavior => {
@@ -130,6 +131,7 @@ impl Writer<'_, '_> {
                 let at = self.choices.below(self.records.len());
                 self.records[at].clone()
             }
+            9 => format!("({}.metres.y / 1m)", self.player(view)),
             _ => "(ball.height / 1m)".to_owned(),
         }
     }
@@ -137,7 +139,7 @@ impl Writer<'_, '_> {
     fn condition_at(&mut self, view: View, depth: usize) -> String {
         let depth = depth.saturating_sub(1);
         let plain = depth == 0;
-        match self.choices.below(14) {
+        match self.choices.below(15) {
             0 | 1 => {
                 let sign = self.choices.one(&["<", ">", "<=", ">=", "==", "!="]);
                 format!("{} {sign} {}", self.number_at(view, depth), self.number_at(view, depth))
@@ -146,6 +148,7 @@ impl Writer<'_, '_> {
             3 => format!("{} has ball", self.team(view)),
             4 => format!("possession == {}", self.team(view)),
             5 => format!("pressed({}, within: {}m)", self.player(view), 1 + self.choices.below(20)),
+            14 => format!("sees({}, ball, within: 120deg)", self.player(view)),
             6 if !plain => format!("(not ({}))", self.condition_at(view, depth)),
             7 if !plain => {
                 let word = self.choices.one(&["and", "or"]);

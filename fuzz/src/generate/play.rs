@@ -9,7 +9,7 @@ impl Writer<'_, '_> {
         self.line(&format!("reward r{n} {{ state s = 0"));
         for at in 0..=self.choices.below(4) {
             let (value, condition) = (self.number(view), self.condition(view));
-            let line = match self.choices.below(7) {
+            let line = match self.choices.below(8) {
                 0 => format!("give {value} when {condition} as \"a{at}\""),
                 1 => format!("give {value} per second as \"b{at}\""),
                 2 => format!("give {value} once when {condition} as \"c{at}\""),
@@ -20,6 +20,10 @@ impl Writer<'_, '_> {
                     format!("on {} {{ s = s + 1 give s * {value} as \"e{at}\" }}", self.event(view))
                 }
                 5 => format!("when {condition} {{ s = {value} }} else {{ give s as \"f{at}\" }}"),
+                6 => {
+                    let who = self.choices.one(&["left", "CF", "assist", "[GK, right]", "ball.owner"]);
+                    format!("give {value} to {who} when {condition} as \"h{at}\"")
+                }
                 _ => format!("give {value} on end success as \"g{at}\""),
             };
             self.line(&line);
@@ -66,7 +70,18 @@ impl Writer<'_, '_> {
                 2 => self.condition(view),
                 _ => "ball.velocity".to_owned(),
             };
-            self.line(&format!("({value}) as \"o{n}\""));
+            let sight = match self.choices.below(6) {
+                0 => "",
+                1 => "delayed 0.3s",
+                2 => "stack 3",
+                3 => "when sees(me, ball, within: 120deg)",
+                4 => "delayed uniform(0s, 0.5s) stack 2",
+                _ => "when us has ball stack 2",
+            };
+            self.line(&format!("({value}) {sight} as \"o{n}\""));
+            if self.choices.rarely(3) {
+                self.line(&format!("ball noise normal(0, 0.3m) stack 2 as \"noisy{n}\""));
+            }
         }
         self.line("}");
     }

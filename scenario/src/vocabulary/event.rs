@@ -36,6 +36,7 @@ words! {
         HalfTime = "half_time", "half-time";
         FullTime = "full_time", "full time";
         End = "end", "the episode ends";
+        Assist = "assist", "a goal by the receiver of a pass; by the passer, to the scorer";
     }
 }
 
@@ -75,7 +76,14 @@ impl EventKind {
 
     /// Whether the event names a receiver or victim.
     pub const fn has_receiver(self) -> bool {
-        matches!(self, EventKind::Pass | EventKind::Tackle | EventKind::Foul | EventKind::Advantage)
+        matches!(
+            self,
+            EventKind::Pass
+                | EventKind::Tackle
+                | EventKind::Foul
+                | EventKind::Advantage
+                | EventKind::Assist
+        )
     }
 
     /// Whether the event names the player who did it.

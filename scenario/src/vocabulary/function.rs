@@ -35,6 +35,7 @@ words! {
         MaxBy = "max_by", "max_by(E for p in S where C): the player with the greatest E";
         Exists = "exists", "exists(p): whether p is a player (not nobody)";
         Pressed = "pressed", "pressed(p, within: d): an opponent of p is nearer than d";
+        Sees = "sees", "sees(p, a, within: angle): a lies within this angle of where p faces, half to each side";
         OffsideLine = "offside_line", "offside_line(team): normalised x of its offside line";
         Closing = "closing", "closing(a, b): how much closer they came in this step";
         Prev = "prev", "prev(e): e one step ago";

@@ -97,6 +97,7 @@ const fn property(owner: Owner, name: &'static str, ty: Type, doc: &'static str)
 pub const PROPERTIES: &[Property] = &[
     property(Owner::Ball, "x", Type::Number, "normalised x in the reader's frame"),
     property(Owner::Ball, "y", Type::Number, "normalised y in the reader's frame"),
+    property(Owner::Ball, "metres", Type::Vector, "its place in metres from the centre spot"),
     property(Owner::Ball, "height", Type::Length, "of its centre above the ground; 0.11 m at rest"),
     property(Owner::Ball, "speed", Type::Speed, "in three dimensions"),
     property(Owner::Ball, "velocity", Type::Vector, "along the ground, m/s"),
@@ -104,6 +105,7 @@ pub const PROPERTIES: &[Property] = &[
     property(Owner::Ball, "owner", Type::Player, "the player who has it now, or nobody"),
     property(Owner::Player, "x", Type::Number, "normalised x in the reader's frame"),
     property(Owner::Player, "y", Type::Number, "normalised y in the reader's frame"),
+    property(Owner::Player, "metres", Type::Vector, "their place in metres from the centre spot"),
     property(Owner::Player, "speed", Type::Speed, "along the ground"),
     property(Owner::Player, "velocity", Type::Vector, "along the ground, m/s"),
     property(

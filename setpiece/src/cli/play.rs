@@ -330,6 +330,7 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
             let summary = summarise(played, &environment, 0.0);
             let faulty = faulty_rewards(&scenario, &options, &summary)?;
             summary::means(&summary, &faulty, summary::WIDTH, out);
+            summary::unclear(&scenario, &options, summary::WIDTH, out)?;
         }
         out.line(StyledText::default().dim("waiting for a change; Ctrl-C ends"));
         let mut is_missing = false;

@@ -7,7 +7,7 @@ use crate::engine::batch::EpisodeSummary;
 use crate::engine::environment::Environment;
 use crate::engine::statistics::MatchMeans;
 use crate::level::Level;
-use crate::run::{RunOptions, Summary, faulty_rewards};
+use crate::run::{RunOptions, Summary, faulty_numbers, faulty_rewards};
 use crate::scenario::{Scenario, Verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -135,6 +135,7 @@ pub(crate) fn print(
     }
     out.line("");
     means(summary, &faulty_rewards(scenario, options, summary)?, width, out);
+    unclear(scenario, options, width, out)?;
     if scenario.endings.list.is_empty() {
         let m = &summary.match_stats;
         out.line(format!(
@@ -148,6 +149,22 @@ pub(crate) fn print(
         ));
     }
     out.line(format!("  {:width$}  {:.0} steps per second", "speed", summary.steps_per_second));
+    Ok(())
+}
+
+/// Prints which numbers of the scenario's own observation could not be computed.
+pub(crate) fn unclear(
+    scenario: &Arc<Scenario>,
+    options: &RunOptions,
+    width: usize,
+    out: &Out,
+) -> Result<(), Error> {
+    for (name, times) in faulty_numbers(scenario, options)? {
+        let report = format!(
+            "observed `{name}` could not be computed {times} times and was 0: a division by zero?"
+        );
+        out.line(StyledText::from(format!("  {:width$}    ", "")).paint(&report, Paint::Failure));
+    }
     Ok(())
 }
 

@@ -38,6 +38,7 @@ pub fn weight(event: &Event) -> u32 {
         (E::Goal | E::OwnGoal, _) => 100,
         (E::RedCard, _) => 95,
         (E::Penalty, None) => DECISIVE,
+        (E::Assist, _) => 80,
         (E::Shot, None) => 70,
         (E::Save, _) => 66,
         (E::Woodwork, _) => 64,
@@ -108,14 +109,16 @@ fn sentence(event: &Event) -> Vec<Piece> {
     let to = event.to.filter(|_| takes_another(event.kind)).map(Piece::Player);
     pieces.extend(by);
     if let Some(to) = to {
-        pieces.extend([Piece::Text(if event.kind == EventKind::Pass { "→" } else { "on" }), to]);
+        let is_pass = matches!(event.kind, EventKind::Pass | EventKind::Assist);
+        pieces.extend([Piece::Text(if is_pass { "→" } else { "on" }), to]);
     }
     pieces
 }
 
 /// Whether the receiver or victim is part of the sentence.
 fn takes_another(kind: EventKind) -> bool {
-    matches!(kind, EventKind::Pass | EventKind::Foul | EventKind::Tackle | EventKind::Advantage)
+    use EventKind as E;
+    matches!(kind, E::Pass | E::Foul | E::Tackle | E::Advantage | E::Assist)
 }
 
 fn verb(event: &Event) -> &'static str {
@@ -147,6 +150,7 @@ fn verb(event: &Event) -> &'static str {
         (E::YellowCard, _) => "yellow card",
         (E::RedCard, _) => "red card",
         (E::Advantage, _) => "advantage: foul",
+        (E::Assist, _) => "assist",
         (E::ThrowIn, None) => "throw-in",
         (E::ThrowIn, _) => "throw-in taken",
         (E::Corner, None) => "corner",

@@ -205,17 +205,23 @@ impl<'w> Lower<'_, 'w> {
         if value.ty.is_place() { self.place_of(value, span) } else { self.pair(value) }
     }
 
-    fn disagree(&self, x: &Value<'w>, y: &Value<'w>, a: &Expr, b: &Expr, verb: Verb) -> Value<'w> {
-        let operand = |value: &Value<'w>, expr: &Expr| Operand {
+    fn disagree(
+        &mut self,
+        x: &Value<'w>,
+        y: &Value<'w>,
+        a: &'w Expr,
+        b: &'w Expr,
+        verb: Verb,
+    ) -> Value<'w> {
+        let mut operand = |value: &Value<'w>, expr: &'w Expr| Operand {
             ty: value.ty,
             text: self.world.text(expr.span),
             span: expr.span,
             is_quoted: matches!(&value.repr, Repr::Text(_)),
+            metres: value.ty.is_plain().then(|| self.written_in_metres(expr)).flatten(),
         };
-        self.fail(Problem::new(
-            b.span,
-            Types::Disagree { verb, left: operand(x, a), right: operand(y, b) },
-        ))
+        let (left, right) = (operand(x, a), operand(y, b));
+        self.fail(Problem::new(b.span, Types::Disagree { verb, left, right }))
     }
 
     fn product(&mut self, a: &'w Expr, b: &'w Expr) -> Value<'w> {

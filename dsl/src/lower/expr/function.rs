@@ -3,7 +3,8 @@
 use super::super::Lower;
 use super::super::value::Value;
 use crate::ast::{Arg, Expr, Ident, Span};
-use crate::check::types::{Dim, Ty};
+use crate::check::types::Ty;
+use crate::lower::builder::Builder;
 use crate::problem::Problem;
 use crate::problem::facts::{Calls, Chance, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
@@ -76,6 +77,7 @@ impl<'w> Lower<'_, 'w> {
                     ) => self.draw(function, &given, span),
                     (F::Nearest, &[set, to]) => self.nearest(set, to),
                     (F::Pressed, &[who, within]) => self.pressed(who, within),
+                    (F::Sees, &[who, place, within]) => self.sees(who, place, within),
                     (F::MinGap, &[set]) => self.min_gap(set, span),
                     (F::Grid, _) => self.fail(Problem::new(span, Calls::GridAlone)),
                     _ => self.math(function, &given, span),
@@ -212,10 +214,7 @@ impl<'w> Lower<'_, 'w> {
         let mut best: Option<Value<'w>> = None;
         for arg in args {
             let value = match &best {
-                Some(first) if first.ty.dim().is_some_and(|dim| dim != Dim::NONE) => {
-                    self.want(&arg.value, first.ty)
-                }
-                Some(_) => self.want(&arg.value, Ty::Number),
+                Some(first) => self.like(&arg.value, first.ty),
                 None => self.expr(&arg.value),
             };
             if value.is_error() {
@@ -236,6 +235,15 @@ impl<'w> Lower<'_, 'w> {
         best.unwrap_or_else(Value::error)
     }
 
+    /// A number of the same unit as another; a whole one stays whole.
+    fn like(&mut self, expr: &'w Expr, ty: Ty) -> Value<'w> {
+        if !ty.is_plain() {
+            return self.want(expr, ty);
+        }
+        let value = self.expr(expr);
+        if value.ty.is_plain() { value } else { self.convert(value, Ty::Number, expr) }
+    }
+
     fn clamp(&mut self, x: &'w Expr, low: &'w Expr, high: &'w Expr) -> Value<'w> {
         let value = self.expr(x);
         if value.is_error() {
@@ -244,15 +252,15 @@ impl<'w> Lower<'_, 'w> {
         if value.ty.dim().is_none() {
             return self.fail(self.mismatch(value.ty, Ty::Number, x.span));
         }
-        let wanted = if value.ty.is_plain() { Ty::Number } else { value.ty };
-        let (low, high) = (self.want(low, wanted), self.want(high, wanted));
-        let all_whole = value.ty == Ty::Int;
+        let (low, high) = (self.like(low, value.ty), self.like(high, value.ty));
         let (v, l, h) = (self.reg(&value), self.reg(&low), self.reg(&high));
         let raised = self.code.binary(BinaryOp::Max, v, l);
         let held = self.code.binary(BinaryOp::Min, raised, h);
-        let whole_ends =
-            [l, h].iter().all(|&reg| self.code.constant_of(reg).is_some_and(|v| v.fract() == 0.0));
-        let ty = if all_whole && !whole_ends { Ty::Number } else { value.ty };
+        let is_whole = |end: &Value<'w>, reg: Reg, code: &Builder| {
+            end.ty == Ty::Int || code.constant_of(reg).is_some_and(|v| v.fract() == 0.0)
+        };
+        let whole_ends = is_whole(&low, l, &self.code) && is_whole(&high, h, &self.code);
+        let ty = if value.ty == Ty::Int && !whole_ends { Ty::Number } else { value.ty };
         Value::one(ty, held)
     }
 
@@ -364,6 +372,7 @@ fn signature(function: Function) -> (&'static [&'static str], usize) {
         F::Nearest => (&["S", "to"], 2),
         F::Exists => (&["p"], 1),
         F::Pressed => (&["p", "within"], 2),
+        F::Sees => (&["p", "a", "within"], 3),
         F::OffsideLine => (&["team"], 1),
         F::Prev | F::Delta => (&["e"], 1),
         F::Potential => (&["e", "gamma"], 2),

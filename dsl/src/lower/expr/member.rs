@@ -60,9 +60,13 @@ impl<'w> Lower<'_, 'w> {
             Ty::Score => self.score_member(member, span),
             Ty::Point | Ty::Vector | Ty::Velocity => match name {
                 "x" | "y" => self.coordinate(&value, name),
+                "metres" if value.ty == Ty::Point => self.metres(&value, of.span),
                 "z" if matches!(value.repr, Repr::Three(..)) => {
                     let ty = if value.ty == Ty::Velocity { Ty::SPEED } else { Ty::LENGTH };
                     value.regs().get(2).map_or_else(Value::error, |&z| Value::one(ty, z))
+                }
+                _ if value.ty == Ty::Point => {
+                    self.no_member(of.span, value.ty, member.span, name, &["x", "y", "metres"])
                 }
                 _ => self.no_member(of.span, value.ty, member.span, name, &["x", "y"]),
             },
@@ -175,6 +179,7 @@ impl<'w> Lower<'_, 'w> {
                 let place = self.place_of(value, span);
                 self.coordinate(&Value::two(Ty::Point, place), &member.node)
             }
+            "metres" => self.metres(value, span),
             "height" => {
                 let (field, ty) = one(Field::BallHeight);
                 self.load(field, None, "height", span)
@@ -221,6 +226,7 @@ impl<'w> Lower<'_, 'w> {
                 let place = self.place_of(value, span);
                 return self.coordinate(&Value::two(Ty::Point, place), name);
             }
+            "metres" => return self.metres(value, span),
             "team" => return Value::one(Ty::Team, self.code.unary(UnaryOp::TeamOf, reg)),
             "velocity" => return self.velocity(value, span),
             "speed" => {

@@ -1,4 +1,5 @@
-//! Draws: in the start program only.
+//! Draws: at the start, when a statement of a behaviour is reached, and in every step of an
+//! observation.
 
 use super::super::value::Value;
 use super::super::{Lower, ProgramStage};
@@ -8,7 +9,7 @@ use crate::lower::known::Draw;
 use crate::problem::facts::{Chance, Implied};
 use crate::problem::{Problem, signature};
 use setpiece_scenario::vocabulary::Function;
-use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp};
+use setpiece_scenario::{BinaryOp, Distribution, Reg, UnaryOp, When};
 
 /// Most values of a `shuffle`: each may come to each place, so the program grows with the square.
 const SHUFFLED_MAX: usize = 64;
@@ -21,6 +22,13 @@ impl<'w> Lower<'_, 'w> {
         }
         if matches!(self.stage, ProgramStage::Behavior(_)) {
             return self.may_draw_now(function, span);
+        }
+        if matches!(self.stage, ProgramStage::Observation) {
+            let is_once = !self.code.in_loop() && self.when == When::Now;
+            if !is_once {
+                self.report(Problem::new(span, Chance::DrawnOnce { function: function.name() }));
+            }
+            return is_once;
         }
         let is_constant = matches!(self.stage, ProgramStage::Constant);
         self.report(Problem::new(
@@ -63,14 +71,20 @@ impl<'w> Lower<'_, 'w> {
         if head.ty.dim().is_none() {
             return self.fail(self.mismatch(head.ty, Ty::Number, first.span));
         }
+        let values: Vec<Value<'w>> = rest.iter().map(|expr| self.expr(expr)).collect();
         let wanted = match head.ty {
             Ty::Int if function == F::Integer => Ty::Int,
+            // `0` needs no unit: it takes that of what stands beside it.
+            ty if ty.is_plain() && self.is_zero(&head) => {
+                let mut types = values.iter().map(|value| value.ty);
+                types.find(|ty| matches!(ty, Ty::Quantity(_))).unwrap_or(Ty::Number)
+            }
             ty if ty.is_plain() => Ty::Number,
             ty => ty,
         };
         let mut regs = vec![self.reg(&head)];
-        for expr in rest {
-            let value = self.want(expr, wanted);
+        for (value, expr) in values.into_iter().zip(rest) {
+            let value = self.convert(value, wanted, expr);
             if value.is_error() {
                 return value;
             }
@@ -105,6 +119,11 @@ impl<'w> Lower<'_, 'w> {
             self.check_range(sd, (0.0, f64::MAX), "the standard deviation", at, "`0` or more");
         }
         Value::one(wanted, self.random(distribution))
+    }
+
+    fn is_zero(&mut self, value: &Value<'w>) -> bool {
+        let reg = self.reg(value);
+        self.code.constant_of(reg) == Some(0.0)
     }
 
     /// Reports ends that are the wrong way round; `false` if they always are.

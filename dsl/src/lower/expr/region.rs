@@ -25,7 +25,11 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// The region that a value is.
-    pub(crate) fn as_region(&mut self, value: Value<'w>, expr: &Expr) -> Option<Arc<RegionValue>> {
+    pub(crate) fn as_region(
+        &mut self,
+        value: Value<'w>,
+        expr: &'w Expr,
+    ) -> Option<Arc<RegionValue>> {
         match self.convert(value, Ty::Region, expr).repr {
             Repr::Region(region) => Some(region),
             _ => None,

@@ -8,8 +8,9 @@ use crate::ast::{self, Arg, Expr, ExprKind, Span};
 use crate::check::types::Ty;
 use crate::problem::facts::{Calls, Chance, Instead, Scopes};
 use crate::problem::{Problem, signature};
-use setpiece_scenario::vocabulary::Function;
+use setpiece_scenario::vocabulary::{Field, Function};
 use setpiece_scenario::{BinaryOp, Fold, FoldKind, Over, Reg, UnaryOp};
+use std::f64::consts::TAU;
 
 /// The gap between two players if one is absent, metres: more than the pitch has room for.
 const APART_M: f64 = 1000.0;
@@ -26,7 +27,7 @@ struct Comprehension<'w> {
 
 impl<'w> Lower<'_, 'w> {
     /// Whether a player belongs to a set.
-    pub(super) fn in_set(&mut self, player: Reg, set: SetValue) -> Reg {
+    pub(crate) fn in_set(&mut self, player: Reg, set: SetValue) -> Reg {
         let team = self.code.unary(UnaryOp::TeamOf, player);
         let mut inside = match self.code.constant_of(set.team) {
             Some(both) if both < 0.0 => {
@@ -331,6 +332,35 @@ impl<'w> Lower<'_, 'w> {
         let distance = self.distance(place, target);
         let fold = Fold { kind: FoldKind::ArgMin, value: Some(distance), guard: None };
         Value::one(Ty::Player, self.code.close_loop(open, fold))
+    }
+
+    /// Whether a place lies within the angle of view of a player: half to each side of where they
+    /// face.
+    pub(super) fn sees(&mut self, who: &'w Expr, place: &'w Expr, within: &'w Expr) -> Value<'w> {
+        if !self.players_known(who.span, "sees") {
+            return Value::error();
+        }
+        let player = self.want(who, Ty::Player);
+        let (x, y) = self.want_point(place);
+        let angle = self.want_reg(within, Ty::ANGLE);
+        self.check_range(angle, (0.0, TAU), "the angle of view", within.span, "`0deg..360deg`");
+        if player.is_error() {
+            return player;
+        }
+        let player = self.reg(&player);
+        let here = self.player_place(player);
+        let facing = self.code.load(Field::PlayerHeading, Some(player), self.when);
+        let (dx, dy) = (
+            self.code.binary(BinaryOp::Sub, x, here.0),
+            self.code.binary(BinaryOp::Sub, y, here.1),
+        );
+        let towards = self.code.binary(BinaryOp::Atan2, dy, dx);
+        let turn = self.code.binary(BinaryOp::Sub, towards, facing);
+        let turn = self.code.unary(UnaryOp::Wrap, turn);
+        let turn = self.code.unary(UnaryOp::Abs, turn);
+        let two = self.code.constant(2.0);
+        let half = self.code.binary(BinaryOp::Div, angle, two);
+        Value::one(Ty::Bool, self.code.binary(BinaryOp::Le, turn, half))
     }
 
     pub(super) fn pressed(&mut self, who: &'w Expr, within: &'w Expr) -> Value<'w> {

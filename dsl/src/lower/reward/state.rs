@@ -208,7 +208,7 @@ impl<'w> Lower<'_, 'w> {
             self.bind_state(state, cells, before, first.ty);
         }
         let with_states = self.scope.clone();
-        RewardWriter::write(self, &statements, None, false, Vec::new());
+        RewardWriter::write(self, &statements, None, Vec::new());
         let one = self.code.constant(1.0);
         self.code.assign(begun, one, None);
         self.stage = reader;

@@ -24,6 +24,15 @@ pub(super) struct WrittenProgram {
     pub(super) hooks: Vec<RewardHook>,
 }
 
+/// What a scenario asks of every payment of a reward.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Payment {
+    /// What it is multiplied by.
+    pub(super) weight: Option<Reg>,
+    /// Whether the agent receives it.
+    pub(super) audience: Option<Reg>,
+}
+
 /// Writes the step program.
 pub(super) struct RewardWriter<'l, 'c, 'w> {
     lower: &'l mut Lower<'c, 'w>,
@@ -33,10 +42,8 @@ pub(super) struct RewardWriter<'l, 'c, 'w> {
     hooks: Vec<RewardHook>,
     /// The reward's parameters, which its scripts see.
     params: Vec<&'w ParamDecl>,
-    /// What every payment is multiplied by.
-    weight: Option<Reg>,
-    /// Whether anything is paid; else only the states are kept.
-    pays: bool,
+    /// What is paid to which agents; `None` if only the states are kept.
+    payment: Option<Payment>,
     guard: Option<Reg>,
     /// Why the event around never happens.
     never: Option<Never>,
@@ -46,8 +53,7 @@ pub(super) struct RewardWriter<'l, 'c, 'w> {
 impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
     fn new(
         lower: &'l mut Lower<'c, 'w>,
-        weight: Option<Reg>,
-        pays: bool,
+        payment: Option<Payment>,
         params: Vec<&'w ParamDecl>,
     ) -> RewardWriter<'l, 'c, 'w> {
         let (terms, places, hooks) = (Vec::new(), BTreeMap::new(), Vec::new());
@@ -57,8 +63,7 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
             places,
             hooks,
             params,
-            weight,
-            pays,
+            payment,
             guard: None,
             never: None,
             unlabelled: 0,
@@ -70,11 +75,10 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
     pub(super) fn write(
         lower: &'l mut Lower<'c, 'w>,
         statements: &[&'w RewardStmt],
-        weight: Option<Reg>,
-        pays: bool,
+        payment: Option<Payment>,
         params: Vec<&'w ParamDecl>,
     ) -> WrittenProgram {
-        let mut writer = RewardWriter::new(lower, weight, pays, params);
+        let mut writer = RewardWriter::new(lower, payment, params);
         // The step's `let`s come first, top to bottom: they see no assignment of this step.
         for statement in statements {
             if let RewardStmtKind::Let(binding) = &statement.kind {
@@ -91,12 +95,12 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
     pub(super) fn script_alone(
         lower: &'l mut Lower<'c, 'w>,
         script: &'w ScriptRef,
-        weight: Option<Reg>,
+        payment: Payment,
     ) -> Vec<RewardHook> {
-        let mut writer = RewardWriter::new(lower, weight, true, Vec::new());
+        let mut writer = RewardWriter::new(lower, Some(payment), Vec::new());
         let value = writer.script(script);
         let value = writer.weighted(value);
-        writer.lower.code.give(0, value, None);
+        writer.lower.code.give(0, value, payment.audience);
         writer.hooks
     }
 
@@ -127,7 +131,12 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
                     .report(Problem::new(state.name.span, Scopes::StateInBlock { of: "a reward" }));
             }
             RewardStmtKind::Let(binding) if !is_top => self.bind_let(binding),
-            RewardStmtKind::Give(give) if self.pays => self.give(give),
+            RewardStmtKind::Give(give) if self.payment.is_some() => {
+                match self.payment.and_then(|payment| payment.audience) {
+                    Some(audience) => self.guarded(audience, |writer| writer.give(give)),
+                    None => self.give(give),
+                }
+            }
             RewardStmtKind::State(_)
             | RewardStmtKind::Let(_)
             | RewardStmtKind::Give(_)
@@ -212,8 +221,8 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         if give.on.is_empty() {
             let when = give.when.as_ref().map(|when| self.lower.condition(when));
             match when {
-                Some(when) => self.guarded(when, |writer| writer.pay(give, term)),
-                None => self.pay(give, term),
+                Some(when) => self.guarded(when, |writer| writer.pay_to(give, term)),
+                None => self.pay_to(give, term),
             }
             return;
         }
@@ -221,11 +230,13 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         let paid = give.once.map(|_| self.lower.code.new_cell());
         for event in &give.on {
             self.on_event(event, give.when.as_ref(), |writer| {
-                let value = writer.amount(give);
-                match paid {
-                    Some(cell) => writer.pay_once(term, value, cell),
-                    None => writer.lower.code.give(term, value, writer.guard),
-                }
+                writer.for_receiver(give, |writer| {
+                    let value = writer.amount(give);
+                    match paid {
+                        Some(cell) => writer.pay_once(term, value, cell),
+                        None => writer.lower.code.give(term, value, writer.guard),
+                    }
+                });
             });
         }
     }
@@ -237,6 +248,18 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
             self.terms.push(label);
         }
         place
+    }
+
+    /// Writes what is paid, for those that `to` names.
+    fn for_receiver(&mut self, give: &'w GiveStmt, f: impl FnOnce(&mut Self)) {
+        match give.to.as_ref().and_then(|to| self.lower.audience(to, "to")) {
+            Some(receives) => self.guarded(receives, f),
+            None => f(self),
+        }
+    }
+
+    fn pay_to(&mut self, give: &'w GiveStmt, term: u32) {
+        self.for_receiver(give, |writer| writer.pay(give, term));
     }
 
     fn pay(&mut self, give: &'w GiveStmt, term: u32) {
@@ -287,7 +310,7 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
     }
 
     fn weighted(&mut self, value: Reg) -> Reg {
-        match self.weight {
+        match self.payment.and_then(|payment| payment.weight) {
             Some(weight) => self.lower.code.binary(BinaryOp::Mul, value, weight),
             None => value,
         }

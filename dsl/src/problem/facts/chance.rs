@@ -52,6 +52,14 @@ facts! {
         NoDrawNow { function: &'static str } = Code::WrongScope =>
             say(format!("`{function}` draws when a statement is reached, not here"), "looked at again and again")
                 .help("draw it before with a `let` and use the name"),
+        /// A draw of an observation for each element of a loop, or a step ago.
+        DrawnOnce { function: &'static str } = Code::WrongScope =>
+            say(format!("`{function}` draws once in a step here"), "drawn again for each player or step")
+                .help("put the noise behind the value: `ball.x noise normal(0, 0.01)`"),
+        /// Noise that is always the same.
+        NoiseNotDrawn { text: String } = Code::WrongArguments =>
+            say(format!("`{text}` is not drawn, so it is no noise"), "always the same")
+                .help(format!("write, for example, `noise normal(0, {text})`")),
         /// `uniform(…)` and its like without a range or a region.
         NoEnds { function: &'static str, signature: String } = Code::WrongArguments =>
             say(format!("`{function}` needs two ends or a region"), "").help(format!("`{signature}`")),

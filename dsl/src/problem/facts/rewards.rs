@@ -4,7 +4,7 @@ use super::facts;
 use crate::problem::Code;
 use crate::problem::said::say;
 use crate::source::Span;
-use setpiece_scenario::vocabulary::{EventKind, Rule};
+use setpiece_scenario::vocabulary::{EventKind, Rule, Team};
 
 facts! {
     /// Facts about rewards, endings and observations.
@@ -16,6 +16,23 @@ facts! {
         NeverPays {
             why: Never,
         } = Code::NeverPays => say("this `give` never pays", "").help(why.words()),
+        /// A receiver that is relative to the agent who is judged.
+        ReceiverOfView { name: String, word: &'static str } = Code::WrongType => {
+            let said = say(format!("`{word} {name}` says nothing: every agent is judged for itself"), "");
+            match name.as_str() {
+                "us" | "me" | "players" => said.help(format!("leave it out, or name a team or a player: `{word} left`")),
+                _ => said.help(format!(
+                    "name a team or a player, `{word} left`, or write whose deeds pay: `give 1 on goal by them`"
+                )),
+            }
+        },
+        /// An empty list of receivers.
+        NoReceiver { word: &'static str } = Code::WrongArguments =>
+            say("nobody receives it", "").help(format!("name a team or players: `{word} left`, `{word} [striker, winger]`")),
+        /// A reward for a team without agents.
+        PaysNobody { team: Team } = Code::NeverPays =>
+            say(format!("no agent plays for {team}"), "pays nobody")
+                .help(format!("write `agents {{ {team}: 1 }}`, or name the other team")),
         /// A payment above the limit.
         MoreThanPayable { text: String } = Code::OutOfRange =>
             say(format!("`{text}` is more than can be paid"), "").help("rewards are small numbers: `give 1`"),
@@ -49,6 +66,18 @@ facts! {
         /// An ending without a condition.
         EndsWhen = Code::Syntax =>
             say("the ending doesn't say when", "").help("write, for example, `end success when goal by left`"),
+        /// Noise of what is no number.
+        NoNoise { noun: String } = Code::WrongType =>
+            say(format!("{noun} has no noise"), "not a number")
+                .help("noise is added to numbers, quantities, places and vectors"),
+        /// A delay without a known upper end.
+        EndlessDelay { text: String } = Code::NotConstant =>
+            say(format!("it isn't known how long `{text}` is at most"), "may be any duration")
+                .help("write a duration, a parameter with a range, or `uniform(0.1s, 0.3s)`"),
+        /// The length of a stack that is known only later.
+        StackNotConstant { text: String } = Code::NotConstant =>
+            say(format!("`{text}` is not known before the match"), "decides how many numbers there are")
+                .help("write a number or a `const`: `stack 4`"),
         /// An observation without numbers, or with too many.
         Numbers { most: usize } = Code::WrongArguments =>
             say(format!("an observation has 1 to {most} numbers"), "")
@@ -124,7 +153,7 @@ impl Because {
     fn words(self) -> String {
         match self {
             Because::Places => {
-                "x lies between about -1 and 1, y between -0.42 and 0.42; metres are `(ball - centre).x > 20m`"
+                "x lies between about -1 and 1, y between -0.42 and 0.42; metres are `ball.metres.x > 20m`"
             }
             Because::BallSpeed => "no ball flies as fast",
             Because::PlayerSpeed => "nobody runs as fast",

@@ -36,7 +36,7 @@ facts! {
         /// A function over time in an observation.
         ObservationRemembersNothing { function: &'static str } = Code::WrongScope =>
             say(format!("`{function}` remembers, and an observation does not"), "")
-                .help("an observation shows the state as it is; `prev` and `delta` look one step back"),
+                .help("`prev` and `delta` look one step back; `delayed 0.3s` and `stack 4` show earlier steps"),
         /// A function over time inside of `prev`.
         NotAStepAgo { function: String } = Code::WrongScope =>
             say(format!("`{function}` has no value a step ago"), "inside a look at the step before")

@@ -31,6 +31,10 @@ facts! {
         /// An event's `by` or `to` is neither a team nor a player.
         NeitherTeamNorPlayer { found: Ty, text: String } = Code::WrongType =>
             expected("a team or a player", *found, text).help("write, for example, `by left` or `by me`"),
+        /// What is paid goes to no team, player or role.
+        NoReceiver { found: Ty, text: String } = Code::WrongType =>
+            expected("a team, players or a role", *found, text)
+                .help("write, for example, `for left`, `for striker`, `to event.by` or `to assist`"),
         /// A rule is neither on nor off.
         NeitherOnNorOff { rule: &'static str, found: Ty, text: String } = Code::WrongType =>
             expected("`on` or `off`", *found, text).help(format!("write `{rule}: on` or `{rule}: off`")),
@@ -52,10 +56,13 @@ facts! {
         },
         /// A point whose coordinates have different units.
         MixedPoint { first: Operand, other: Operand, is_height: bool } = Code::MixedUnits => {
-            let help = if *is_height {
-                "a place on the pitch has two coordinates; a third is a height, `1m`"
+            let help = if let Some(metres) = first.metres.as_ref().or(other.metres.as_ref()) {
+                format!("a coordinate is normalised; in metres write `{metres}`")
+            } else if *is_height {
+                "a place on the pitch has two coordinates; a third is a height, `1m`".to_owned()
             } else {
                 "write both coordinates normalised, `(0.5, 0.1)`, or both in metres, `(27m, 8m)`"
+                    .to_owned()
             };
             let (first_noun, noun) = (first.ty.noun(), other.ty.noun());
             let (text, other_text) = (&first.text, &other.text);
@@ -201,6 +208,8 @@ pub(crate) struct Operand {
     pub(crate) span: Span,
     /// Whether it is a text in quotes.
     pub(crate) is_quoted: bool,
+    /// How it is written with its normalised coordinates in metres, if it has any.
+    pub(crate) metres: Option<String>,
 }
 
 /// What to write instead of a value of the wrong type.
@@ -222,6 +231,8 @@ pub(crate) enum Instead {
     PointInBrackets,
     /// A coordinate of a point.
     Coordinate,
+    /// A normalised coordinate where a length is wanted.
+    Metres { text: String },
     /// A number stands behind `facing`.
     Facing { text: String },
     /// A value that a record holds.
@@ -268,6 +279,7 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
         Instead::Coordinate => {
             said.help("a point is written `(0.5, 0.1)` or `(27m, 8m)`, a velocity `(5m/s, 0m/s)`")
         }
+        Instead::Metres { text } => said.help(metres(text)),
         Instead::Facing { text } => said.help(format!("write an angle, `{text}deg`, or a point")),
         Instead::Recorded => {
             said.help("a record holds a number, a length, a duration, a place or a condition")
@@ -326,6 +338,11 @@ fn usual(wanted: Ty, found: Ty) -> Option<String> {
     }
 }
 
+/// How a coordinate is written in metres.
+fn metres(text: &str) -> String {
+    format!("coordinates are normalised, from about -1 to 1; in metres write `{text}`")
+}
+
 fn disagreement(verb: Verb, left: &Operand, right: &Operand) -> String {
     let done = match verb {
         Verb::Compare => "compared",
@@ -347,12 +364,9 @@ fn agree(verb: Verb, left: &Operand, right: &Operand) -> String {
     let (text_a, text_b) = (&left.text, &right.text);
     let is_compared = verb == Verb::Compare;
     if (x == Ty::LENGTH && y.is_plain()) || (y == Ty::LENGTH && x.is_plain()) {
-        let number = if y == Ty::LENGTH { text_a } else { text_b };
-        let axis = number.strip_suffix(".x").map(|of| (of, "x"));
-        if let Some((of, axis)) = axis.or_else(|| number.strip_suffix(".y").map(|of| (of, "y"))) {
-            return format!(
-                "`{number}` is normalised, from about -1 to 1; in metres write `({of} - centre).{axis}`"
-            );
+        let number = if y == Ty::LENGTH { left } else { right };
+        if let Some(text) = &number.metres {
+            return metres(text);
         }
         return "write the number with its unit, `2m`; `/ 1m` makes a length a number, and `grf_distance` is one"
             .to_owned();

@@ -181,7 +181,7 @@ pub(super) struct Point {
     metres: [f64; 2],
     side: f64,
 }
-/// A velocity in the reader's frame, m/s.
+/// A velocity in m/s, or a place in metres from the centre spot; in the reader's frame.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct Vector {
     own: [f64; 2],
@@ -274,6 +274,11 @@ impl Point {
     /// Normalised, in the reader's frame.
     fn own(self) -> [f64; 2] {
         [self.side * self.metres[0] / X_SCALE_M, self.side * self.metres[1] / Y_SCALE_M]
+    }
+
+    /// Metres from the centre spot, in the reader's frame.
+    fn own_metres(self) -> [f64; 2] {
+        self.metres.map(|metres| self.side * metres)
     }
 }
 

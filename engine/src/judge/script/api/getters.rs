@@ -115,6 +115,7 @@ fn ball(name: &str) -> Option<Getter<SeenBall>> {
         "at" => |ball| Dynamic::from(at(ball)),
         "x" => |ball| at(ball).own()[0].into(),
         "y" => |ball| at(ball).own()[1].into(),
+        "metres" => |ball| Dynamic::from(Vector { own: at(ball).own_metres() }),
         "height" => |ball| number(ball.0.view().ball[2]),
         "speed" => |ball| {
             let [x, y, z] = ball.0.view().ball_vel.map(f64::from);
@@ -135,6 +136,7 @@ fn player(name: &str) -> Option<Getter<SeenPlayer>> {
         "at" => |player| Dynamic::from(player.point()),
         "x" => |player| player.point().own()[0].into(),
         "y" => |player| player.point().own()[1].into(),
+        "metres" => |player| Dynamic::from(Vector { own: player.point().own_metres() }),
         "speed" => |player| {
             let [x, y] = player.view().vel.map(f64::from);
             libm::hypot(x, y).into()
@@ -212,6 +214,7 @@ fn point(name: &str) -> Option<Getter<Point>> {
     Some(match name {
         "x" => |point| point.own()[0].into(),
         "y" => |point| point.own()[1].into(),
+        "metres" => |point| Dynamic::from(Vector { own: point.own_metres() }),
         _ => return None,
     })
 }

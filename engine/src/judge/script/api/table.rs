@@ -21,7 +21,7 @@ pub enum Subject {
     Event,
     /// A place.
     Point,
-    /// A velocity.
+    /// A velocity, or a place in metres.
     Vector,
     /// An array of players.
     Players,
@@ -112,8 +112,9 @@ const EXTRA: &[Member] = &[
     row(Subject::Event, "speed", Subject::Plain, "the ball's speed, m/s"),
     row(Subject::Point, "x", Subject::Plain, "normalised x"),
     row(Subject::Point, "y", Subject::Plain, "normalised y"),
-    row(Subject::Vector, "x", Subject::Plain, "m/s forward"),
-    row(Subject::Vector, "y", Subject::Plain, "m/s to the right of an attacker"),
+    row(Subject::Point, "metres", Subject::Vector, "the place in metres from the centre spot"),
+    row(Subject::Vector, "x", Subject::Plain, "m/s or metres forward"),
+    row(Subject::Vector, "y", Subject::Plain, "m/s or metres to the right of an attacker"),
 ];
 
 /// Every name that scripts can read.

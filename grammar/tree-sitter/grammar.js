@@ -218,8 +218,8 @@ module.exports = grammar({
     reward_use: ($) => seq(
       "reward", choice(
         seq($.script, optional($._audience)),
-        seq(field("name", $.identifier), optional($._audience), $._body),
-        seq($.reference, optional($._audience)),
+        seq(field("name", $.identifier), $._body),
+        seq($.reference, optional(seq($._audience, optional($._body)))),
       ), optional($.label),
       optional(seq("*", $._expression)),
     ),
@@ -270,7 +270,8 @@ module.exports = grammar({
     assign: ($) => seq(field("name", $.identifier), "=", $._value),
     // `on` and `when` behind a `give` may begin a block of their own, which its brace decides.
     give: ($) => seq(
-      "give", choice($.script, $._expression), optional(seq("to", $._expression)), optional(seq("per", "second")), optional("once"), optional($.label),
+      "give", choice($.script, $._expression), optional(seq("to", $._expression)),
+      optional(seq("per", "second")), optional("once"), optional($.label),
       optional(choice(
         seq("on", $._events, optional(seq("when", $._expression))),
         seq("when", $._expression, optional(seq("on", $._events))),

@@ -163,6 +163,7 @@ def test_an_ending_terminates_the_episode_with_its_label(
         "return": {"time/step": 2.0, "kept": 1.0},
         "digest": info["setpiece"]["digest"],
         "faults": 0,
+        "observation_faults": {},
         "length": 4,
         "seed": 7,
         "index": 0,

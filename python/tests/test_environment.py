@@ -168,6 +168,7 @@ def test_goal_ends_the_episode_and_pays() -> None:
         "level",
         "success",
         "faults",
+        "observation_faults",
         "scenario",
     }
     assert (summary["success"], summary["faults"]) == (True, 0)

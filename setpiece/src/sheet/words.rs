@@ -238,6 +238,13 @@ mod tests {
             ["GOAL 9 ×1"]
         );
         assert_eq!(
+            described(&[
+                event(EventKind::Goal, None, 9, None),
+                event(EventKind::Assist, None, 8, Some(9))
+            ]),
+            ["GOAL 9 ×1", "assist 8 → 9 ×1"]
+        );
+        assert_eq!(
             described(&[shot, event(EventKind::Save, None, 11, None), on_target]),
             ["shot 9 ×1", "save 11 ×1"]
         );

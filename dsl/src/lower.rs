@@ -471,7 +471,9 @@ impl<'c, 'w> Lower<'c, 'w> {
         let drawn = |instr: &setpiece_scenario::Instr| {
             matches!(
                 instr,
-                setpiece_scenario::Instr::Random { .. } | setpiece_scenario::Instr::EpisodeIndex
+                setpiece_scenario::Instr::Random { .. }
+                    | setpiece_scenario::Instr::EpisodeIndex
+                    | setpiece_scenario::Instr::Round
             )
         };
         if self.code.depends(reg, &drawn) {

@@ -92,10 +92,12 @@ pub struct Drawer {
     /// Whether a register depends on a draw.
     random: Vec<bool>,
     attempts_max: u32,
+    /// Of which round it draws the start, from 1 on.
+    round: u32,
 }
 
 clone_in_place! {
-    Drawer { regs, failures, random, attempts_max }
+    Drawer { regs, failures, random, attempts_max, round }
 }
 
 impl Drawer {
@@ -115,6 +117,7 @@ impl Drawer {
             failures: vec![0; scenario.start.requires.len() + place::PlaceFault::ALL.len()],
             random,
             attempts_max: (WORK_MAX / start_work(scenario)).clamp(1, ATTEMPTS_MAX.into()) as u32,
+            round: 1,
         }
     }
 
@@ -133,6 +136,23 @@ impl Drawer {
         seed: u64,
         index: u64,
     ) -> Result<Drawn, DrawError> {
+        self.draw_round(scenario, bindings, roster, (seed, index), 1)
+    }
+
+    /// Draws the start of a round of an episode; that of the first one is [`Self::draw`]'s.
+    ///
+    /// # Errors
+    /// [`DrawError`] if no attempt met every requirement.
+    pub fn draw_round(
+        &mut self,
+        scenario: &Scenario,
+        bindings: &Bindings,
+        roster: &Roster,
+        (own_seed, index): (u64, u64),
+        round: u32,
+    ) -> Result<Drawn, DrawError> {
+        let seed = Stream::seed_of_round(own_seed, round);
+        self.round = round;
         self.failures.fill(0);
         self.begin(bindings, DrawKey { seed, index, attempt: 0 });
         let attempts = if self.random.contains(&true) { self.attempts_max } else { 1 };
@@ -143,12 +163,12 @@ impl Drawer {
                 Some(which) => {
                     self.failures[which] += 1;
                     if !self.is_drawn(scenario, which) {
-                        return Err(self.error(scenario, seed, index, 1));
+                        return Err(self.error(scenario, own_seed, index, 1));
                     }
                 }
             }
         }
-        Err(self.error(scenario, seed, index, attempts))
+        Err(self.error(scenario, own_seed, index, attempts))
     }
 
     /// Estimates how often an attempt at a start succeeds, with one attempt for each of many
@@ -249,6 +269,8 @@ impl Drawer {
                 params: &bindings.0,
                 lets: &[],
                 index: draws.index,
+                round: self.round,
+                round_start: 0,
                 us: Team::Left,
                 terminated: false,
                 silent: false,
@@ -355,6 +377,8 @@ impl Drawer {
             difficulty,
             rules,
             limit_steps: start.limit.map(|limit| self.steps(limit)),
+            rounds: start.rounds.map_or(1, |rounds| self.value(rounds).max(1.0) as u32),
+            steps_before: 0,
             others: scenario.agents.others,
             agents: roster.agents.iter().map(|&(team, fixed)| DrawnAgent { team, fixed }).collect(),
             lets: start.lets.iter().map(|&reg| self.value(reg)).collect(),

@@ -199,6 +199,9 @@ impl Environment {
             index: self.index,
             params: &self.bindings.0,
             lets: &drawn.lets,
+            round: 1,
+            rounds: drawn.rounds,
+            round_start: self.game.step,
         };
         self.judge.reset(&self.game, &given);
         self.actors.reset(&self.game, &given);
@@ -246,7 +249,14 @@ impl Environment {
         };
         self.stopped.note(&self.game);
         scratch.laps().end(Phase::Judge);
-        step::go_on(&mut self.game);
+        if self.judge.is_round_over() && outcome.is_none() {
+            if let Err(error) = self.begin_round() {
+                self.running = false;
+                return Err(StepError::Draw(Box::new(error)));
+            }
+        } else {
+            step::go_on(&mut self.game);
+        }
         scratch.laps().end(Phase::Reach);
         self.judge.settle(&self.game);
         scratch.laps().end(Phase::Judge);
@@ -255,6 +265,28 @@ impl Environment {
         self.running = outcome.is_none();
         self.outcome = outcome;
         Ok(StepResult { terminated, truncated })
+    }
+
+    /// Begins the next round of the episode: a start is drawn again. Score and clock go on, and so
+    /// does what is measured and paid; behaviours begin again, and nothing is held.
+    fn begin_round(&mut self) -> Result<(), DrawError> {
+        let Given { seed, index, params, round, rounds, .. } = self.judge.given();
+        let params = Bindings(params.to_vec());
+        let (key, round) = ((seed, index), round + 1);
+        let mut drawn =
+            self.drawer.draw_round(&self.scenario, &params, &self.roster, key, round)?;
+        apply_physics(&mut drawn, self.options.physics);
+        drawn.steps_before = self.game.step;
+        drawn.elapsed_steps = self.game.elapsed_at_start;
+        drawn.score = self.game.score;
+        drawn.limit_steps = self.game.limit_steps;
+        self.game = step::begin(&drawn);
+        let round_start = self.game.step;
+        let (params, lets) = (&params.0, &drawn.lets);
+        let given = Given { seed, index, params, lets, round, rounds, round_start };
+        self.judge.begin_round(&self.game, &given);
+        self.actors.reset(&self.game, &given);
+        Ok(())
     }
 
     /// Ends the episode now, for a reason of the caller's own, as an ending of the scenario would.

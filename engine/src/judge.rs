@@ -182,7 +182,8 @@ impl Judge {
             events: events.as_slice(),
             ..self.known.input(Sight::Live(game), &self.prev, side)
         };
-        let outcome = self.endings.step(game, &input, shown(&self.known, scene.as_ref()))?;
+        let last = self.known.is_last_round();
+        let outcome = self.endings.step(game, &input, last, shown(&self.known, scene.as_ref()))?;
         if let Some(outcome) = &outcome {
             endings::announce(outcome, game, events);
             drop(scene);
@@ -196,6 +197,21 @@ impl Judge {
         self.rewards.step(game, &input, shown(&self.known, scene.as_ref()))?;
         self.records.step(game, &input);
         Ok(outcome)
+    }
+
+    /// Whether the step just judged ended a round that another one follows.
+    pub fn is_round_over(&self) -> bool {
+        self.endings.is_round_over() && !self.known.is_last_round()
+    }
+
+    /// Begins a further round; the match is at its start. What was measured, paid and remembered
+    /// goes on.
+    pub fn begin_round(&mut self, game: &Match, given: &Given<'_>) {
+        self.known.begin_round(given);
+        let input = self.known.input(Sight::Live(game), &self.prev, endings::judged_side(game));
+        self.endings.renew(&input);
+        self.rewards.renew(game, &input);
+        self.records.renew(&input);
     }
 
     /// Remembers the state that the step leaves behind, after its restart: the next step's `prev`.

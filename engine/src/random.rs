@@ -59,6 +59,11 @@ impl Stream {
         )
     }
 
+    /// The seed of a round of an episode; the first has the episode's own.
+    pub fn seed_of_round(seed: u64, round: u32) -> u64 {
+        if round <= 1 { seed } else { mix(seed ^ mix(u64::from(round) << 32)) }
+    }
+
     /// The seed of what an agent's observation draws in one step.
     pub fn seed_of_observation(seed: u64, index: u64, step: u32, agent: usize) -> u64 {
         let turn = (u64::from(step) << 8) | agent as u64;

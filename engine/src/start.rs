@@ -39,6 +39,10 @@ pub struct Drawn {
     pub rules: [f64; Rule::ALL.len()],
     /// The episode is truncated after this many steps.
     pub limit_steps: Option<u32>,
+    /// How many rounds the episode has.
+    pub rounds: u32,
+    /// Steps of the episode in the rounds before this one.
+    pub steps_before: u32,
     /// What players without an agent or an `ai` of their own do.
     pub others: Others,
     /// Agent slots, left before right.

@@ -185,7 +185,7 @@ module.exports = grammar({
     ),
     _scenario_statement: ($) => choice(
       $.param, $.let, $.constant, $.region, $.rules, $.agents, $.ball, $.team, $.kickoff, $.start, $.reward_use, $.end,
-      $.require, $.record, $.remove, $.mirror, $.observe,
+      $.rounds, $.require, $.record, $.remove, $.mirror, $.observe,
     ),
     param: ($) => seq("param", $.parameter),
     let: ($) => seq("let", choice(
@@ -206,6 +206,7 @@ module.exports = grammar({
     remove: ($) => seq("remove", choice(
       seq(choice("reward", "end", "require", "record"), choice($.identifier, $.string)), "ball",
     )),
+    rounds: ($) => seq("rounds", $._expression, "when", $._condition),
     mirror: ($) => seq("mirror", ":", $.identifier),
     _sight: ($) => seq(choice("noise", "when", "delayed", "stack"), $._expression),
     observe: ($) => seq("observe", "vector", block(seq($._expression, repeat($._sight), optional($.label)))),

@@ -100,7 +100,7 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
             environment_class(why)
         }
         Error::Episode(why) => match &**why {
-            EpisodeError::Draw(_) => "DrawError",
+            EpisodeError::Draw(_) | EpisodeError::Step(StepError::Draw(_)) => "DrawError",
             EpisodeError::Step(StepError::Script(why)) => {
                 script_fields(&fields, why)?;
                 "ScriptError"

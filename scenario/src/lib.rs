@@ -32,7 +32,7 @@ pub use program::{
 };
 pub use scenario::{
     Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, LIMIT, Observation,
-    ObservedValue, Others, PlayerSlot, PlayerStart, Record, Require, Reward, RewardBody,
+    ObservedValue, Others, PlayerSlot, PlayerStart, ROUNDS, Record, Require, Reward, RewardBody,
     RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Switching,
 };
 pub use table::Table;

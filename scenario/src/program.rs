@@ -88,6 +88,10 @@ pub enum Instr {
     Let(u32),
     /// The episode's index, counted since the last seeded reset.
     EpisodeIndex,
+    /// The round of the episode, from 1 on.
+    Round,
+    /// Seconds from the episode's start to when the round began.
+    RoundStart,
     /// A unary operator.
     Unary(UnaryOp, Reg),
     /// A binary operator.
@@ -462,6 +466,8 @@ impl Instr {
             | Instr::Param(_)
             | Instr::Let(_)
             | Instr::EpisodeIndex
+            | Instr::Round
+            | Instr::RoundStart
             | Instr::Terminated
             | Instr::Us
             | Instr::Me

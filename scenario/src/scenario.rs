@@ -265,6 +265,9 @@ pub struct Start {
     /// The episode is truncated after this many seconds; never if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<Reg>,
+    /// The number of rounds: one if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rounds: Option<Reg>,
     /// The requirements on a drawn start.
     #[serde(default)]
     pub requires: Vec<Require>,
@@ -392,10 +395,15 @@ pub struct Endings {
     pub program: Program,
     /// In source order, the parents' first. The first that holds ends the episode.
     pub list: Vec<Ending>,
+    /// Whether the round is over, if the episode has several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub round: Option<Reg>,
 }
 
 /// The outcome of an episode that reached its limit.
 pub const LIMIT: &str = "limit";
+/// The outcome of an episode whose last round is over.
+pub const ROUNDS: &str = "rounds";
 
 /// One way to end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -42,6 +42,8 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
     };
     check("the start", &scenario.start.program, ProgramPlace::Start)?;
     check("the endings", &scenario.endings.program, ProgramPlace::Step { terms: 0 })?;
+    let round = scenario.endings.round;
+    round.map_or(Ok(()), |reg| visible(&scenario.endings.program, reg))?;
     for ending in &scenario.endings.list {
         ending.when.map_or(Ok(()), |reg| visible(&scenario.endings.program, reg))?;
         ending.script.map_or(Ok(()), |script| below("script", script, n_scripts))?;
@@ -118,9 +120,16 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
     regs.extend(start.difficulty);
     regs.extend([start.ball.x, start.ball.y]);
     regs.extend(
-        [start.ball.height, start.ball.owner, start.taker, start.elapsed, start.limit]
-            .into_iter()
-            .flatten(),
+        [
+            start.ball.height,
+            start.ball.owner,
+            start.taker,
+            start.elapsed,
+            start.limit,
+            start.rounds,
+        ]
+        .into_iter()
+        .flatten(),
     );
     regs.extend(start.ball.velocity.iter().chain(&start.ball.spin).flat_map(|v| [v.0, v.1, v.2]));
     regs.extend(start.score.iter().flat_map(|s| [s.0, s.1]));

@@ -107,7 +107,9 @@ fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) 
     let n_agents = environment.n_agents();
     let mut judge = Judge::new(&scenario, scenario.rewards.clone().into(), scripts, n_agents);
     let game = environment.state();
-    judge.reset(game, &Given { seed: 1, index: 0, params: &environment.bindings().0, lets: &[] });
+    let params = &environment.bindings().0;
+    let given = Given { seed: 1, index: 0, params, lets: &[], round: 1, rounds: 1, round_start: 0 };
+    judge.reset(game, &given);
     let event = |kind, qualifier| Event {
         tick: game.tick,
         kind,

@@ -86,6 +86,8 @@ pub enum ScenarioStmtKind {
         /// Its name.
         name: Option<Ident>,
     },
+    /// `rounds N when …`
+    Rounds(Rounds),
     /// `mirror: flanks`
     Mirror(Ident),
     /// `observe vector { … }`
@@ -158,4 +160,13 @@ pub struct BallStmt {
     pub jitter: Option<Expr>,
     /// `velocity`, `height`, `spin`, `owner`.
     pub fields: Vec<Field>,
+}
+
+/// Several rounds in one episode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rounds {
+    /// How many.
+    pub count: Expr,
+    /// When one is over.
+    pub when: Expr,
 }

@@ -43,6 +43,8 @@ enum Key {
     Param(u32),
     Let(u32),
     EpisodeIndex,
+    Round,
+    RoundStart,
     Terminated,
     Us,
     Me,
@@ -219,6 +221,16 @@ impl Builder {
     /// The episode's index.
     pub(crate) fn episode_index(&mut self) -> Reg {
         self.shared(ROOT, Key::EpisodeIndex, Instr::EpisodeIndex)
+    }
+
+    /// The round of the episode, from 1 on.
+    pub(crate) fn round(&mut self) -> Reg {
+        self.shared(ROOT, Key::Round, Instr::Round)
+    }
+
+    /// Seconds from the episode's start to when the round began.
+    pub(crate) fn round_start(&mut self) -> Reg {
+        self.shared(ROOT, Key::RoundStart, Instr::RoundStart)
     }
 
     /// Whether the episode terminates in this step.

@@ -24,17 +24,19 @@ pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
         list.extend(lower_ending(&mut lower, ending).map(|lowered| (lowered, ending.span)));
     }
     check_come_about(&lower, &list);
-    if list.is_empty() && world.flat.limit.is_none() {
+    let mut round = world.flat.rounds.map(|(rounds, _)| lower.condition(&rounds.when));
+    if list.is_empty() && world.flat.limit.is_none() && round.is_none() {
         let name = &world.flat.item.name;
         world.report(Problem::new(name.span, Rewards::NeverEnds { scenario: name.node.clone() }));
     }
     let mut list: Vec<Ending> = list.into_iter().map(|(ending, _)| ending).collect();
-    let wanted: Vec<Reg> = list.iter().filter_map(|ending| ending.when).collect();
+    let wanted: Vec<Reg> = list.iter().filter_map(|ending| ending.when).chain(round).collect();
     let (program, layout) = lower.code.finish(&wanted);
     for ending in &mut list {
         ending.when = ending.when.map(|reg| layout.reg(reg));
     }
-    Endings { program, list }
+    round = round.map(|reg| layout.reg(reg));
+    Endings { program, list, round }
 }
 
 /// Warns of endings that no match comes to. What an abstract scenario says, its children may

@@ -90,7 +90,9 @@ impl<'w> Lower<'_, 'w> {
     }
 
     fn is_drawn(&self, reg: Reg) -> bool {
-        let drawn = |instr: &Instr| matches!(instr, Instr::Random { .. } | Instr::EpisodeIndex);
+        let drawn = |instr: &Instr| {
+            matches!(instr, Instr::Random { .. } | Instr::EpisodeIndex | Instr::Round)
+        };
         self.code.depends(reg, &drawn)
     }
 

@@ -27,6 +27,9 @@ use setpiece_scenario::{
 };
 use std::collections::BTreeMap;
 
+/// The most rounds of an episode.
+const ROUNDS_MAX: f64 = 10_000.0;
+
 /// A lowered start and what belongs to it.
 pub(crate) struct LoweredStart<'c, 'w> {
     /// The start.
@@ -89,6 +92,7 @@ pub(crate) fn lower_start<'c, 'w>(
     let side = side_with_agents(&lower, &agents, &options);
     let rules = lower.rules();
     let limit = lower.limit();
+    let rounds = lower.rounds();
     let (score, elapsed) = lower.start_fields();
     let mut requires = lower.requires();
     football::check_places(&mut lower, &places, &options, ball.as_ref());
@@ -129,6 +133,7 @@ pub(crate) fn lower_start<'c, 'w>(
         difficulty,
         rules,
         limit,
+        rounds,
         requires,
     };
     let (players, behaviors) = slots(world, &places, &headings, options);
@@ -404,6 +409,15 @@ impl<'w> Lower<'_, 'w> {
             });
         let places = layouts.collect();
         Some(Kickoff { first: self.first_team(), places })
+    }
+
+    fn rounds(&mut self) -> Option<Reg> {
+        let (rounds, _) = self.world.flat.rounds?;
+        let reg = self.want_reg(&rounds.count, Ty::Int);
+        let what = "the number of rounds";
+        self.check_not_drawn(reg, what, rounds.count.span);
+        self.check_range(reg, (1.0, ROUNDS_MAX), what, rounds.count.span, "`1..10000`");
+        Some(reg)
     }
 
     fn limit(&mut self) -> Option<Reg> {

@@ -3,7 +3,7 @@
 use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
-    BallStmt, EndCondition, EndStmt, Observed, RewardUse, RewardUseKind, ScenarioStmt,
+    BallStmt, EndCondition, EndStmt, Observed, RewardUse, RewardUseKind, Rounds, ScenarioStmt,
     ScenarioStmtKind, Spanned,
 };
 use crate::problem::Problem;
@@ -94,6 +94,12 @@ impl Reader<'_> {
             }
             Rule::reward_use => self.reward_use(&mut nodes)?,
             Rule::end => ScenarioStmtKind::End(self.end(nodes.next()?)?),
+            Rule::rounds => {
+                let count = self.take_expr(&mut nodes, Rule::sum)?;
+                nodes.eat(Rule::kw_when);
+                let when = self.take_expr(&mut nodes, Rule::condition)?;
+                ScenarioStmtKind::Rounds(Rounds { count, when })
+            }
             Rule::require => {
                 let condition = self.take_expr(&mut nodes, Rule::condition)?;
                 let probability = if nodes.eat(Rule::kw_with) {

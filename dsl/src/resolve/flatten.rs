@@ -11,8 +11,8 @@ use super::load::{Library, distinct_params};
 use super::parts::chain;
 use crate::ast::{
     Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, Observed, ParamDecl,
-    PlayerStmt, Ref, RewardUse, RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span,
-    Spanned,
+    PlayerStmt, Ref, RewardUse, RewardUseKind, Rounds, ScenarioItem, ScenarioStmt,
+    ScenarioStmtKind, Span, Spanned,
 };
 use crate::problem::facts::{Calls, Names, Types};
 use crate::problem::{Guess, Problem};
@@ -50,6 +50,8 @@ pub(crate) struct Flat<'a> {
     pub(crate) ends: Vec<FlatEnding<'a>>,
     /// `end limit`
     pub(crate) limit: Option<(&'a Expr, Span)>,
+    /// `rounds …`
+    pub(crate) rounds: Option<(&'a Rounds, Span)>,
     /// Requirements.
     pub(crate) requires: Vec<&'a ScenarioStmt>,
     /// Records.
@@ -205,6 +207,7 @@ pub(crate) fn flatten<'a>(
         rewards: Vec::new(),
         ends: Vec::new(),
         limit: None,
+        rounds: None,
         requires: Vec::new(),
         records: Vec::new(),
         observed: None,
@@ -317,6 +320,10 @@ impl<'a> Adding<'a, '_> {
                 self.flat.tuples.push((names, value));
             }
             ScenarioStmtKind::Record(binding) => self.record(binding),
+            ScenarioStmtKind::Rounds(rounds) => {
+                self.only_once("`rounds`", stmt.span);
+                self.flat.rounds = Some((rounds, stmt.span));
+            }
             ScenarioStmtKind::Mirror(kind) => {
                 self.only_once("`mirror`", stmt.span);
                 self.flat.mirror = Some(kind);

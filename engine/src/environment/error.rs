@@ -73,6 +73,9 @@ pub enum StepError {
         /// How many agents there are.
         expected: usize,
     },
+    /// A further round has no start; the episode has ended.
+    #[error(transparent)]
+    Draw(Box<DrawError>),
     /// A script failed; the episode has ended.
     #[error(transparent)]
     Script(Box<ScriptError>),

@@ -248,6 +248,11 @@ impl Environment {
         Ok(drawn)
     }
 
+    /// The round of the episode, from 1 on.
+    pub fn round(&self) -> u32 {
+        self.judge.given().round
+    }
+
     /// Goals, left and right.
     pub fn score(&self) -> [u16; 2] {
         self.game.score

@@ -131,7 +131,8 @@ impl Environment {
         shelf: &mut Shelf,
     ) -> Result<(), SnapshotError> {
         // The key is not the environment's where a later reset found no start.
-        let Given { mut seed, mut index, params, lets } = self.judge.given();
+        let Given { mut seed, mut index, params, lets, mut round, mut rounds, mut round_start } =
+            self.judge.given();
         let (mut params, mut lets) = (params.to_vec(), lets.to_vec());
         archive.value("seed", &mut seed)?;
         archive.value("index", &mut index)?;
@@ -139,9 +140,13 @@ impl Environment {
         // Before the first episode there are none; the scenario fixes how many are read.
         lets.resize(self.scenario.start.lets.len(), 0.0);
         archive.slots("lets", &mut lets)?;
+        archive.value("round", &mut round)?;
+        archive.value("rounds", &mut rounds)?;
+        archive.value("round_start", &mut round_start)?;
         if archive.is_reading() {
             self.admit("params", &params)?;
-            let given = Given { seed, index, params: &params, lets: &lets };
+            let given =
+                Given { seed, index, params: &params, lets: &lets, round, rounds, round_start };
             self.judge.reset(&self.game, &given);
             self.actors.reset(&self.game, &given);
         }

@@ -85,7 +85,7 @@ pub(crate) fn blank(drawn: &Drawn) -> Match {
     };
     Match {
         tick: 0,
-        step: 0,
+        step: drawn.steps_before,
         elapsed_at_start: drawn.elapsed_steps,
         limit_steps: drawn.limit_steps,
         score: drawn.score,

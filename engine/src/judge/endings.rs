@@ -7,7 +7,7 @@ use crate::snapshot::{Archive, SnapshotError};
 use crate::state::Match;
 use crate::state::event::{Event, Events};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
-use setpiece_scenario::{Ending, Endings, LIMIT};
+use setpiece_scenario::{Ending, Endings, LIMIT, ROUNDS};
 use std::sync::Arc;
 
 /// How an episode ended.
@@ -25,18 +25,20 @@ pub struct Outcome {
 #[derive(Debug)]
 pub struct EndingJudge {
     endings: Arc<Endings>,
+    /// Those of the endings, then those of the limit and of the last round.
     labels: Arc<[Arc<str>]>,
-    limit: Arc<str>,
     regs: Registers,
     cells: Vec<[f64; 1]>,
     /// One per ending, if any has a script.
     memories: Vec<Memory>,
     faults: u32,
     at_start: Option<usize>,
+    /// Whether the round was over in the last step.
+    round_over: bool,
 }
 
 clone_in_place! {
-    EndingJudge { endings, labels, limit, regs, cells, memories, faults, at_start }
+    EndingJudge { endings, labels, regs, cells, memories, faults, at_start, round_over }
 }
 
 impl EndingJudge {
@@ -44,13 +46,19 @@ impl EndingJudge {
     pub fn new(endings: Arc<Endings>) -> EndingJudge {
         let scripted = endings.list.iter().any(|ending| ending.script.is_some());
         EndingJudge {
-            labels: endings.list.iter().map(|ending| Arc::from(ending.label.as_str())).collect(),
-            limit: Arc::from(LIMIT),
+            labels: endings
+                .list
+                .iter()
+                .map(|ending| ending.label.as_str())
+                .chain([LIMIT, ROUNDS])
+                .map(Arc::from)
+                .collect(),
             regs: Registers::of(&endings.program),
             cells: vec![[0.0]; endings.program.cells as usize],
             memories: vec![Memory::default(); if scripted { endings.list.len() } else { 0 }],
             faults: 0,
             at_start: None,
+            round_over: false,
             endings,
         }
     }
@@ -60,6 +68,7 @@ impl EndingJudge {
         self.cells.fill([0.0]);
         self.memories.fill(Memory::default());
         self.faults = 0;
+        self.round_over = false;
         let input = Input { silent: true, ..*input };
         self.machine(&input).begin();
         self.machine(&input).run();
@@ -81,7 +90,7 @@ impl EndingJudge {
         let mut at_start = self.at_start.map(|which| which as u32);
         archive.value("at_start", &mut at_start)?;
         self.at_start = at_start.map(|which| which as usize);
-        if self.at_start.is_some_and(|which| which >= self.labels.len()) {
+        if self.at_start.is_some_and(|which| which >= self.endings.list.len()) {
             return Err(SnapshotError::damaged("at_start", "is an ending that is not there"));
         }
         Ok(())
@@ -93,7 +102,18 @@ impl EndingJudge {
         self.at_start.map(|which| &*self.labels[which])
     }
 
-    /// Judges a step: the first ending that holds, in their order, else the limit.
+    /// Computes again what no step of a round changes.
+    pub fn renew(&mut self, input: &Input<'_>) {
+        self.machine(input).begin();
+    }
+
+    /// Whether the round was over in the last step.
+    pub fn is_round_over(&self) -> bool {
+        self.round_over
+    }
+
+    /// Judges a step: the first ending that holds, in their order, else the end of the last round,
+    /// else the limit.
     ///
     /// # Errors
     /// A `done` hook that failed.
@@ -101,9 +121,11 @@ impl EndingJudge {
         &mut self,
         game: &Match,
         input: &Input<'_>,
+        last_round: bool,
         scene: Option<(&Scripts, &Arc<HookScene>)>,
     ) -> Result<Option<Outcome>, ScriptError> {
         self.machine(input).run();
+        self.round_over = self.endings.round.is_some_and(|round| truth(self.regs.value(round)));
         for (which, ending) in self.endings.list.iter().enumerate() {
             let mut label = None;
             let mut holds = ending.when.is_some_and(|when| truth(self.regs.value(when)));
@@ -123,8 +145,16 @@ impl EndingJudge {
                 return Ok(Some(Outcome { label, verdict: ending.verdict, truncated: false }));
             }
         }
+        if self.round_over && last_round {
+            let label = self.labels[self.endings.list.len() + 1].clone();
+            return Ok(Some(Outcome { label, verdict: None, truncated: false }));
+        }
         let over = game.limit_steps.is_some_and(|limit| game.step >= limit);
-        Ok(over.then(|| Outcome { label: self.limit.clone(), verdict: None, truncated: true }))
+        Ok(over.then(|| Outcome {
+            label: self.labels[self.endings.list.len()].clone(),
+            verdict: None,
+            truncated: true,
+        }))
     }
 
     fn machine<'a>(&'a mut self, input: &Input<'a>) -> Machine<'a> {

@@ -21,6 +21,12 @@ pub struct Given<'a> {
     pub params: &'a [f64],
     /// The drawn `let`s.
     pub lets: &'a [f64],
+    /// Its round, from 1 on.
+    pub round: u32,
+    /// How many rounds it has.
+    pub rounds: u32,
+    /// Steps from the episode's start to when the round began.
+    pub round_start: u32,
 }
 
 /// Parameters, `let`s, and what scripts may read.
@@ -36,10 +42,14 @@ pub struct Known {
     lets: Vec<f64>,
     seed: u64,
     index: u64,
+    round: u32,
+    rounds: u32,
+    round_start: u32,
 }
 
 clone_in_place! {
-    Known { scripts, scripted, purpose, params, scene, lets, seed, index }
+    Known { scripts, scripted, purpose, params, scene, lets, seed, index, round, rounds,
+        round_start }
 }
 
 impl Known {
@@ -54,17 +64,19 @@ impl Known {
             lets: Vec::new(),
             seed: 0,
             index: 0,
+            round: 1,
+            rounds: 1,
+            round_start: 0,
         }
     }
 
     /// Begins an episode.
     pub fn begin(&mut self, given: &Given<'_>) {
-        let Given { seed, index, params, lets } = *given;
+        let Given { seed, index, params, .. } = *given;
         self.params.clear();
         self.params.extend_from_slice(params);
-        self.lets.clear();
-        self.lets.extend_from_slice(lets);
         (self.seed, self.index) = (seed, index);
+        self.begin_round(given);
         self.scene = self.scripted.then(|| {
             let random = Stream::new(seed, index, self.purpose);
             Arc::new(HookScene::new(
@@ -76,6 +88,19 @@ impl Known {
                 self.key(),
             ))
         });
+    }
+
+    /// Begins a round of the episode: its `let`s are drawn again.
+    pub fn begin_round(&mut self, given: &Given<'_>) {
+        self.lets.clear();
+        self.lets.extend_from_slice(given.lets);
+        (self.round, self.rounds) = (given.round, given.rounds);
+        self.round_start = given.round_start;
+    }
+
+    /// Whether the episode has no more rounds.
+    pub(crate) fn is_last_round(&self) -> bool {
+        self.round >= self.rounds
     }
 
     /// Writes or reads what scripts are shown; the rest is known since the episode began.
@@ -93,7 +118,15 @@ impl Known {
 
     /// What the episode was given; no numbers before the first episode.
     pub(crate) fn given(&self) -> Given<'_> {
-        Given { seed: self.seed, index: self.index, params: &self.params, lets: &self.lets }
+        Given {
+            seed: self.seed,
+            index: self.index,
+            params: &self.params,
+            lets: &self.lets,
+            round: self.round,
+            rounds: self.rounds,
+            round_start: self.round_start,
+        }
     }
 
     /// Replaces the scripts.
@@ -120,6 +153,8 @@ impl Known {
             params: &self.params,
             lets: &self.lets,
             index: self.index,
+            round: self.round,
+            round_start: self.round_start,
             us,
             terminated: false,
             silent: false,

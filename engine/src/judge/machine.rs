@@ -43,6 +43,10 @@ pub struct Input<'a> {
     pub index: u64,
     /// The team judged for.
     pub us: Team,
+    /// The round of the episode, from 1 on.
+    pub round: u32,
+    /// Steps from the episode's start to when it began.
+    pub round_start: u32,
     /// Whether the episode terminates in this step; not yet known to endings.
     pub terminated: bool,
     /// Whether this is the start state: temporal instructions see it, but effects don't happen.
@@ -284,6 +288,8 @@ impl<const W: usize> Machine<'_, W> {
             }
             Instr::Let(index) => [input.lets.get(*index as usize).copied().unwrap_or(f64::NAN); N],
             Instr::EpisodeIndex => [input.index as f64; N],
+            Instr::Round => [f64::from(input.round); N],
+            Instr::RoundStart => [f64::from(input.round_start) / STEPS_PER_S; N],
             Instr::Unary(op, a) => {
                 let exists = |player| input.now.is_some_and(|now| now.exists(player));
                 self.lanes::<N>(*a).map(|a| op.apply(a, exists))

@@ -89,6 +89,24 @@ impl RecordJudge {
         self.run(game, &Input { silent: true, ..*input });
     }
 
+    /// Computes again what no step of a round changes.
+    pub fn renew(&mut self, input: &Input<'_>) {
+        for state in &mut self.states {
+            let (plan, regs) = state.regs.parts();
+            let mut machine = Machine {
+                input: *input,
+                crew: Crew::one(None),
+                plan,
+                regs,
+                cells: &mut [],
+                terms: &mut [],
+                faults: &mut self.faults,
+                draws: None,
+            };
+            machine.begin();
+        }
+    }
+
     /// Writes or reads what was measured. Before reading, [`Self::reset`] has been called.
     pub(crate) fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), SnapshotError> {
         for state in &mut self.states {

@@ -178,6 +178,18 @@ impl RewardJudge {
         self.clear_step();
     }
 
+    /// Computes again what no step of a round changes.
+    pub fn renew(&mut self, game: &Match, input: &Input<'_>) {
+        let sides = self.sides(game);
+        for state in &mut self.states {
+            for ((lanes, side), team) in state.lanes.iter_mut().zip(&sides).zip(Team::ALL) {
+                let Some(lanes) = lanes else { continue };
+                let input = Input { us: *team, ..*input };
+                lanes.run(&players(side), &input, LaneStage::Renew, &mut self.faults);
+            }
+        }
+    }
+
     /// Writes or reads what was paid and what is remembered; on the way in [`Self::reset`] has come
     /// before.
     pub(crate) fn archive(

@@ -25,7 +25,18 @@ fn bench(rewards: Vec<Reward>, prepare: impl FnOnce(&mut Scenario)) -> (Judge, M
     let game = begin::blank(&drawn);
     let scripts = Scripts::compile(&scenario).unwrap();
     let mut judge = Judge::new(&scenario, rewards.into(), scripts, roster.agents.len());
-    judge.reset(&game, &Given { seed: 1, index: 0, params: &bindings.0, lets: &drawn.lets });
+    judge.reset(
+        &game,
+        &Given {
+            seed: 1,
+            index: 0,
+            params: &bindings.0,
+            lets: &drawn.lets,
+            round: 1,
+            rounds: 1,
+            round_start: 0,
+        },
+    );
     (judge, game, Events::new())
 }
 

@@ -133,6 +133,8 @@ pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
         difficulty: [1.0, 0.6],
         rules,
         limit_steps: Some(3000),
+        rounds: 1,
+        steps_before: 0,
         others: Others::Bot,
         agents: vec![DrawnAgent { team: Team::Left, fixed: alone.then_some(PlayerId(1)) }],
         lets: Vec::new(),

@@ -47,6 +47,10 @@ impl Writer<'_, '_> {
             ),
         };
         self.line(&ball);
+        if self.choices.rarely(8) {
+            let (n, s) = (self.choices.between(1.0, 4.0).floor(), self.choices.below(4));
+            self.line(&format!("rounds {n} when goal or round_elapsed > {s}s"));
+        }
         if self.choices.rarely(6) {
             self.line("require min_gap(players) > 0.3m with 80%");
         }

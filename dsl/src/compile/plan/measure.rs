@@ -8,7 +8,7 @@ use crate::lower::value::Repr;
 use crate::problem::Guess;
 use crate::problem::facts::{Instead, Plans as Facts};
 use setpiece_scenario::plan::{self, Comparison, Measure, Quantity};
-use setpiece_scenario::{LIMIT, Reward, Scenario};
+use setpiece_scenario::{LIMIT, ROUNDS, Reward, Scenario};
 
 /// What can be measured.
 const MEASURES: [&str; 8] =
@@ -210,6 +210,9 @@ impl<'w> Planner<'_, 'w> {
             scenario.endings.list.iter().map(|ending| ending.label.as_str()).collect();
         if scenario.start.limit.is_some() {
             known.push(LIMIT);
+        }
+        if scenario.endings.round.is_some() {
+            known.push(ROUNDS);
         }
         self.known("outcome", at, &known, scenario)?;
         Some(outcome.to_owned())

@@ -180,6 +180,8 @@ impl LaidOutCode {
             | Instr::Param(_)
             | Instr::Let(_)
             | Instr::EpisodeIndex
+            | Instr::Round
+            | Instr::RoundStart
             | Instr::Terminated
             | Instr::Us
             | Instr::Me

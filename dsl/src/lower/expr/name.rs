@@ -11,7 +11,7 @@ use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{
     EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team,
 };
-use setpiece_scenario::{Reg, UnaryOp, When};
+use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn name(&mut self, name: &'w str, span: Span) -> Value<'w> {
@@ -179,6 +179,17 @@ impl<'w> Lower<'_, 'w> {
         self.player_name(name, None)
     }
 
+    /// The round of the episode: the first one without `rounds`.
+    fn round(&mut self, span: Span) -> Value<'w> {
+        if !self.stage.is_step() && !matches!(self.stage, ProgramStage::Start(_)) {
+            let (name, by) = ("round".to_owned(), BeforeOutside::Constant);
+            return self.fail(Problem::new(span, Scopes::NotYetKnown { name, by }));
+        }
+        let several = self.world.flat.rounds.is_some();
+        let round = if several { self.code.round() } else { self.code.constant(1.0) };
+        Value::one(Ty::Int, round)
+    }
+
     /// A player of the roster, or of one team.
     fn player_name(&mut self, name: &str, team: Option<Team>) -> Option<Value<'w>> {
         let mut players =
@@ -269,6 +280,14 @@ impl<'w> Lower<'_, 'w> {
                 self.fail(Problem::new(span, Types::EventIsNoValue { parts: parts.join("`, `") }))
             }
             "score" => Value { ty: Ty::Score, repr: Repr::Nothing },
+            "round" => self.round(span),
+            "round_elapsed" => {
+                let Some(now) = self.load(Field::Elapsed, None, name, span) else {
+                    return Some(Value::error());
+                };
+                let start = self.code.round_start();
+                Value::one(Ty::DURATION, self.code.binary(BinaryOp::Sub, now, start))
+            }
             "centre" => {
                 let zero = self.code.constant(0.0);
                 Value::two(Ty::Point, (zero, zero))

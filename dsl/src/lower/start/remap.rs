@@ -66,6 +66,7 @@ pub(super) fn map_start(start: &Start, f: &mut dyn FnMut(Reg) -> Reg) -> Start {
             .map(|s| RuleSetting { rule: s.rule, value: f(s.value) })
             .collect(),
         limit: start.limit.map(&mut *f),
+        rounds: start.rounds.map(&mut *f),
         requires: start
             .requires
             .iter()

@@ -129,6 +129,7 @@ impl Context {
             Context::Scenario => &[
                 "param", "let", "const", "region", "rules", "agents", "ball", "team", "kickoff",
                 "start", "reward", "end", "require", "record", "remove", "mirror", "observe",
+                "rounds",
             ],
             Context::Team => &["place", "each"],
             Context::Reward => &["state", "let", "give", "on", "when"],
@@ -194,6 +195,7 @@ impl Context {
             (Context::Scenario, "record") => "record goals = count of goal by left",
             (Context::Scenario, "remove") => "remove reward scoring",
             (Context::Scenario, "mirror") => "mirror: flanks",
+            (Context::Scenario, "rounds") => "rounds 5 when goal or ball_dead",
             (Context::Team, "each") => "each outfield { difficulty: 0.6 }",
             (Context::Team, "place") => "place anchor at (0, 0)",
             (Context::Reward | Context::Behavior, "state") => "state n = 0",

@@ -17,6 +17,8 @@ pub(super) enum LaneStage {
     Silent,
     /// A step.
     Step,
+    /// Only what no step of a round changes.
+    Renew,
 }
 
 /// A reward's memory for a team, as wide as its agents need.
@@ -159,7 +161,9 @@ impl<const W: usize> LaneMemory<W> {
         stage: LaneStage,
         faults: &mut u32,
     ) {
-        self.terms.fill([0.0; W]);
+        if stage != LaneStage::Renew {
+            self.terms.fill([0.0; W]);
+        }
         let (plan, regs) =
             if stage == LaneStage::Init { &mut self.init } else { &mut self.step }.parts();
         let mut machine = Machine {
@@ -178,7 +182,9 @@ impl<const W: usize> LaneMemory<W> {
         if stage != LaneStage::Step {
             machine.begin();
         }
-        machine.run();
+        if stage != LaneStage::Renew {
+            machine.run();
+        }
     }
 
     fn paid(&self, lane: usize, out: &mut [f64]) {

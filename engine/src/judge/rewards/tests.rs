@@ -63,6 +63,8 @@ fn input<'a>(now: &'a MatchView, prev: &'a MatchView, events: &'a [Event]) -> In
         lets: &[],
         index: 0,
         us,
+        round: 1,
+        round_start: 0,
         terminated: false,
         silent: false,
     }

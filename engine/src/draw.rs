@@ -15,6 +15,7 @@ pub use roster::{AgentsChoice, Roster, RosterError, SideChoice};
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, DrawKey, Input, Machine, Registers, truth};
 use crate::judge::view::{player_index, team_of_number};
+use crate::physics::Conditions;
 use crate::random::Stream;
 use crate::start::{Drawn, DrawnAgent, DrawnPlayer};
 use crate::state::PlayerId;
@@ -354,6 +355,9 @@ impl Drawer {
             elapsed_steps: start.elapsed.map_or(0, |elapsed| self.steps(elapsed)),
             difficulty,
             rules,
+            conditions: Conditions::with(
+                start.world.iter().map(|setting| (setting.figure, self.value(setting.value))),
+            ),
             limit_steps: start.limit.map(|limit| self.steps(limit)),
             others: scenario.agents.others,
             agents: roster.agents.iter().map(|&(team, fixed)| DrawnAgent { team, fixed }).collect(),

@@ -32,7 +32,7 @@ pub use program::{
 pub use scenario::{
     Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, LIMIT, Observation,
     ObservedValue, Others, PlayerSlot, PlayerStart, Record, Require, Reward, RewardBody,
-    RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Switching,
+    RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Switching, WorldSetting,
 };
 pub use vocabulary::{
     Action, EventField, EventKind, Field, GameMode, Qualifier, Role, Rule, StartKind, Stat, Team,

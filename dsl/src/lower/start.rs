@@ -4,6 +4,7 @@ mod fields;
 mod football;
 mod kind;
 mod remap;
+mod world;
 
 use super::agents::{lower_agents, side_with_agents};
 use super::builder::RegisterLayout;
@@ -87,6 +88,7 @@ pub(crate) fn lower_start<'c, 'w>(
     let agents = lower_agents(&mut lower, &options);
     let side = side_with_agents(&lower, &agents, &options);
     let rules = lower.rules();
+    let settings = lower.world_settings();
     let limit = lower.limit();
     let (score, elapsed) = lower.start_fields();
     let mut requires = lower.requires();
@@ -128,6 +130,7 @@ pub(crate) fn lower_start<'c, 'w>(
         kickoff,
         difficulty,
         rules,
+        world: settings,
         limit,
         requires,
     };

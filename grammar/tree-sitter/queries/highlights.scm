@@ -42,7 +42,7 @@
   "choose" "current" "do" "each" "earlier" "else" "end" "episodes" "expect" "extends" "facing" "failure" "finish" "for" "from" "give" "if" "interrupt"
   "jitter" "keeping" "kickoff" "left" "limit" "mirror" "mix" "never" "observe" "of" "off" "offset" "on" "once" "outfield"
   "over" "own" "params" "per" "place" "play" "remove" "repeat" "require" "rhai" "right" "rules" "script" "second" "seed" "sprinting" "stage" "start" "success"
-  "team" "then" "times" "to" "until" "vector" "when" "where" "with"
+  "team" "then" "times" "to" "until" "vector" "when" "where" "with" "world"
 ] @keyword.control
 
 [

@@ -85,7 +85,7 @@ fn settle(ball: &mut Ball, before: &Ball, held_up: bool, conditions: &Conditions
         return;
     }
     let speed = ball.vel.length();
-    if speed < conditions.rest_speed {
+    if speed < conditions.rest_speed() {
         if before.vel == Vec3::ZERO {
             // It already lay here: gravity and the contact were in balance.
             *ball = *before;

@@ -9,37 +9,11 @@ use setpiece_scenario::vocabulary::WorldFigure;
 
 /// The figures that the ball's motion reads, drawn once per episode.
 ///
-/// They are serialized as the scenario's figures, each within its range, so that a snapshot can't
-/// hold impossible ones.
+/// Each is within its range, so that a snapshot can't hold impossible ones.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(from = "[f32; WorldFigure::ALL.len()]", into = "[f32; WorldFigure::ALL.len()]")]
 pub struct Conditions {
     figures: [f32; WorldFigure::ALL.len()],
-    /// The wind above the shelter of the ground, m/s.
-    pub(super) wind: Vec2,
-    /// m/s².
-    pub(super) gravity: f32,
-    /// See [`AIR_DRAG`].
-    pub(super) air_drag: f32,
-    /// See [`MAGNUS`].
-    pub(super) magnus: f32,
-    /// See [`SPIN_DECAY`].
-    pub(super) spin_decay: f32,
-    /// See [`BOUNCE`].
-    pub(super) bounce: f32,
-    /// See [`BOUNCE_LOSS`]; at least what a bounce gives back of one tick's fall, so that a ball
-    /// comes to rest.
-    pub(super) bounce_loss: f32,
-    /// See [`BOUNCE_LEAST`]; more than one tick's fall, so that rolling is no bounce.
-    pub(super) bounce_least: f32,
-    /// See [`BOUNCE_FRICTION`].
-    pub(super) bounce_friction: f32,
-    /// See [`ROLL_DRAG`].
-    pub(super) roll_drag: f32,
-    /// See [`ROLL_DRAG_SQUARE`].
-    pub(super) roll_drag_square: f32,
-    /// See [`REST_SPEED`]; more than one tick's fall.
-    pub(super) rest_speed: f32,
 }
 
 impl Conditions {
@@ -51,7 +25,7 @@ impl Conditions {
             figures[i] = WorldFigure::ALL[i].usual() as f32;
             i += 1;
         }
-        Conditions::of(figures)
+        Conditions { figures }
     };
 
     /// The usual conditions with some figures changed; a value out of its range becomes the nearest
@@ -63,7 +37,7 @@ impl Conditions {
             let value = if value.is_nan() { figure.usual() } else { value.clamp(low, high) };
             figures[figure.index()] = value as f32;
         }
-        Conditions::of(figures)
+        Conditions { figures }
     }
 
     /// The same with the wind turned by 180°.
@@ -72,7 +46,7 @@ impl Conditions {
         for wind in [WorldFigure::WindX, WorldFigure::WindY] {
             self.figures[wind.index()] *= -1.0;
         }
-        Conditions::of(self.figures)
+        self
     }
 
     /// The scenario's figures, by [`WorldFigure::index`].
@@ -80,29 +54,87 @@ impl Conditions {
         self.figures
     }
 
-    const fn of(figures: [f32; WorldFigure::ALL.len()]) -> Conditions {
-        let gravity = figures[WorldFigure::Gravity.index()];
-        let bounce = figures[WorldFigure::Bounce.index()];
-        let friction = figures[WorldFigure::Friction.index()];
-        let fall = gravity * TICK_S;
-        Conditions {
-            wind: Vec2::new(
-                figures[WorldFigure::WindX.index()],
-                figures[WorldFigure::WindY.index()],
-            ),
-            gravity,
-            air_drag: AIR_DRAG * figures[WorldFigure::Drag.index()],
-            magnus: MAGNUS * figures[WorldFigure::Swerve.index()],
-            spin_decay: figures[WorldFigure::SpinDecay.index()],
-            bounce,
-            bounce_loss: BOUNCE_LOSS.max(1.01 * bounce * fall),
-            bounce_least: BOUNCE_LEAST.max(1.5 * fall),
-            bounce_friction: BOUNCE_FRICTION * friction,
-            roll_drag: ROLL_DRAG * friction,
-            roll_drag_square: ROLL_DRAG_SQUARE * friction,
-            rest_speed: REST_SPEED.max(1.01 * fall),
-            figures,
-        }
+    #[inline]
+    const fn figure(&self, figure: WorldFigure) -> f32 {
+        self.figures[figure.index()]
+    }
+
+    /// The wind above the shelter of the ground, m/s.
+    #[inline]
+    pub(super) fn wind(&self) -> Vec2 {
+        Vec2::new(self.figure(WorldFigure::WindX), self.figure(WorldFigure::WindY))
+    }
+
+    /// m/s².
+    #[inline]
+    pub(super) const fn gravity(&self) -> f32 {
+        self.figure(WorldFigure::Gravity)
+    }
+
+    /// See [`AIR_DRAG`].
+    #[inline]
+    pub(super) const fn air_drag(&self) -> f32 {
+        AIR_DRAG * self.figure(WorldFigure::Drag)
+    }
+
+    /// See [`MAGNUS`].
+    #[inline]
+    pub(super) const fn magnus(&self) -> f32 {
+        MAGNUS * self.figure(WorldFigure::Swerve)
+    }
+
+    /// See [`SPIN_DECAY`].
+    #[inline]
+    pub(super) const fn spin_decay(&self) -> f32 {
+        self.figure(WorldFigure::SpinDecay)
+    }
+
+    /// See [`BOUNCE`].
+    #[inline]
+    pub(super) const fn bounce(&self) -> f32 {
+        self.figure(WorldFigure::Bounce)
+    }
+
+    /// See [`BOUNCE_LOSS`]; at least what a bounce gives back of one tick's fall, so that a ball
+    /// comes to rest.
+    #[inline]
+    pub(super) const fn bounce_loss(&self) -> f32 {
+        BOUNCE_LOSS.max(1.01 * self.bounce() * self.fall())
+    }
+
+    /// See [`BOUNCE_LEAST`]; more than one tick's fall, so that rolling is no bounce.
+    #[inline]
+    pub(super) const fn bounce_least(&self) -> f32 {
+        BOUNCE_LEAST.max(1.5 * self.fall())
+    }
+
+    /// See [`BOUNCE_FRICTION`].
+    #[inline]
+    pub(super) const fn bounce_friction(&self) -> f32 {
+        BOUNCE_FRICTION * self.figure(WorldFigure::Friction)
+    }
+
+    /// See [`ROLL_DRAG`].
+    #[inline]
+    pub(super) const fn roll_drag(&self) -> f32 {
+        ROLL_DRAG * self.figure(WorldFigure::Friction)
+    }
+
+    /// See [`ROLL_DRAG_SQUARE`].
+    #[inline]
+    pub(super) const fn roll_drag_square(&self) -> f32 {
+        ROLL_DRAG_SQUARE * self.figure(WorldFigure::Friction)
+    }
+
+    /// See [`REST_SPEED`]; more than one tick's fall.
+    #[inline]
+    pub(super) const fn rest_speed(&self) -> f32 {
+        REST_SPEED.max(1.01 * self.fall())
+    }
+
+    /// What gravity adds to a fall in a tick, m/s.
+    const fn fall(&self) -> f32 {
+        self.gravity() * TICK_S
     }
 }
 
@@ -127,7 +159,9 @@ impl From<Conditions> for [f32; WorldFigure::ALL.len()] {
 // The engine's figures are those that the language calls usual.
 const _: () = {
     let usual = Conditions::USUAL;
-    assert!(usual.gravity == GRAVITY && usual.bounce == BOUNCE && usual.spin_decay == SPIN_DECAY);
-    assert!(usual.bounce_loss == BOUNCE_LOSS && usual.bounce_least == BOUNCE_LEAST);
-    assert!(usual.rest_speed == REST_SPEED);
+    assert!(
+        usual.gravity() == GRAVITY && usual.bounce() == BOUNCE && usual.spin_decay() == SPIN_DECAY
+    );
+    assert!(usual.bounce_loss() == BOUNCE_LOSS && usual.bounce_least() == BOUNCE_LEAST);
+    assert!(usual.rest_speed() == REST_SPEED);
 };

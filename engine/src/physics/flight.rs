@@ -38,11 +38,11 @@ pub(super) fn fly(ball: &mut Ball, conditions: &Conditions) {
 pub(super) fn push(ball: &mut Ball, conditions: &Conditions) {
     let vel = through_air(ball.vel, ball.pos.z, conditions);
     let speed = vel.length();
-    let mut acceleration = vel * (-conditions.air_drag * speed);
-    acceleration.z -= conditions.gravity;
+    let mut acceleration = vel * (-conditions.air_drag() * speed);
+    acceleration.z -= conditions.gravity();
     if ball.spin != Vec3::ZERO {
         acceleration += magnus(ball.spin, vel, speed, conditions);
-        ball.spin *= 1.0 - conditions.spin_decay * TICK_S;
+        ball.spin *= 1.0 - conditions.spin_decay() * TICK_S;
     }
     ball.vel += acceleration * TICK_S;
     let grass = 1.0 - (ball.pos.z - BALL_RADIUS) * (1.0 / GRASS_DEPTH);
@@ -54,11 +54,11 @@ pub(super) fn push(ball: &mut Ball, conditions: &Conditions) {
 /// The velocity of a ball relative to the air around it. `height_m`: that of its centre.
 #[inline]
 pub(super) fn through_air(vel: Vec3, height_m: f32, conditions: &Conditions) -> Vec3 {
-    if conditions.wind == Vec2::ZERO {
+    if conditions.wind() == Vec2::ZERO {
         return vel;
     }
     let share = ((height_m - BALL_RADIUS) * (1.0 / WIND_SHELTER)).clamp(0.0, 1.0);
-    vel - (conditions.wind * share).extend(0.0)
+    vel - (conditions.wind() * share).extend(0.0)
 }
 
 /// The sideways pull on a spinning ball, m/s².
@@ -69,7 +69,7 @@ pub(super) fn magnus(spin: Vec3, vel: Vec3, speed: f32, conditions: &Conditions)
     } else {
         1.0
     };
-    spin.cross(vel) * (conditions.magnus * share * speed.min(MAGNUS_SPEED_MAX))
+    spin.cross(vel) * (conditions.magnus() * share * speed.min(MAGNUS_SPEED_MAX))
 }
 
 /// Brakes the ball in the grass and turns it towards pure rolling. `grass`: how deep it is in, 0 to
@@ -80,7 +80,7 @@ fn roll(ball: &mut Ball, grass: f32, conditions: &Conditions) {
     if speed == 0.0 {
         return;
     }
-    let drag = conditions.roll_drag + conditions.roll_drag_square * speed * speed;
+    let drag = conditions.roll_drag() + conditions.roll_drag_square() * speed * speed;
     let lost = (drag * grass * TICK_S).min(speed);
     let kept = along * (1.0 - lost / speed);
     ball.vel = kept.extend(ball.vel.z);
@@ -100,10 +100,10 @@ pub(super) fn land(ball: &mut Ball, conditions: &Conditions) {
     ball.pos.z = BALL_RADIUS;
     if ball.vel.z < 0.0 {
         let impact = -ball.vel.z;
-        if impact > conditions.bounce_least {
+        if impact > conditions.bounce_least() {
             grip(ball, impact, conditions);
         }
-        ball.vel.z = (conditions.bounce * impact - conditions.bounce_loss).max(0.0);
+        ball.vel.z = (conditions.bounce() * impact - conditions.bounce_loss()).max(0.0);
     }
     if ball.vel == Vec3::ZERO {
         ball.spin = Vec3::ZERO;
@@ -119,7 +119,7 @@ fn grip(ball: &mut Ball, impact: f32, conditions: &Conditions) {
     if speed == 0.0 {
         return;
     }
-    let push = conditions.bounce_friction * (1.0 + conditions.bounce) * impact;
+    let push = conditions.bounce_friction() * (1.0 + conditions.bounce()) * impact;
     let taken = push.min(BOUNCE_GRIP * speed);
     let change = sliding * (-taken / speed);
     ball.vel += change.extend(0.0);

@@ -47,11 +47,11 @@ struct Stride {
 impl Stride {
     fn of(ticks: u32, conditions: Conditions) -> Stride {
         let seconds = ticks as f32 * TICK_S;
-        let constant = conditions.roll_drag;
-        let square = conditions.roll_drag_square + conditions.air_drag;
+        let constant = conditions.roll_drag();
+        let square = conditions.roll_drag_square() + conditions.air_drag();
         Stride {
-            grips_mps2: (conditions.bounce_least / TICK_S - conditions.gravity)
-                / (conditions.magnus * MAGNUS_SPIN_MAX),
+            grips_mps2: (conditions.bounce_least() / TICK_S - conditions.gravity())
+                / (conditions.magnus() * MAGNUS_SPIN_MAX),
             conditions,
             ticks,
             seconds,
@@ -128,11 +128,11 @@ impl Stride {
             } else {
                 flight::magnus(ball.spin, vel, speed, conditions)
             };
-            turn - vel * (conditions.air_drag * speed) - Vec3::new(0.0, 0.0, conditions.gravity)
+            turn - vel * (conditions.air_drag() * speed) - Vec3::new(0.0, 0.0, conditions.gravity())
         };
         let middle = ball.vel + force(ball.vel) * (0.5 * self.seconds);
         let vel = ball.vel + force(middle) * self.seconds;
-        let spin = ball.spin * (1.0 - self.conditions.spin_decay * self.seconds);
+        let spin = ball.spin * (1.0 - self.conditions.spin_decay() * self.seconds);
         Ball { pos: ball.pos + self.way(ball.vel, vel), vel, spin }
     }
 

@@ -9,8 +9,9 @@ mod cpu;
 use cpu::CpuTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, criterion_group, criterion_main};
 use glam::{Vec2, Vec3};
-use setpiece_engine::physics::Ball;
-use setpiece_engine::physics::{BallObstacle, Scratch, advance_ball, predict::places};
+use setpiece_engine::physics::{
+    Ball, BallObstacle, Conditions, Scratch, advance_ball, predict::places,
+};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -41,7 +42,13 @@ fn one_tick(
     c.bench_function(name, |b| {
         b.iter(|| {
             let mut moved = black_box(ball);
-            black_box(advance_ball(&mut moved, black_box(bodies), full, &mut scratch));
+            black_box(advance_ball(
+                &mut moved,
+                &Conditions::USUAL,
+                black_box(bodies),
+                full,
+                &mut scratch,
+            ));
             moved
         });
     });
@@ -68,7 +75,7 @@ fn ticks(c: &mut Criterion<CpuTime>) {
         one_tick(c, &format!("tick/gated/bodies_{count}"), ball, &at(count), false);
     }
     c.bench_function("forecast/300_ticks", |b| {
-        b.iter(|| places(black_box(&FLYING), 10).take(30).last());
+        b.iter(|| places(black_box(&FLYING), &Conditions::USUAL, 10).take(30).last());
     });
 }
 

@@ -2,9 +2,10 @@
 //!
 //! FNV-1a over 64 bits. Every number enters as its little-endian bytes, floats by their bits with
 //! -0.0 folded to 0.0. The order is that of [`of_match`]: clock, score, ball, players by id,
-//! possession, mode, agents. Random streams enter by their next numbers, so runs that only happen
-//! to look alike differ.
+//! possession, mode, agents, the world where it isn't the usual one. Random streams enter by their
+//! next numbers, so runs that only happen to look alike differ.
 
+use crate::physics::Conditions;
 use crate::state::{Match, PlayerId};
 
 /// A digest being computed.
@@ -75,6 +76,9 @@ pub fn of_match(game: &Match) -> u64 {
         if let Some(steer) = agent.steer {
             digest = digest.floats(steer.way.to_array()).float(steer.power);
         }
+    }
+    if game.conditions != Conditions::USUAL {
+        digest = digest.floats(game.conditions.figures());
     }
     digest
         .whole(game.play_random.clone().bits().into())

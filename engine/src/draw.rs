@@ -15,6 +15,7 @@ pub use roster::{AgentsChoice, Roster, RosterError, SideChoice};
 use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, DrawKey, Input, Machine, Registers, truth};
 use crate::judge::view::{player_index, team_of_number};
+use crate::physics::Conditions;
 use crate::random::Stream;
 use crate::start::{Drawn, DrawnAgent, DrawnPlayer};
 use crate::state::PlayerId;
@@ -26,6 +27,7 @@ use setpiece_scenario::pitch::{
 };
 use setpiece_scenario::vocabulary::{Rule, Team};
 use setpiece_scenario::{Ai, Bindings, PlayerSlot, PlayerStart, Reg, Scenario};
+use std::sync::Arc;
 
 /// The most attempts to find a start that meets its requirements.
 pub const ATTEMPTS_MAX: u32 = 10_000;
@@ -89,8 +91,8 @@ impl DrawError {
 pub struct Drawer {
     regs: Registers,
     failures: Vec<u32>,
-    /// Whether a register depends on a draw.
-    random: Vec<bool>,
+    /// Whether a register depends on a draw; shared by the copies of an environment.
+    random: Arc<[bool]>,
     attempts_max: u32,
     /// Of which round it draws the start, from 1 on.
     round: u32,
@@ -115,7 +117,7 @@ impl Drawer {
         Drawer {
             regs: Registers::of(program),
             failures: vec![0; scenario.start.requires.len() + place::PlaceFault::ALL.len()],
-            random,
+            random: random.into(),
             attempts_max: (WORK_MAX / start_work(scenario)).clamp(1, ATTEMPTS_MAX.into()) as u32,
             round: 1,
         }
@@ -376,6 +378,9 @@ impl Drawer {
             elapsed_steps: start.elapsed.map_or(0, |elapsed| self.steps(elapsed)),
             difficulty,
             rules,
+            conditions: Conditions::with(
+                start.world.iter().map(|setting| (setting.figure, self.value(setting.value))),
+            ),
             limit_steps: start.limit.map(|limit| self.steps(limit)),
             rounds: start.rounds.map_or(1, |rounds| self.value(rounds).max(1.0) as u32),
             steps_before: 0,

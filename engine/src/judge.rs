@@ -53,8 +53,9 @@ pub struct Judge {
     prev: MatchView,
     /// How much of the state is kept in `prev`.
     memory: ViewMemory,
-    /// The value of `prev` in the step just judged, for observations that compare with it.
-    before: MatchView,
+    /// The value of `prev` in the step just judged, if there is an observation that may compare
+    /// with it.
+    before: Option<Box<MatchView>>,
 }
 
 clone_in_place! {
@@ -83,7 +84,7 @@ impl Judge {
             known: Known::new(scripts, scripted, Purpose::Script),
             memory: if scripted { ViewMemory::All } else { memory(scenario, &rewards) },
             prev: MatchView::EMPTY,
-            before: MatchView::EMPTY,
+            before: scenario.observation.is_some().then(|| Box::new(MatchView::EMPTY)),
         }
     }
 
@@ -105,11 +106,13 @@ impl Judge {
 
     /// Writes the declared observation of an agent. `false` if there is none of that length.
     pub fn observe(&mut self, game: &Match, agent: usize, out: &mut [f32]) -> bool {
-        let Some(observation) = &mut self.observation else { return false };
+        let (Some(observation), Some(before)) = (&mut self.observation, &self.before) else {
+            return false;
+        };
         if out.len() != observation.names().len() || agent >= game.agents.len() {
             return false;
         }
-        let input = self.known.input(Sight::Live(game), &self.before, endings::judged_side(game));
+        let input = self.known.input(Sight::Live(game), before, endings::judged_side(game));
         observation.write(game, agent, &input, self.known.key().0, out);
         true
     }
@@ -134,7 +137,9 @@ impl Judge {
     pub fn reset(&mut self, game: &Match, given: &Given<'_>) {
         self.known.begin(given);
         self.prev = MatchView::of(game);
-        self.before = self.prev;
+        if let Some(before) = &mut self.before {
+            **before = self.prev;
+        }
         let input = self.known.input(Sight::Live(game), &self.prev, endings::judged_side(game));
         self.endings.reset(&input);
         self.rewards.reset(game, &input);
@@ -151,8 +156,8 @@ impl Judge {
         shelf: &mut Shelf,
     ) -> Result<(), SnapshotError> {
         self.prev.archive("prev", self.memory, archive)?;
-        if let Some(observation) = &mut self.observation {
-            self.before.archive("before", self.memory, archive)?;
+        if let (Some(observation), Some(before)) = (&mut self.observation, &mut self.before) {
+            before.archive("before", self.memory, archive)?;
             archive.part("observation", |archive| observation.archive(archive))?;
         }
         self.known.archive(archive, shelf)?;
@@ -216,13 +221,13 @@ impl Judge {
 
     /// Remembers the state that the step leaves behind, after its restart: the next step's `prev`.
     pub fn settle(&mut self, game: &Match) {
-        if self.observation.is_some() {
-            self.before = self.prev;
+        if let Some(before) = &mut self.before {
+            **before = self.prev;
         }
         self.prev.keep(game, self.memory);
-        if let Some(observation) = &mut self.observation {
+        if let (Some(observation), Some(before)) = (&mut self.observation, &self.before) {
             let side = endings::judged_side(game);
-            let input = self.known.input(Sight::Live(game), &self.before, side);
+            let input = self.known.input(Sight::Live(game), before, side);
             observation.step(game, &input, self.known.key().0);
         }
     }

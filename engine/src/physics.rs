@@ -4,6 +4,7 @@
 //! what that means.
 
 mod ball;
+mod conditions;
 pub mod constants;
 pub mod flight;
 pub mod forecast;
@@ -14,11 +15,12 @@ mod scene;
 mod scratch;
 
 pub use ball::Ball;
+pub use conditions::Conditions;
 pub use forecast::Forecast;
 pub use lines::{Line, crossed_goal_line, left_pitch};
 pub use scratch::Scratch;
 
-use constants::{BALL_RADIUS, REST_SPEED, ROLL_DRAG, TICK_S};
+use constants::{BALL_RADIUS, ROLL_DRAG, TICK_S};
 use glam::{Vec2, Vec3};
 
 /// A player's body that the ball may meet during a tick.
@@ -52,6 +54,7 @@ pub enum Contact {
 /// hard.
 pub fn advance_ball(
     ball: &mut Ball,
+    conditions: &Conditions,
     bodies: &[BallObstacle],
     full: bool,
     scratch: &mut Scratch,
@@ -61,28 +64,28 @@ pub fn advance_ball(
         return None;
     }
     let before = *ball;
-    flight::push(ball);
+    flight::push(ball, conditions);
     if !full && bodies.is_empty() && !gate::near_goal(ball) {
         ball.pos += ball.vel * TICK_S;
-        flight::land(ball);
+        flight::land(ball, conditions);
         return None;
     }
     let touch = scratch.meet(ball, &bodies);
-    flight::land(ball);
+    flight::land(ball, conditions);
     let touch = touch?;
-    settle(ball, &before, touch.held_up);
+    settle(ball, &before, touch.held_up, conditions);
     Some(touch.contact)
 }
 
 /// Brakes a ball that rolls along the top of a goal. Brings a slow ball to exact rest if it leans
 /// on something and stands on the ground or on something.
-fn settle(ball: &mut Ball, before: &Ball, held_up: bool) {
+fn settle(ball: &mut Ball, before: &Ball, held_up: bool, conditions: &Conditions) {
     let on_ground = ball.pos.z <= BALL_RADIUS;
     if !held_up && !on_ground {
         return;
     }
     let speed = ball.vel.length();
-    if speed < REST_SPEED {
+    if speed < conditions.rest_speed() {
         if before.vel == Vec3::ZERO {
             // It already lay here: gravity and the contact were in balance.
             *ball = *before;

@@ -1,5 +1,6 @@
 //! A concrete start: the result of drawing a scenario, from which a match begins.
 
+use crate::physics::Conditions;
 use crate::state::PlayerId;
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::PLAYERS_MAX;
@@ -37,6 +38,8 @@ pub struct Drawn {
     pub difficulty: [f32; 2],
     /// Rules by [`Rule::index`]; see [`Rule::default_value`].
     pub rules: [f64; Rule::ALL.len()],
+    /// What nature does to the ball.
+    pub conditions: Conditions,
     /// The episode is truncated after this many steps.
     pub limit_steps: Option<u32>,
     /// How many rounds the episode has.

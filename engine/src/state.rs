@@ -14,7 +14,7 @@ pub use player::{Player, PlayerId};
 pub use squad::{Ids, Squad};
 
 use crate::in_place::clone_in_place;
-use crate::physics::Ball;
+use crate::physics::{Ball, Conditions};
 use crate::random::Stream;
 use arrayvec::ArrayVec;
 use glam::Vec2;
@@ -55,6 +55,8 @@ pub struct Match {
     pub dead: bool,
     /// Rules by [`Rule::index`].
     pub rules: [f64; Rule::ALL.len()],
+    /// What nature does to the ball.
+    pub conditions: Conditions,
     /// The bots' difficulty by team.
     pub difficulty: [f32; 2],
     /// The agents, left before right.
@@ -70,7 +72,8 @@ pub struct Match {
 clone_in_place! {
     Match {
         tick, step, elapsed_at_start, limit_steps, score, ball, squad, players, owner, possession,
-        last_touch, mode, dead, rules, difficulty, agents, play_random, bot_random, play,
+        last_touch, mode, dead, rules, conditions, difficulty, agents, play_random, bot_random,
+        play,
     }
 }
 

@@ -194,6 +194,7 @@ pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
             kickoff: None,
             difficulty: [one, one],
             rules: Vec::new(),
+            world: Vec::new(),
             limit: Some(limit),
             rounds: None,
             requires: Vec::new(),

@@ -9,7 +9,9 @@
 use glam::{Vec2, Vec3};
 use setpiece_engine::physics::Ball;
 use setpiece_engine::physics::constants::{BALL_RADIUS, BODY_RADIUS, FRAME_RADIUS};
-use setpiece_engine::physics::{BallObstacle, Contact, Scratch, advance_ball, crossed_goal_line};
+use setpiece_engine::physics::{
+    BallObstacle, Conditions, Contact, Scratch, advance_ball, crossed_goal_line,
+};
 use setpiece_engine::random::{Purpose, Stream};
 
 /// A draw from the test's own stream.
@@ -120,8 +122,8 @@ fn the_fast_mode_agrees_with_the_full_one_over_2400_shots() {
         let mut free = true;
         for tick in 0..250 {
             let before = (fast.pos, exact.pos);
-            let one = advance_ball(&mut fast, bodies, false, &mut gated);
-            let other = advance_ball(&mut exact, bodies, true, &mut full);
+            let one = advance_ball(&mut fast, &Conditions::USUAL, bodies, false, &mut gated);
+            let other = advance_ball(&mut exact, &Conditions::USUAL, bodies, true, &mut full);
             assert!(
                 fast.pos.is_finite() && fast.vel.is_finite() && fast.spin.is_finite(),
                 "{fast:?}"
@@ -165,14 +167,14 @@ fn what_a_scratch_did_before_leaves_no_trace() {
     let mut together: Vec<Ball> = shots.iter().map(|(ball, _)| *ball).collect();
     for _ in 0..200 {
         for (ball, (_, bodies)) in together.iter_mut().zip(&shots) {
-            advance_ball(ball, bodies, true, &mut shared);
+            advance_ball(ball, &Conditions::USUAL, bodies, true, &mut shared);
         }
     }
     for (i, ((start, bodies), interleaved)) in shots.iter().zip(&together).enumerate() {
         let mut alone = *start;
         let mut fresh = Scratch::default();
         for _ in 0..200 {
-            advance_ball(&mut alone, bodies, true, &mut fresh);
+            advance_ball(&mut alone, &Conditions::USUAL, bodies, true, &mut fresh);
         }
         assert_eq!(alone, *interleaved, "shot {i}");
     }
@@ -188,8 +190,11 @@ fn both_goals_are_alike_to_the_bit() {
         let turned: Vec<BallObstacle> =
             bodies.iter().map(|body| BallObstacle { pos: -body.pos, ..*body }).collect();
         for _ in 0..200 {
-            let touched = advance_ball(&mut one, &bodies, false, &mut scratch);
-            assert_eq!(touched, advance_ball(&mut other, &turned, false, &mut scratch));
+            let touched = advance_ball(&mut one, &Conditions::USUAL, &bodies, false, &mut scratch);
+            assert_eq!(
+                touched,
+                advance_ball(&mut other, &Conditions::USUAL, &turned, false, &mut scratch)
+            );
             assert_eq!((one.pos, one.vel), (turn(other.pos), turn(other.vel)));
         }
     }
@@ -205,7 +210,13 @@ fn woodwork_gives_back_four_fifths_of_the_speed() {
             let mut ball = Ball { pos: from, vel: Vec3::X * speed, spin: Vec3::ZERO };
             let mut touched = None;
             for _ in 0..40 {
-                touched = touched.or(advance_ball(&mut ball, &[], false, &mut scratch));
+                touched = touched.or(advance_ball(
+                    &mut ball,
+                    &Conditions::USUAL,
+                    &[],
+                    false,
+                    &mut scratch,
+                ));
                 if ball.vel.x < 0.0 {
                     break;
                 }
@@ -234,7 +245,7 @@ fn a_ball_in_the_net_stays_there_at_any_speed() {
         let mut ball = Ball { pos: from, vel, spin: draw.point([-50.0; 3], [50.0; 3]) };
         let mut was_in = false;
         for _ in 0..250 {
-            advance_ball(&mut ball, &[], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
             was_in = ball.pos.x > 55.0 && (was_in || inside(ball.pos));
             let out_through_net = was_in && !inside(ball.pos);
             assert!(!out_through_net, "ball {i} left through the net: {ball:?}");
@@ -258,7 +269,7 @@ fn a_ball_from_behind_never_gets_into_the_goal() {
         let turn = |v: Vec3| Vec3::new(v.x * side, v.y * side, v.z);
         let mut ball = Ball { pos: turn(from), vel: turn(vel), spin: Vec3::ZERO };
         for _ in 0..300 {
-            advance_ball(&mut ball, &[], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
             if ball.pos.x.abs() < 55.0 {
                 break;
             }
@@ -276,7 +287,13 @@ fn a_body_stops_and_damps_the_ball_and_is_named() {
         let bodies = [standing(7, Vec2::new(9.0, 0.0)), standing(14, Vec2::new(1.5, 0.05))];
         let mut touched = None;
         for _ in 0..60 {
-            touched = touched.or(advance_ball(&mut ball, &bodies, false, &mut scratch));
+            touched = touched.or(advance_ball(
+                &mut ball,
+                &Conditions::USUAL,
+                &bodies,
+                false,
+                &mut scratch,
+            ));
             assert!(ball.pos.x < 1.5 - BODY_RADIUS, "through the body: {ball:?}");
         }
         assert_eq!(touched, Some(Contact::Body(14)), "at {speed} m/s");
@@ -291,7 +308,13 @@ fn a_ball_over_the_head_passes() {
         Ball { pos: Vec3::new(0.0, 0.0, 2.2), vel: Vec3::new(25.0, 0.0, 1.0), spin: Vec3::ZERO };
     for _ in 0..20 {
         assert_eq!(
-            advance_ball(&mut ball, &[standing(3, Vec2::new(2.0, 0.0))], false, &mut scratch),
+            advance_ball(
+                &mut ball,
+                &Conditions::USUAL,
+                &[standing(3, Vec2::new(2.0, 0.0))],
+                false,
+                &mut scratch
+            ),
             None
         );
     }
@@ -307,7 +330,8 @@ fn a_running_body_takes_a_resting_ball_along() {
         BallObstacle { id: 4, pos: Vec2::new(-1.0, 0.0), vel: Vec2::new(6.0, 0.0), height_m: 1.8 };
     let mut touched = None;
     for _ in 0..30 {
-        touched = touched.or(advance_ball(&mut ball, &[body], false, &mut scratch));
+        touched =
+            touched.or(advance_ball(&mut ball, &Conditions::USUAL, &[body], false, &mut scratch));
         body.pos += body.vel * 0.01;
     }
     assert_eq!(touched, Some(Contact::Body(4)));
@@ -325,7 +349,7 @@ fn a_body_cannot_press_the_ball_through_the_net() {
         let mut body =
             BallObstacle { id: 2, pos: from.truncate() - vel.normalize(), vel, height_m: 1.85 };
         for _ in 0..150 {
-            advance_ball(&mut ball, &[body], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, &[body], false, &mut scratch);
             body.pos += body.vel * 0.01;
             assert!(ball.pos.x < 55.0 || inside(ball.pos), "ball {i}: {ball:?}, {body:?}");
         }
@@ -351,7 +375,7 @@ fn a_thousand_balls_left_at_net_and_posts_lie_still_for_a_minute() {
         let mut ticks = 0;
         while ball.vel != Vec3::ZERO {
             let start = ball;
-            advance_ball(&mut ball, &[], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
             ticks += 1;
             assert!(
                 ball.pos.is_finite() && ball.vel.is_finite(),
@@ -363,7 +387,7 @@ fn a_thousand_balls_left_at_net_and_posts_lie_still_for_a_minute() {
         at_hard_parts +=
             usize::from(rest.x.abs() > 54.8 && rest.x.abs() < 57.8 && rest.y.abs() < 4.0);
         for _ in 0..6000 {
-            advance_ball(&mut ball, &[], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
             assert!(
                 (ball.pos - rest).length() < 0.01,
                 "ball {i} crept from {rest} to {}",
@@ -387,7 +411,7 @@ fn hard_things_add_no_energy() {
                     + BALL_RADIUS * BALL_RADIUS / 3.0 * b.spin.length_squared()
             };
             let before = energy(&ball);
-            let touched = advance_ball(&mut ball, &bodies, false, &mut scratch);
+            let touched = advance_ball(&mut ball, &Conditions::USUAL, &bodies, false, &mut scratch);
             let after = energy(&ball);
             // Pushed out of an overlap of millimetres, the ball may gain that much height.
             assert!(

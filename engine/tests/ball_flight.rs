@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use setpiece_engine::physics::Ball;
 use setpiece_engine::physics::constants::{BALL_RADIUS, GRAVITY};
-use setpiece_engine::physics::{Scratch, advance_ball, flight, predict::places};
+use setpiece_engine::physics::{Conditions, Scratch, advance_ball, flight, predict::places};
 
 const REST: Vec3 = Vec3::new(0.0, 0.0, BALL_RADIUS);
 
@@ -23,7 +23,7 @@ fn kicked(speed_x: f32, speed_z: f32, backspin: f32) -> Ball {
 fn advance(ball: &mut Ball, ticks: usize, scratch: &mut Scratch) {
     for _ in 0..ticks {
         assert_eq!(
-            advance_ball(ball, &[], false, scratch),
+            advance_ball(ball, &Conditions::USUAL, &[], false, scratch),
             None,
             "nothing hard stands on the open pitch"
         );
@@ -206,7 +206,7 @@ proptest! {
         let (pos, vel) = (Vec3::new(0.0, 0.0, height), Vec3::new(vel[0], vel[1], rise));
         let ball = Ball { pos, vel, spin: spin.into() };
         let (mut flown, mut scratch) = (ball, Scratch::default());
-        for (i, place) in places(&ball, 5).take(64).enumerate() {
+        for (i, place) in places(&ball, &Conditions::USUAL, 5).take(64).enumerate() {
             advance(&mut flown, 5, &mut scratch);
             let off = place.distance(flown.pos);
             prop_assert!(off < 0.15 + 0.006 * i as f32, "{off} m at {} ticks: {place} {}", 5 * (i + 1), flown.pos);
@@ -224,7 +224,7 @@ proptest! {
         let mut scratch = Scratch::default();
         let mut before = energy(&ball);
         for tick in 0..400 {
-            advance_ball(&mut ball, &[], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
             prop_assert!(ball.pos.is_finite() && ball.vel.is_finite() && ball.spin.is_finite());
             if ball.pos.x.abs() > 50.0 {
                 break;
@@ -249,8 +249,8 @@ proptest! {
         let mut other = Ball { pos: start.pos, vel: turn(start.vel), spin: turn(start.spin) };
         let mut scratch = Scratch::default();
         for _ in 0..100 {
-            advance_ball(&mut one, &[], false, &mut scratch);
-            advance_ball(&mut other, &[], false, &mut scratch);
+            advance_ball(&mut one, &Conditions::USUAL, &[], false, &mut scratch);
+            advance_ball(&mut other, &Conditions::USUAL, &[], false, &mut scratch);
         }
         prop_assert_eq!(Vec2::new(-one.pos.x, -one.pos.y), other.pos.truncate());
         prop_assert_eq!(one.pos.z, other.pos.z);

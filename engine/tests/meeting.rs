@@ -4,9 +4,9 @@
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use setpiece_engine::football::reach::{PLAYABLE_M, Way, meeting};
-use setpiece_engine::physics::Ball;
 use setpiece_engine::physics::Forecast;
 use setpiece_engine::physics::left_pitch;
+use setpiece_engine::physics::{Ball, Conditions};
 use setpiece_engine::state::Player;
 use setpiece_engine::state::player::Body;
 use setpiece_scenario::Ai;
@@ -67,7 +67,7 @@ proptest! {
         let pos = Vec3::new(ball.0, ball.1, height);
         let vel = if still { Vec3::ZERO } else { Vec3::new(vel[0], vel[1], rise) };
         let pos = if still { pos.with_z(0.11) } else { pos };
-        let forecast = Forecast::of(&Ball { pos, vel, spin: spin.into() }, 700);
+        let forecast = Forecast::of(&Ball { pos, vel, spin: spin.into() }, &Conditions::USUAL, 700);
         let player = player([from.0, from.1], running, speed);
         let tick = 700 + later;
         let found = meeting(&player, &Way::of(&forecast, tick));

@@ -100,6 +100,9 @@ impl Writer<'_, '_> {
         }
         self.parameters();
         self.rules();
+        if self.choices.rarely(3) {
+            self.world();
+        }
         self.start();
         self.teams();
         self.agents();
@@ -172,6 +175,32 @@ impl Writer<'_, '_> {
             rules.push("physics: full".to_owned());
         }
         self.line(&format!("rules {{ {} }}", rules.join(", ")));
+    }
+
+    fn world(&mut self) {
+        const KEYS: &[(&str, f64, f64)] = &[
+            ("gravity", 1.0, 30.0),
+            ("drag", 0.2, 5.0),
+            ("swerve", 0.0, 3.0),
+            ("spin_decay", 0.01, 1.0),
+            ("bounce", 0.0, 0.95),
+            ("friction", 0.1, 5.0),
+        ];
+        let mut options: Vec<String> = Vec::new();
+        for &(key, low, high) in KEYS {
+            match self.choices.below(4) {
+                0 | 1 => {}
+                2 => options.push(format!("{key}: {:.2}", self.choices.between(low, high))),
+                _ => options.push(format!("{key}: uniform({low}, {high})")),
+            }
+        }
+        let (x, y) = (self.choices.between(-14.0, 14.0), self.choices.between(-14.0, 14.0));
+        options.push(match self.choices.below(3) {
+            0 => format!("wind: ({x:.1}m/s, {y:.1}m/s)"),
+            1 => "wind: polar(uniform(0m/s, 20m/s), uniform(0deg, 360deg))".to_owned(),
+            _ => format!("wind: (uniform(-14m/s, 14m/s), {y:.1}m/s)"),
+        });
+        self.line(&format!("world {{ {} }}", options.join(", ")));
     }
 
     fn agents(&mut self) {

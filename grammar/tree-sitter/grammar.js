@@ -184,8 +184,8 @@ module.exports = grammar({
       block($._scenario_statement),
     ),
     _scenario_statement: ($) => choice(
-      $.param, $.let, $.constant, $.region, $.rules, $.agents, $.ball, $.team, $.kickoff, $.start, $.reward_use, $.end,
-      $.rounds, $.require, $.record, $.remove, $.mirror, $.observe,
+      $.param, $.let, $.constant, $.region, $.rules, $.world, $.agents, $.ball, $.team, $.kickoff, $.start, $.reward_use,
+      $.end, $.rounds, $.require, $.record, $.remove, $.mirror, $.observe,
     ),
     param: ($) => seq("param", $.parameter),
     let: ($) => seq("let", choice(
@@ -193,6 +193,7 @@ module.exports = grammar({
       seq("(", $.identifier, repeat1(seq(",", $.identifier)), ")", "=", $._expression),
     )),
     rules: ($) => seq("rules", $.fields),
+    world: ($) => seq("world", $.fields),
     agents: ($) => seq("agents", $.fields),
     ball: ($) => seq("ball", $._place, optional($.jitter), optional($.fields)),
     team: ($) => seq("team", choice("left", "right"), block($._team_statement)),

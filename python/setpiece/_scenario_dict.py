@@ -43,7 +43,7 @@ class ScenarioDict(TypedDict, total=False):
     - `difficulty`: `{"left": 1.0, "right": 0.6}`.
     - `agents`: `{"left": count, "all" or names, "right": …, "others": "hold", "switching":
       "fixed"}`.
-    - `rules`: `{"offside": False, …}`.
+    - `rules`: `{"offside": False, …}`. `world`: `{"gravity": 9.81, "wind": "(4m/s, 0m/s)", …}`.
     - `limit`: steps, or words: `"30s"`.
     - `rewards`: a list of names or words: `"scoring"`, `"checkpoints(regions: 5) * 0.5"`, `"effort
       { give -0.01 when ball in left.half as 'back' }"` (with double quotes).
@@ -58,6 +58,7 @@ class ScenarioDict(TypedDict, total=False):
     difficulty: Mapping[str, float | str]
     agents: Mapping[str, int | str | Sequence[str]]
     rules: Mapping[str, Value]
+    world: Mapping[str, Value]
     limit: int | str
     rewards: Sequence[str]
     ends: Sequence[str]
@@ -97,6 +98,7 @@ def pitch_text(scenario: ScenarioDict) -> str:
         head += f" extends {_words(scenario['extends'], 'extends')}"
     first = [
         *([f"    rules {_options(scenario['rules'], 'rules')}"] if "rules" in scenario else []),
+        *([f"    world {_options(scenario['world'], 'world')}"] if "world" in scenario else []),
         *([f"    agents {_agents(scenario['agents'])}"] if "agents" in scenario else []),
         *([f"    ball {_place(scenario['ball'], 'ball')}"] if "ball" in scenario else []),
     ]

@@ -16,6 +16,7 @@ DUO: setpiece.ScenarioDict = {
     "name": "duo",
     "extends": "academy",
     "rules": {"offside": False, "half_time": 50},
+    "world": {"friction": "uniform(0.5, 1.5)", "wind": ("4m/s", "-1m/s")},
     "agents": {"left": ["anna", "bea"], "others": "hold"},
     "ball": ("uniform(0.5, 0.6)", 0, {"velocity": "(2m/s, 0m/s)"}),
     "difficulty": {"right": 0.3},
@@ -32,6 +33,7 @@ DUO: setpiece.ScenarioDict = {
 TEXT = """\
 scenario duo extends academy {
     rules { offside: off, half_time: 50 }
+    world { friction: uniform(0.5, 1.5), wind: (4m/s, -1m/s) }
     agents { left: [anna, bea], others: hold }
     ball at (uniform(0.5, 0.6), 0) { velocity: (2m/s, 0m/s) }
 
@@ -144,6 +146,7 @@ def test_what_is_not_of_this_form_is_named(
     [
         ({"left": [("XX", 0, 0)]}, "SP0203", "unknown role `XX`"),
         ({"rules": {"ofside": True}}, "SP0205", "did you mean `offside`?"),
+        ({"world": {"gravty": 9}}, "SP0205", "did you mean `gravity`?"),
         ({"rewards": ["scorin"]}, "SP0201", "scoring"),
         ({"ball": "nowhere"}, "SP0101", "expected a place"),
     ],

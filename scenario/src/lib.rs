@@ -33,7 +33,7 @@ pub use program::{
 pub use scenario::{
     Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, LIMIT, Observation,
     ObservedValue, Others, PlayerSlot, PlayerStart, ROUNDS, Record, Require, Reward, RewardBody,
-    RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Switching,
+    RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Switching, WorldSetting,
 };
 pub use table::Table;
 pub use vocabulary::{

@@ -3,7 +3,7 @@
 use crate::behavior::{Behavior, ScriptArg};
 use crate::params::Param;
 use crate::program::{Program, Reg};
-use crate::vocabulary::{Role, Rule, StartKind, Stat, Team, Verdict};
+use crate::vocabulary::{Role, Rule, StartKind, Stat, Team, Verdict, WorldFigure};
 use serde::{Deserialize, Serialize};
 
 /// A compiled scenario: self-contained, with its parameters still symbolic.
@@ -262,6 +262,9 @@ pub struct Start {
     /// The rules that differ from their defaults, or may.
     #[serde(default)]
     pub rules: Vec<RuleSetting>,
+    /// The figures of the world that differ from the usual ones, or may.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub world: Vec<WorldSetting>,
     /// The episode is truncated after this many seconds; never if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<Reg>,
@@ -322,6 +325,16 @@ pub struct RuleSetting {
     /// Which rule.
     pub rule: Rule,
     /// Its value; see [`Rule::default_value`].
+    pub value: Reg,
+}
+
+/// A figure of the world and its value, a register of the start program, which may be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct WorldSetting {
+    /// Which figure.
+    pub figure: WorldFigure,
+    /// Its value; see [`WorldFigure::usual`] and [`WorldFigure::range`].
     pub value: Reg,
 }
 

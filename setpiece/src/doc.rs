@@ -3,12 +3,13 @@
 use crate::load::Loaded;
 use setpiece_engine::start::Drawn;
 use setpiece_scenario::pitch::to_normalised;
-use setpiece_scenario::vocabulary::Rule;
+use setpiece_scenario::vocabulary::{Rule, WorldFigure};
 use setpiece_scenario::{Ai, Others, Param, Reward, Scenario, Team};
 use std::fmt::Write as _;
 
 /// Describes a scenario: title, description, parameters, players of one start, rewards, endings,
-/// records, rules. `picture` is the path of a picture of that start, relative to the page.
+/// records, rules, the world. `picture` is the path of a picture of that start, relative to the
+/// page.
 pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String {
     let scenario = &*loaded.scenario;
     let mut page = format!("# {}\n\n", scenario.name);
@@ -25,6 +26,7 @@ pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String
     endings(&mut page, loaded, start);
     measured(&mut page, scenario);
     rules(&mut page, start);
+    world(&mut page, scenario, start);
     page.truncate(page.trim_end().len());
     page + "\n"
 }
@@ -169,5 +171,22 @@ fn rules(page: &mut String, start: &Drawn) {
             _ => if value > 0.0 { "on" } else { "off" }.to_owned(),
         };
         row(page, &[&code(rule.name()), &shown, rule.doc()]);
+    }
+}
+
+/// What a scenario sets in `world { }`, as the start has it.
+fn world(page: &mut String, scenario: &Scenario, start: &Drawn) {
+    if scenario.start.world.is_empty() {
+        return;
+    }
+    page.push_str("\n## World\n\n");
+    head(page, &["figure", "in this start", "usual", ""]);
+    let drawn = start.conditions.figures();
+    for &figure in WorldFigure::ALL {
+        if scenario.start.world.iter().any(|setting| setting.figure == figure) {
+            let shown = format!("{:.3}", drawn[figure.index()]);
+            let usual = figure.usual().to_string();
+            row(page, &[&code(figure.name()), &shown, &usual, figure.doc()]);
+        }
     }
 }

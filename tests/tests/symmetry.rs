@@ -46,6 +46,7 @@ fn turned(start: &Drawn) -> Drawn {
         score: [start.score[1], start.score[0]],
         difficulty: [start.difficulty[1], start.difficulty[0]],
         agents,
+        conditions: start.conditions.turned(),
         ..start.clone()
     }
 }
@@ -147,6 +148,8 @@ fn starts(text: &str, count: u64) -> Vec<Drawn> {
 }
 
 const SCRAMBLE: &str = "scenario scramble {
+    let windy = uniform(0, 1) < 50%
+    world { wind: if windy then polar(uniform(0m/s, 12m/s), uniform(0deg, 360deg)) else (0m/s, 0m/s) }
     rules { stochastic: off, handball: on }
     agents { left: 2, right: 1 }
     ball in pitch { velocity: (uniform(-25m/s, 25m/s), uniform(-20m/s, 20m/s))  height: uniform(0m, 6m) }

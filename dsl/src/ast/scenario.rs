@@ -35,6 +35,8 @@ pub enum ScenarioStmtKind {
     Region(FnItem),
     /// `rules { … }`
     Rules(Vec<Field>),
+    /// `world { … }`
+    World(Vec<Field>),
     /// `agents { … }`
     Agents(Vec<Field>),
     /// `ball PLACE …`

@@ -17,5 +17,8 @@ pub(crate) const PLAYER: &[&str] = &[
 ];
 /// Keys of the ball's `{ }`.
 pub(crate) const BALL: &[&str] = &["velocity", "height", "spin", "owner"];
+/// Keys of `world { }`.
+pub(crate) const WORLD: &[&str] =
+    &["gravity", "wind", "drag", "swerve", "spin_decay", "bounce", "friction"];
 /// Keys of `start … { }`.
 pub(crate) const START: &[&str] = &["score", "elapsed"];

@@ -208,7 +208,12 @@ pub(super) const HABITS: &[Habit] = &[
     row(Scenario, "mirror | = _", "write `mirror: {1}`"),
     row(Scenario, "^ | mirror = _", "write `mirror: {1}`"),
     row(Scenario, "mirror | _", "write `mirror: {1}`"),
-    row(Scenario, "^ | rules¦agents =¦: {", "write `{1} { … }`"),
+    row(
+        Scenario,
+        "^ | gravity¦wind¦drag¦swerve¦spin_decay¦bounce¦friction =¦:",
+        "write `world { {1}: … }`",
+    ),
+    row(Scenario, "^ | rules¦world¦agents =¦: {", "write `{1} { … }`"),
     row(Scenario, "^ | _ = *", "write `let {1} = …`"),
     row(Scenario, "^ | var¦val¦int¦float¦double¦auto _ =", "write `let {2} = …`"),
     row(File, "^ | var¦val¦int¦float¦double¦auto¦let _ =", "write `const {2} = …`"),

@@ -2,6 +2,7 @@
 
 use super::Lower;
 use crate::ast::{Expr, Field, FieldValue};
+use crate::check::options::WORLD;
 use crate::problem::facts::{Names, Types};
 use crate::problem::{Guess, Problem};
 
@@ -21,8 +22,12 @@ pub(super) fn is_known(lower: &Lower<'_, '_>, field: &Field, known: &[&str], who
     if known.contains(&key) {
         return true;
     }
-    let guess = Guess::similar_or_all(key, known);
-    let fact = Names::NoOption { whose: whose.to_owned(), option: key.to_owned(), guess };
+    let (whose, option) = (whose.to_owned(), key.to_owned());
+    let fact = if WORLD.contains(&key) {
+        Names::OfTheWorld { whose, option }
+    } else {
+        Names::NoOption { whose, option, guess: Guess::similar_or_all(key, known) }
+    };
     lower.report(Problem::new(field.key.span, fact));
     false
 }

@@ -17,7 +17,8 @@ fn of_field(field: Field) -> Option<Interval> {
     Some(match field {
         Field::BallX | Field::PlayerX => (-80.0, 80.0),
         Field::BallY | Field::PlayerY => (-60.0, 60.0),
-        Field::BallHeight => (-1.0, 100.0),
+        // A ball hit upwards at a start, in the least gravity.
+        Field::BallHeight => (-1.0, 2600.0),
         Field::BallVx | Field::BallVy | Field::BallVz => (-100.0, 100.0),
         Field::PlayerVx | Field::PlayerVy => (-15.0, 15.0),
         Field::PlayerFatigue => (0.0, 1.0),

@@ -4,6 +4,7 @@ mod fields;
 mod football;
 mod kind;
 mod remap;
+mod world;
 
 use super::agents::{lower_agents, side_with_agents};
 use super::builder::RegisterLayout;
@@ -91,6 +92,7 @@ pub(crate) fn lower_start<'c, 'w>(
     let agents = lower_agents(&mut lower, &options);
     let side = side_with_agents(&lower, &agents, &options);
     let rules = lower.rules();
+    let settings = lower.world_settings();
     let limit = lower.limit();
     let rounds = lower.rounds();
     let (score, elapsed) = lower.start_fields();
@@ -132,6 +134,7 @@ pub(crate) fn lower_start<'c, 'w>(
         kickoff,
         difficulty,
         rules,
+        world: settings,
         limit,
         rounds,
         requires,

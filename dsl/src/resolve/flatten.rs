@@ -34,6 +34,8 @@ pub(crate) struct Flat<'a> {
     pub(crate) regions: Vec<&'a FnItem>,
     /// `rules { }`
     pub(crate) rules: Vec<&'a Field>,
+    /// `world { }`
+    pub(crate) world: Vec<&'a Field>,
     /// `agents { }`
     pub(crate) agents: Vec<&'a Field>,
     /// The ball.
@@ -199,6 +201,7 @@ pub(crate) fn flatten<'a>(
         consts: Vec::new(),
         regions: Vec::new(),
         rules: Vec::new(),
+        world: Vec::new(),
         agents: Vec::new(),
         ball: None,
         teams: Default::default(),
@@ -255,6 +258,20 @@ struct Adding<'a, 'f> {
 }
 
 impl<'a> Adding<'a, '_> {
+    /// The fields of a block whose keys replace the parents', one by one.
+    fn merge(
+        &mut self,
+        block: &'static str,
+        fields: &'a [Field],
+        list: for<'f> fn(&'f mut Flat<'a>) -> &'f mut Vec<&'a Field>,
+    ) {
+        for field in fields {
+            self.key_once(block, &field.key);
+            let is_new = self.known.insert((block, &field.key.node));
+            replace(list(self.flat), field, is_new, |f| &f.key.node);
+        }
+    }
+
     fn stmt(&mut self, stmt: &'a ScenarioStmt) {
         match &stmt.kind {
             ScenarioStmtKind::Param(param) => self.param(param),
@@ -274,19 +291,10 @@ impl<'a> Adding<'a, '_> {
                 let is_new = self.known.insert(("region", &region.name.node));
                 replace(&mut self.flat.regions, region, is_new, |r| &r.name.node);
             }
-            ScenarioStmtKind::Rules(fields) => {
-                for field in fields {
-                    self.key_once("rules", &field.key);
-                    let is_new = self.known.insert(("rules", &field.key.node));
-                    replace(&mut self.flat.rules, field, is_new, |f| &f.key.node);
-                }
-            }
+            ScenarioStmtKind::Rules(fields) => self.merge("rules", fields, |flat| &mut flat.rules),
+            ScenarioStmtKind::World(fields) => self.merge("world", fields, |flat| &mut flat.world),
             ScenarioStmtKind::Agents(fields) => {
-                for field in fields {
-                    self.key_once("agents", &field.key);
-                    let is_new = self.known.insert(("agents", &field.key.node));
-                    replace(&mut self.flat.agents, field, is_new, |f| &f.key.node);
-                }
+                self.merge("agents", fields, |flat| &mut flat.agents);
             }
             ScenarioStmtKind::Ball(ball) => {
                 self.only_once("the ball", stmt.span);

@@ -1,7 +1,7 @@
 //! Starts a new episode in an old state: the history is the snapshot's, the settings are the
 //! scenario's.
 
-use crate::football::foul;
+use crate::football::{forecast, foul};
 use crate::state::Match;
 use crate::step;
 use setpiece_scenario::vocabulary::{Rule, Team};
@@ -10,8 +10,8 @@ use setpiece_scenario::vocabulary::{Rule, Team};
 ///
 /// - From `past`: places, ball, everything under way (kicks, flights, a set piece), score, cards,
 ///   fatigue, the clock.
-/// - From `fresh`, the start that the scenario draws: rules, limit, difficulty, roles and
-///   statistics, who controls which player, the random streams. Nothing is held.
+/// - From `fresh`, the start that the scenario draws: rules, the world, limit, difficulty, roles
+///   and statistics, who controls which player, the random streams. Nothing is held.
 ///
 /// Steps start at 0. Ticks continue, because everything under way is timed by them.
 pub(super) fn begin_from(past: &Match, fresh: &Match) -> Match {
@@ -20,6 +20,10 @@ pub(super) fn begin_from(past: &Match, fresh: &Match) -> Match {
     game.step = 0;
     game.limit_steps = fresh.limit_steps;
     game.rules = fresh.rules;
+    if game.conditions != fresh.conditions {
+        game.conditions = fresh.conditions;
+        forecast::renew(&mut game);
+    }
     game.difficulty = fresh.difficulty;
     game.play_random = fresh.play_random.clone();
     game.bot_random = fresh.bot_random.clone();

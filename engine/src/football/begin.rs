@@ -102,6 +102,7 @@ pub(crate) fn blank(drawn: &Drawn) -> Match {
         mode: GameMode::Normal,
         dead: false,
         rules: drawn.rules,
+        conditions: drawn.conditions,
         difficulty: drawn.difficulty,
         agents: drawn
             .agents

@@ -67,7 +67,7 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
     }
     let bodies = near_bodies(game, near);
     let full = game.rule(Rule::Physics);
-    match physics::advance_ball(&mut game.ball, &bodies, full, scratch) {
+    match physics::advance_ball(&mut game.ball, &game.conditions, &bodies, full, scratch) {
         Some(Contact::Woodwork) => {
             let event = report::event(game, EventKind::Woodwork);
             events.push(match game.last_touch {

@@ -28,6 +28,11 @@ pub const MAGNUS_SPEED_MAX: f32 = 37.0;
 /// Share of the spin that the air takes per second. Time constants of balls in flight are 10–20 s.
 pub const SPIN_DECAY: f32 = 0.07;
 
+/// Height over which the wind grows from nothing at the ground to its full speed, m. Chosen: a
+/// straight line for the steep part of the wind's logarithmic profile. So a ball at rest or rolling
+/// lies in the lee of the grass.
+pub const WIND_SHELTER: f32 = 2.0;
+
 /// Share of the downward speed that a bounce on grass gives back. Measured: height ratio 0.37.
 pub const BOUNCE: f32 = 0.62;
 /// Speed that soft grass takes from every bounce in addition, m/s. Fitted; it ends the series of

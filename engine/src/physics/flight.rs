@@ -9,12 +9,11 @@
 //! The method is semi-implicit Euler. In free fall its energy falls by ½ g² dt² per tick; it never
 //! grows.
 
-use super::Ball;
 use super::constants::{
-    AIR_DRAG, BALL_RADIUS, BOUNCE, BOUNCE_FRICTION, BOUNCE_GRIP, BOUNCE_LEAST, BOUNCE_LOSS,
-    GRASS_DEPTH, GRAVITY, MAGNUS, MAGNUS_SPEED_MAX, MAGNUS_SPIN_MAX, ROLL_DRAG, ROLL_DRAG_SQUARE,
-    ROLL_SPIN_SHARE, ROLL_TWIST_DECAY, SPIN_DECAY, TICK_S,
+    BALL_RADIUS, BOUNCE_GRIP, GRASS_DEPTH, MAGNUS_SPEED_MAX, MAGNUS_SPIN_MAX, ROLL_SPIN_SHARE,
+    ROLL_TWIST_DECAY, TICK_S, WIND_SHELTER,
 };
+use super::{Ball, Conditions};
 use glam::{Vec2, Vec3};
 
 /// Angular over linear speed gained at the rim of a shell: 1 / (2/3 · R).
@@ -26,52 +25,63 @@ pub fn lies_still(ball: &Ball) -> bool {
 }
 
 /// Moves the ball by one tick with nothing hard nearby.
-pub(super) fn fly(ball: &mut Ball) {
+pub(super) fn fly(ball: &mut Ball, conditions: &Conditions) {
     if lies_still(ball) {
         return;
     }
-    push(ball);
+    push(ball, conditions);
     ball.pos += ball.vel * TICK_S;
-    land(ball);
+    land(ball, conditions);
 }
 
 /// Applies gravity, air and grass to velocity and spin over one tick.
-pub(super) fn push(ball: &mut Ball) {
-    let vel = ball.vel;
+pub(super) fn push(ball: &mut Ball, conditions: &Conditions) {
+    let vel = through_air(ball.vel, ball.pos.z, conditions);
     let speed = vel.length();
-    let mut acceleration = vel * (-AIR_DRAG * speed);
-    acceleration.z -= GRAVITY;
+    let mut acceleration = vel * (-conditions.air_drag() * speed);
+    acceleration.z -= conditions.gravity();
     if ball.spin != Vec3::ZERO {
-        acceleration += magnus(ball.spin, vel, speed);
-        ball.spin *= 1.0 - SPIN_DECAY * TICK_S;
+        acceleration += magnus(ball.spin, vel, speed, conditions);
+        ball.spin *= 1.0 - conditions.spin_decay() * TICK_S;
     }
-    ball.vel = vel + acceleration * TICK_S;
+    ball.vel += acceleration * TICK_S;
     let grass = 1.0 - (ball.pos.z - BALL_RADIUS) * (1.0 / GRASS_DEPTH);
     if grass > 0.0 {
-        roll(ball, grass.min(1.0));
+        roll(ball, grass.min(1.0), conditions);
     }
 }
 
+/// The velocity of a ball relative to the air around it. `height_m`: that of its centre.
+#[inline]
+pub(super) fn through_air(vel: Vec3, height_m: f32, conditions: &Conditions) -> Vec3 {
+    if conditions.wind() == Vec2::ZERO {
+        return vel;
+    }
+    let share = ((height_m - BALL_RADIUS) * (1.0 / WIND_SHELTER)).clamp(0.0, 1.0);
+    vel - (conditions.wind() * share).extend(0.0)
+}
+
 /// The sideways pull on a spinning ball, m/s².
-pub(super) fn magnus(spin: Vec3, vel: Vec3, speed: f32) -> Vec3 {
+pub(super) fn magnus(spin: Vec3, vel: Vec3, speed: f32, conditions: &Conditions) -> Vec3 {
     let spin_squared = spin.length_squared();
     let share = if spin_squared > MAGNUS_SPIN_MAX * MAGNUS_SPIN_MAX {
         MAGNUS_SPIN_MAX / spin_squared.sqrt()
     } else {
         1.0
     };
-    spin.cross(vel) * (MAGNUS * share * speed.min(MAGNUS_SPEED_MAX))
+    spin.cross(vel) * (conditions.magnus() * share * speed.min(MAGNUS_SPEED_MAX))
 }
 
 /// Brakes the ball in the grass and turns it towards pure rolling. `grass`: how deep it is in, 0 to
 /// 1.
-fn roll(ball: &mut Ball, grass: f32) {
+fn roll(ball: &mut Ball, grass: f32, conditions: &Conditions) {
     let along = ball.vel.truncate();
     let speed = along.length();
     if speed == 0.0 {
         return;
     }
-    let lost = ((ROLL_DRAG + ROLL_DRAG_SQUARE * speed * speed) * grass * TICK_S).min(speed);
+    let drag = conditions.roll_drag() + conditions.roll_drag_square() * speed * speed;
+    let lost = (drag * grass * TICK_S).min(speed);
     let kept = along * (1.0 - lost / speed);
     ball.vel = kept.extend(ball.vel.z);
     let rolling = Vec2::new(-kept.y, kept.x) / BALL_RADIUS;
@@ -83,17 +93,17 @@ fn roll(ball: &mut Ball, grass: f32) {
 }
 
 /// Holds the ball up on the ground, and throws back one that came down fast.
-pub(super) fn land(ball: &mut Ball) {
+pub(super) fn land(ball: &mut Ball, conditions: &Conditions) {
     if ball.pos.z > BALL_RADIUS {
         return;
     }
     ball.pos.z = BALL_RADIUS;
     if ball.vel.z < 0.0 {
         let impact = -ball.vel.z;
-        if impact > BOUNCE_LEAST {
-            grip(ball, impact);
+        if impact > conditions.bounce_least() {
+            grip(ball, impact, conditions);
         }
-        ball.vel.z = (BOUNCE * impact - BOUNCE_LOSS).max(0.0);
+        ball.vel.z = (conditions.bounce() * impact - conditions.bounce_loss()).max(0.0);
     }
     if ball.vel == Vec3::ZERO {
         ball.spin = Vec3::ZERO;
@@ -102,14 +112,15 @@ pub(super) fn land(ball: &mut Ball) {
 
 /// Applies friction in a bounce: it acts against the sliding of the lowest point, and spins the
 /// ball as it slows it.
-fn grip(ball: &mut Ball, impact: f32) {
+fn grip(ball: &mut Ball, impact: f32, conditions: &Conditions) {
     let sliding =
         Vec2::new(ball.vel.x - BALL_RADIUS * ball.spin.y, ball.vel.y + BALL_RADIUS * ball.spin.x);
     let speed = sliding.length();
     if speed == 0.0 {
         return;
     }
-    let taken = (BOUNCE_FRICTION * (1.0 + BOUNCE) * impact).min(BOUNCE_GRIP * speed);
+    let push = conditions.bounce_friction() * (1.0 + conditions.bounce()) * impact;
+    let taken = push.min(BOUNCE_GRIP * speed);
     let change = sliding * (-taken / speed);
     ball.vel += change.extend(0.0);
     ball.spin += Vec3::new(change.y, -change.x, 0.0) * SPIN_PER_SPEED;

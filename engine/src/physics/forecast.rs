@@ -4,7 +4,7 @@
 //! This is what players expect of the ball. The ball itself moves by [`super::advance_ball`].
 
 use super::predict::places;
-use super::{Ball, left_pitch};
+use super::{Ball, Conditions, left_pitch};
 use crate::rows::WIDTH;
 use glam::Vec3;
 use std::ops::Range;
@@ -43,9 +43,9 @@ impl Forecast {
     }
 
     /// Computes the path of a ball from a tick on.
-    pub fn of(ball: &Ball, tick: u32) -> Forecast {
+    pub fn of(ball: &Ball, conditions: &Conditions, tick: u32) -> Forecast {
         let mut forecast = Forecast { from_tick: tick, ..Forecast::blank() };
-        let points = std::iter::once(ball.pos).chain(places(ball, SPACING_TICKS));
+        let points = std::iter::once(ball.pos).chain(places(ball, conditions, SPACING_TICKS));
         for (i, point) in (0..POINTS).zip(points) {
             (forecast.x[i], forecast.y[i], forecast.z[i]) = (point.x, point.y, point.z);
             forecast.off |= u64::from(left_pitch(point).is_some()) << i;

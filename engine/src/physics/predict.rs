@@ -5,31 +5,33 @@
 //! centimetres. After a second it can reach a quarter of a metre if a fast ball falls steeply or
 //! spins much.
 
-use super::Ball;
 use super::constants::{
-    AIR_DRAG, BALL_RADIUS, BOUNCE_LEAST, GRASS_DEPTH, GRAVITY, MAGNUS, MAGNUS_SPIN_MAX, ROLL_DRAG,
-    ROLL_DRAG_SQUARE, ROLL_SPIN_SHARE, ROLL_TWIST_DECAY, SPIN_DECAY, TICK_S,
+    BALL_RADIUS, GRASS_DEPTH, MAGNUS_SPIN_MAX, ROLL_SPIN_SHARE, ROLL_TWIST_DECAY, TICK_S,
 };
-use super::flight;
+use super::{Ball, Conditions, flight};
 use glam::{Vec2, Vec3};
 
 /// The ball's centre after `stride_ticks`, `2 * stride_ticks`, … ticks, in world metres; never
 /// ends.
-pub fn places(ball: &Ball, stride_ticks: u32) -> impl Iterator<Item = Vec3> + use<> {
+pub fn places(
+    ball: &Ball,
+    conditions: &Conditions,
+    stride_ticks: u32,
+) -> impl Iterator<Item = Vec3> + use<> {
     let mut ahead = *ball;
-    let stride = Stride::of(stride_ticks);
+    let stride = Stride::of(stride_ticks, *conditions);
     std::iter::repeat_with(move || {
         stride.take(&mut ahead);
         ahead.pos
     })
 }
 
-/// From this squared speed on, (m/s)², the air may press a rolling ball so hard to the ground that
-/// it grips.
-const GRIPS_MPS2: f32 = (BOUNCE_LEAST / TICK_S - GRAVITY) / (MAGNUS * MAGNUS_SPIN_MAX);
-
 /// A stride of several ticks.
 struct Stride {
+    conditions: Conditions,
+    /// From this squared speed on, (m/s)², the air may press a rolling ball so hard to the ground
+    /// that it grips.
+    grips_mps2: f32,
     ticks: u32,
     seconds: f32,
     /// The weight of the initial velocity in a stride's way. Velocity changes first in every tick,
@@ -43,10 +45,14 @@ struct Stride {
 }
 
 impl Stride {
-    fn of(ticks: u32) -> Stride {
+    fn of(ticks: u32, conditions: Conditions) -> Stride {
         let seconds = ticks as f32 * TICK_S;
-        let (constant, square) = (ROLL_DRAG, ROLL_DRAG_SQUARE + AIR_DRAG);
+        let constant = conditions.roll_drag();
+        let square = conditions.roll_drag_square() + conditions.air_drag();
         Stride {
+            grips_mps2: (conditions.bounce_least() / TICK_S - conditions.gravity())
+                / (conditions.magnus() * MAGNUS_SPIN_MAX),
+            conditions,
             ticks,
             seconds,
             first_share: 0.5 - 0.5 / ticks.max(1) as f32,
@@ -58,7 +64,7 @@ impl Stride {
     /// Moves the ball on.
     fn take(&self, ball: &mut Ball) {
         let rolls = ball.pos.z <= BALL_RADIUS && ball.vel.z == 0.0;
-        if rolls && ball.vel.length_squared() < GRIPS_MPS2 {
+        if rolls && ball.vel.length_squared() < self.grips_mps2 {
             return self.roll(ball);
         }
         let flown = self.fly(ball);
@@ -67,7 +73,7 @@ impl Stride {
             return;
         }
         for _ in 0..self.ticks {
-            flight::fly(ball);
+            flight::fly(ball, &self.conditions);
         }
     }
 
@@ -106,23 +112,27 @@ impl Stride {
     /// velocity in the middle of the stride.
     fn twist(&self, ball: &Ball, vel: Vec2) -> Vec2 {
         let spin = ball.spin.with_z(ball.spin.z * (1.0 - 0.5 * ROLL_TWIST_DECAY * self.seconds));
-        flight::magnus(spin, vel.extend(0.0), vel.length()).truncate() * self.seconds
+        let pull = flight::magnus(spin, vel.extend(0.0), vel.length(), &self.conditions);
+        pull.truncate() * self.seconds
     }
 
     /// The ball after a stride in the air, with the forces at the stride's middle.
     fn fly(&self, ball: &Ball) -> Ball {
+        let height_m = ball.pos.z + ball.vel.z * (0.5 * self.seconds);
+        let conditions = &self.conditions;
         let force = |vel: Vec3| {
+            let vel = flight::through_air(vel, height_m, conditions);
             let speed = vel.length();
             let turn = if ball.spin == Vec3::ZERO {
                 Vec3::ZERO
             } else {
-                flight::magnus(ball.spin, vel, speed)
+                flight::magnus(ball.spin, vel, speed, conditions)
             };
-            turn - vel * (AIR_DRAG * speed) - Vec3::new(0.0, 0.0, GRAVITY)
+            turn - vel * (conditions.air_drag() * speed) - Vec3::new(0.0, 0.0, conditions.gravity())
         };
         let middle = ball.vel + force(ball.vel) * (0.5 * self.seconds);
         let vel = ball.vel + force(middle) * self.seconds;
-        let spin = ball.spin * (1.0 - SPIN_DECAY * self.seconds);
+        let spin = ball.spin * (1.0 - self.conditions.spin_decay() * self.seconds);
         Ball { pos: ball.pos + self.way(ball.vel, vel), vel, spin }
     }
 

@@ -1,6 +1,7 @@
 //! Starts built by hand.
 
 use glam::{Vec2, Vec3};
+use setpiece_engine::physics::Conditions;
 use setpiece_engine::start::{Drawn, DrawnAgent, DrawnPlayer};
 use setpiece_engine::state::PlayerId;
 use setpiece_scenario::vocabulary::{Role, Rule, StartKind, Team};
@@ -132,6 +133,7 @@ pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
         elapsed_steps: 0,
         difficulty: [1.0, 0.6],
         rules,
+        conditions: Conditions::USUAL,
         limit_steps: Some(3000),
         rounds: 1,
         steps_before: 0,

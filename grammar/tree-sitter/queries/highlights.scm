@@ -43,7 +43,7 @@
   "choose" "current" "delayed" "do" "each" "earlier" "else" "end" "episodes" "expect" "extends" "facing" "failure" "finish" "for" "from" "give" "if" "interrupt"
   "jitter" "keeping" "kickoff" "left" "limit" "maybe" "mirror" "mix" "never" "noise" "observe" "of" "off" "offset" "on" "once" "outfield"
   "over" "own" "params" "per" "place" "play" "remove" "repeat" "require" "rhai" "right" "rounds" "rules" "script" "second" "seed" "sprinting" "stack" "stage" "start" "success"
-  "team" "then" "times" "to" "until" "vector" "when" "where" "with"
+  "team" "then" "times" "to" "until" "vector" "when" "where" "with" "world"
 ] @keyword.control
 
 [

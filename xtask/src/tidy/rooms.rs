@@ -14,13 +14,13 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("rows", &[]),
     ("physics", &["floats", "laps", "rows"]),
     ("state", &["floats", "in_place", "physics", "random"]),
-    ("digest", &["state"]),
+    ("digest", &["physics", "state"]),
     ("statistics", &["state"]),
-    ("start", &["state"]),
+    ("start", &["physics", "state"]),
     ("football", &["laps", "math", "physics", "random", "rows", "start", "state"]),
     ("snapshot", &["state"]),
     ("judge", &["in_place", "random", "snapshot", "state"]),
-    ("draw", &["in_place", "judge", "random", "start", "state"]),
+    ("draw", &["in_place", "judge", "physics", "random", "start", "state"]),
     (
         "control",
         &[

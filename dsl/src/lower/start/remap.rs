@@ -4,7 +4,7 @@
 use crate::lower::value::{Repr, SetValue, Value};
 use setpiece_scenario::{
     Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, RuleSetting,
-    SideAgents, Start,
+    SideAgents, Start, WorldSetting,
 };
 use std::sync::Arc;
 
@@ -64,6 +64,11 @@ pub(super) fn map_start(start: &Start, f: &mut dyn FnMut(Reg) -> Reg) -> Start {
             .rules
             .iter()
             .map(|s| RuleSetting { rule: s.rule, value: f(s.value) })
+            .collect(),
+        world: start
+            .world
+            .iter()
+            .map(|s| WorldSetting { figure: s.figure, value: f(s.value) })
             .collect(),
         limit: start.limit.map(&mut *f),
         rounds: start.rounds.map(&mut *f),

@@ -127,9 +127,9 @@ impl Context {
                 "check",
             ],
             Context::Scenario => &[
-                "param", "let", "const", "region", "rules", "agents", "ball", "team", "kickoff",
-                "start", "reward", "end", "require", "record", "remove", "mirror", "observe",
-                "rounds",
+                "param", "let", "const", "region", "rules", "world", "agents", "ball", "team",
+                "kickoff", "start", "reward", "end", "require", "record", "remove", "mirror",
+                "observe", "rounds",
             ],
             Context::Team => &["place", "each"],
             Context::Reward => &["state", "let", "give", "on", "when"],
@@ -185,6 +185,7 @@ impl Context {
             (Context::Scenario, "param") => "param reach = 12m in 5m..20m",
             (Context::Scenario, "let") => "let lane = uniform(-0.2, 0.2)",
             (Context::Scenario, "rules") => "rules { offside: off }",
+            (Context::Scenario, "world") => "world { wind: (4m/s, 0m/s) }",
             (Context::Scenario, "agents") => "agents { left: 1 }",
             (Context::Scenario, "ball") => "ball at (0.6, 0)",
             (Context::Scenario, "team") => "team left { CM at (0.5, 0) }",
@@ -226,7 +227,9 @@ impl Context {
             (Context::File, "suite") | (Context::Suite, "each") => Rule::suite_body,
             (Context::File, "check") => Rule::check_body,
             (Context::File, "curriculum") => Rule::curriculum_body,
-            (Context::Scenario, "rules" | "agents" | "ball" | "start" | "kickoff") => Rule::fields,
+            (Context::Scenario, "rules" | "world" | "agents" | "ball" | "start" | "kickoff") => {
+                Rule::fields
+            }
             _ => return None,
         })
     }

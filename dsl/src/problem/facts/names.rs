@@ -88,6 +88,14 @@ facts! {
         /// An option that something doesn't have; `whose`: with its article or in backticks.
         NoOption { whose: String, option: String, guess: Guess } = Code::UnknownOption =>
             say(format!("{whose} has no option `{option}`"), "not known").guess(guess, "it has"),
+        /// An option of the world, of something else; `whose`: with its article or in backticks.
+        OfTheWorld { whose: String, option: String } = Code::UnknownOption =>
+            say(format!("{whose} has no option `{option}`"), "an option of `world`")
+                .help(format!("write `world {{ {option}: … }}`")),
+        /// The world has no mass of the ball; `option`: what it was called.
+        NoMass { option: String } = Code::UnknownOption =>
+            say(format!("`world` has no option `{option}`"), "a ball's mass shows only in the air")
+                .help("write what the air does to it: `drag: 0.8, swerve: 0.8` is a ball that is heavier by a quarter"),
         /// An option of `rules` that is no rule.
         NoRule { option: String, guess: Guess } = Code::UnknownOption =>
             say(format!("`rules` has no option `{option}`"), "not known").guess(guess, "it can be"),

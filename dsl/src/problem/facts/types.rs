@@ -159,6 +159,9 @@ facts! {
         /// A velocity of a player with a third part.
         PlayersDontFly = Code::WrongType =>
             say("a player runs along the ground", "").help("write two coordinates: `(5m/s, 0m/s)`"),
+        /// A wind with a third part.
+        WindIsLevel = Code::WrongType =>
+            say("the wind blows along the ground", "").help("write two coordinates: `(4m/s, 0m/s)`"),
         /// `ai` is no name.
         NoAi = Code::WrongType =>
             say("expected who plays the player", "")
@@ -241,6 +244,8 @@ pub(crate) enum Instead {
     Measured { kind: String },
     /// A value that an observation holds.
     Observed,
+    /// `gravity`.
+    Gravity,
     /// `half_time`.
     HalfTime,
     /// Who is controlled.
@@ -290,6 +295,7 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
         Instead::Observed => {
             said.help("an observation holds numbers, quantities, conditions, places and vectors")
         }
+        Instead::Gravity => said.help("write m/s² as a number: `gravity: 9.81`"),
         Instead::HalfTime => said.help("write `half_time: off` or `half_time: 1500 steps`"),
         Instead::Agents => {
             said.help("write a number, `all`, or a list of names: `[striker, winger]`")

@@ -1,0 +1,75 @@
+//! `world { … }`: gravity, the wind, and how the ball flies, bounces and rolls.
+
+use crate::ast::{Expr, Field};
+use crate::check::options::WORLD;
+use crate::check::types::Ty;
+use crate::lower::value::Repr;
+use crate::lower::{Lower, fields};
+use crate::problem::Problem;
+use crate::problem::facts::{Instead, Names, Types};
+use setpiece_scenario::vocabulary::{WIND_MAX_MPS, WorldFigure};
+use setpiece_scenario::{Reg, WorldSetting};
+
+impl<'w> Lower<'_, 'w> {
+    /// The figures of the world that the scenario sets.
+    pub(super) fn world_settings(&mut self) -> Vec<WorldSetting> {
+        let mut settings = Vec::new();
+        let given = self.world.flat.world.clone();
+        for field in given {
+            let key = field.key.node.as_str();
+            if !self.is_option_of_world(field) {
+                continue;
+            }
+            let Some(expr) = fields::expression(self, field) else { continue };
+            self.drawing(&format!("world {key}"), |lower| match WorldFigure::from_name(key) {
+                Some(figure) => settings.push(lower.figure(figure, expr)),
+                None => settings.extend(lower.wind(expr)),
+            });
+        }
+        settings
+    }
+
+    fn is_option_of_world(&self, field: &Field) -> bool {
+        if matches!(field.key.node.as_str(), "mass" | "weight") {
+            let option = field.key.node.clone();
+            self.report(Problem::new(field.key.span, Names::NoMass { option }));
+            return false;
+        }
+        fields::is_known(self, field, WORLD, "`world`")
+    }
+
+    fn figure(&mut self, figure: WorldFigure, expr: &'w Expr) -> WorldSetting {
+        let value = if figure == WorldFigure::Gravity {
+            self.gravity(expr)
+        } else {
+            self.want_reg(expr, Ty::Number)
+        };
+        let (low, high) = figure.range();
+        let shown = format!("`{low}..{high}`");
+        self.check_range(value, (low, high), &format!("`{figure}`"), expr.span, &shown);
+        WorldSetting { figure, value }
+    }
+
+    /// `gravity: 9.81`: accelerations have no unit in the language.
+    fn gravity(&mut self, expr: &'w Expr) -> Reg {
+        let value = self.expr(expr);
+        if value.is_error() || value.ty.is_plain() {
+            return self.reg(&value);
+        }
+        self.report(self.mismatch_with(value.ty, Ty::Number, expr.span, Instead::Gravity));
+        self.code.unknown()
+    }
+
+    /// `wind: (4m/s, 0m/s)`
+    fn wind(&mut self, expr: &'w Expr) -> [WorldSetting; 2] {
+        let value = self.want(expr, Ty::Velocity);
+        if let Repr::Three(..) = value.repr {
+            self.report(Problem::new(expr.span, Types::WindIsLevel));
+        }
+        let (x, y) = self.pair(&value);
+        let zero = self.code.constant(0.0);
+        self.check_speed((x, y, zero), WIND_MAX_MPS, "the wind", expr.span);
+        [(WorldFigure::WindX, x), (WorldFigure::WindY, y)]
+            .map(|(figure, value)| WorldSetting { figure, value })
+    }
+}

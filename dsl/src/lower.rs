@@ -39,6 +39,7 @@ mod seats;
 pub(crate) mod start;
 pub(crate) mod step;
 pub(crate) mod step_world;
+mod substitute;
 mod table;
 pub(crate) mod team;
 pub(crate) mod triangles;

@@ -18,6 +18,7 @@ pub use error::{EnvironmentError, ResetError, StepError};
 
 use crate::control::behavior::Actors;
 use crate::draw::{DrawError, Drawer, Roster, player_name};
+use crate::football::substitution;
 use crate::in_place::clone_in_place;
 use crate::judge::script::Scripts;
 use crate::judge::{Given, Judge, Outcome};
@@ -247,6 +248,8 @@ impl Environment {
                 return Err(StepError::Script(Box::new(error)));
             }
         };
+        let game = &mut self.game;
+        self.judge.substitutions(&mut |coming| substitution::come_on(game, coming));
         self.stopped.note(&self.game);
         scratch.laps().end(Phase::Judge);
         if self.judge.is_round_over() && outcome.is_none() {

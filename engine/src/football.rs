@@ -50,6 +50,7 @@ pub mod slide;
 pub mod stats;
 mod stride;
 pub mod stumble;
+pub mod substitution;
 pub mod switching;
 pub mod tick;
 pub mod touch;

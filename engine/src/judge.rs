@@ -32,8 +32,8 @@ use crate::in_place::clone_in_place;
 use crate::judge::script::Shelf;
 use crate::random::Purpose;
 use crate::snapshot::{Archive, SnapshotError};
-use crate::state::Match;
 use crate::state::event::Events;
+use crate::state::{ComingOn, Match};
 pub use known::Given;
 use known::Known;
 use machine::Input;
@@ -202,6 +202,11 @@ impl Judge {
         self.rewards.step(game, &input, shown(&self.known, scene.as_ref()))?;
         self.records.step(game, &input);
         Ok(outcome)
+    }
+
+    /// Calls `make` for each substitution whose time has come in the step just judged.
+    pub fn substitutions(&mut self, make: &mut dyn FnMut(&ComingOn)) {
+        self.endings.substitutions(make);
     }
 
     /// Whether the step just judged ended a round that another one follows.

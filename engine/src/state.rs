@@ -21,7 +21,7 @@ use glam::Vec2;
 use play::Play;
 use player::KickKind;
 use setpiece_scenario::pitch::PLAYERS_MAX;
-use setpiece_scenario::vocabulary::{GameMode, Rule, Team};
+use setpiece_scenario::vocabulary::{GameMode, Rule, Stat, Team};
 
 /// One simulation. It has no heap data and no engine handle, so `clone` is a plain copy.
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -131,6 +131,19 @@ impl Match {
     pub fn player(&self, id: PlayerId) -> &Player {
         &self.players[id.index()]
     }
+}
+
+/// Who comes on for a player, in their place in the team.
+#[derive(Clone, Debug)]
+pub struct ComingOn {
+    /// The player they replace.
+    pub player: PlayerId,
+    /// 0 fresh to 1 exhausted.
+    pub fatigue: f32,
+    /// 0..1; as before if absent.
+    pub difficulty: Option<f32>,
+    /// Statistics that differ, 0..1.
+    pub stats: ArrayVec<(Stat, f32), { Stat::ALL.len() }>,
 }
 
 /// An agent's slot.

@@ -52,6 +52,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::kw_each => "`each`",
         Rule::kw_table => "`table`",
         Rule::kw_rounds | Rule::rounds => "`rounds`",
+        Rule::kw_substitute | Rule::substitute => "`substitute`",
         Rule::kw_maybe | Rule::maybe => "`maybe`",
         Rule::kw_else => "`else`",
         Rule::kw_end => "`end`",

@@ -185,7 +185,7 @@ module.exports = grammar({
     ),
     _scenario_statement: ($) => choice(
       $.param, $.let, $.constant, $.region, $.rules, $.world, $.agents, $.ball, $.team, $.kickoff, $.start, $.reward_use,
-      $.end, $.rounds, $.require, $.record, $.remove, $.mirror, $.observe,
+      $.end, $.rounds, $.substitute, $.require, $.record, $.remove, $.mirror, $.observe,
     ),
     param: ($) => seq("param", $.parameter),
     let: ($) => seq("let", choice(
@@ -207,6 +207,7 @@ module.exports = grammar({
     remove: ($) => seq("remove", choice(
       seq(choice("reward", "end", "require", "record"), choice($.identifier, $.string)), "ball",
     )),
+    substitute: ($) => seq("substitute", $._expression, "when", $._condition, optional($.fields)),
     rounds: ($) => seq("rounds", $._expression, "when", $._condition),
     mirror: ($) => seq("mirror", ":", $.identifier),
     _sight: ($) => seq(choice("noise", "when", "delayed", "stack"), $._expression),

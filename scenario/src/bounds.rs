@@ -90,6 +90,7 @@ pub fn check(scenario: &Scenario) -> Result<(), Excess> {
         ("requirements", scenario.start.requires.len(), PARTS_MAX),
         ("rewards", scenario.rewards.len() + scenario.library.len(), PARTS_MAX),
         ("endings", scenario.endings.list.len(), PARTS_MAX),
+        ("substitutions", scenario.endings.substitutions.len(), PARTS_MAX),
         ("records", scenario.records.len(), PARTS_MAX),
         (
             "numbers to observe",

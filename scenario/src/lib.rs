@@ -33,7 +33,8 @@ pub use program::{
 pub use scenario::{
     Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, LIMIT, Observation,
     ObservedValue, Others, PlayerSlot, PlayerStart, ROUNDS, Record, Require, Reward, RewardBody,
-    RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Switching, WorldSetting,
+    RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Substitution, Switching,
+    WorldSetting,
 };
 pub use table::Table;
 pub use vocabulary::{

@@ -411,6 +411,37 @@ pub struct Endings {
     /// Whether the round is over, if the episode has several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub round: Option<Reg>,
+    /// Players who are replaced.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub substitutions: Vec<Substitution>,
+}
+
+/// A player who is replaced, once in an episode; every register belongs to the endings' program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Substitution {
+    /// Whose place in the team the other one takes: `team * 11 + index`.
+    pub player: u8,
+    /// When.
+    pub when: Reg,
+    /// Fatigue of the one who comes on, 0..1; fresh if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fatigue: Option<Reg>,
+    /// Their difficulty, 0..1; as before if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub difficulty: Option<Reg>,
+    /// Their statistics, 0..1; the others are as before.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stats: Vec<(Stat, Reg)>,
+}
+
+impl Substitution {
+    /// Its registers.
+    pub fn regs_mut(&mut self) -> impl Iterator<Item = &mut Reg> {
+        let stats = self.stats.iter_mut().map(|(_, reg)| reg);
+        let options = self.fatigue.iter_mut().chain(&mut self.difficulty);
+        std::iter::once(&mut self.when).chain(options).chain(stats)
+    }
 }
 
 /// The outcome of an episode that reached its limit.

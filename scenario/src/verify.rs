@@ -44,6 +44,13 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
     check("the endings", &scenario.endings.program, ProgramPlace::Step { terms: 0 })?;
     let round = scenario.endings.round;
     round.map_or(Ok(()), |reg| visible(&scenario.endings.program, reg))?;
+    for substitution in &scenario.endings.substitutions {
+        below("player", u32::from(substitution.player), crate::pitch::PLAYERS_MAX)?;
+        substitution
+            .clone()
+            .regs_mut()
+            .try_for_each(|reg| visible(&scenario.endings.program, *reg))?;
+    }
     for ending in &scenario.endings.list {
         ending.when.map_or(Ok(()), |reg| visible(&scenario.endings.program, reg))?;
         ending.script.map_or(Ok(()), |script| below("script", script, n_scripts))?;

@@ -1,4 +1,4 @@
-//! Several rounds in one episode: starts are drawn again, everything else goes on.
+//! Several rounds in one episode, and players who are replaced.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -122,4 +122,42 @@ fn rounds_are_the_same_again_and_after_a_snapshot() {
     other.restore(&bytes).unwrap();
     assert_eq!(other.round(), 2);
     assert_eq!(played(&mut other, Action::Right), first[33..]);
+}
+
+#[test]
+fn a_substitute_has_the_place_of_the_other_and_legs_of_their_own() {
+    let text = "scenario s {
+        agents { left: 1 }
+        ball at (0, 0.4)
+        team left { tired: CM at (-0.8, 0) { fatigue: 0.9, yellow_cards: 1, difficulty: 0.5 } }
+        team right { CB at (0.9, 0) { ai: hold } }
+        substitute tired when elapsed >= 1s and tired.fatigue > 50% {
+            difficulty: 1
+            stats: { speed: 1 - tired.fatigue / 2 }
+        }
+        end limit 40 steps
+    }";
+    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    for index in 0..2 {
+        environment.reset(Some(3), Some(index)).unwrap();
+        let mut scratch = Scratch::default();
+        for step in 1..=40 {
+            let from = environment.state().players[0].pos;
+            environment.step(&[Action::Right], &mut scratch).unwrap();
+            let player = &environment.state().players[0];
+            assert!(player.pos.distance(from) < 1.2);
+            if step < 10 {
+                assert!(player.fatigue > 0.85 && player.yellow_cards == 1);
+                assert!((player.difficulty - 0.5).abs() < 1e-6);
+            } else {
+                assert!(player.fatigue < 0.05 && player.yellow_cards == 0);
+                assert!((player.difficulty - 1.0).abs() < 1e-6);
+            }
+        }
+        let bytes = environment.snapshot().unwrap();
+        let mut other = environment.clone();
+        other.restore(&bytes).unwrap();
+        assert_eq!(other.digest(), environment.digest());
+    }
 }

@@ -90,6 +90,8 @@ pub enum ScenarioStmtKind {
     },
     /// `rounds N when …`
     Rounds(Rounds),
+    /// `substitute PLAYER when …`
+    Substitute(Substitute),
     /// `mirror: flanks`
     Mirror(Ident),
     /// `observe vector { … }`
@@ -171,4 +173,15 @@ pub struct Rounds {
     pub count: Expr,
     /// When one is over.
     pub when: Expr,
+}
+
+/// A player who is replaced.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Substitute {
+    /// Who.
+    pub who: Expr,
+    /// When.
+    pub when: Expr,
+    /// What is said of the one who comes on.
+    pub fields: Vec<Field>,
 }

@@ -15,6 +15,8 @@ pub(crate) const PLAYER: &[&str] = &[
     "velocity",
     "overlap",
 ];
+/// Keys of `substitute … { }`.
+pub(crate) const SUBSTITUTE: &[&str] = &["fatigue", "difficulty", "stats"];
 /// Keys of the ball's `{ }`.
 pub(crate) const BALL: &[&str] = &["velocity", "height", "spin", "owner"];
 /// Keys of `world { }`.

@@ -1,6 +1,7 @@
 //! Endings: one program, and its conditions in order.
 
 use super::step_world::StepWorld;
+use super::substitute::lower_substitute;
 use super::value::{LiteralFrame, Scope};
 use super::{Lower, ProgramStage, script};
 use crate::ast::{EndCondition, FnItem, ItemKind, Span};
@@ -8,7 +9,7 @@ use crate::problem::facts::{Kind, Names, Rewards};
 use crate::problem::{Guess, Problem, nearest};
 use crate::resolve::FlatEnding;
 use setpiece_scenario::vocabulary::Verdict;
-use setpiece_scenario::{Ending, Endings, Reg};
+use setpiece_scenario::{Ending, Endings, Reg, Substitution};
 
 /// Lowers the endings but for the limit.
 pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
@@ -24,6 +25,12 @@ pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
         list.extend(lower_ending(&mut lower, ending).map(|lowered| (lowered, ending.span)));
     }
     check_come_about(&lower, &list);
+    let mut substitutions: Vec<_> = world
+        .flat
+        .substitutes
+        .iter()
+        .filter_map(|said| lower_substitute(&mut lower, said))
+        .collect();
     let mut round = world.flat.rounds.map(|(rounds, _)| lower.condition(&rounds.when));
     if list.is_empty() && world.flat.limit.is_none() && round.is_none() {
         let name = &world.flat.item.name;
@@ -31,12 +38,20 @@ pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
     }
     let mut list: Vec<Ending> = list.into_iter().map(|(ending, _)| ending).collect();
     let wanted: Vec<Reg> = list.iter().filter_map(|ending| ending.when).chain(round).collect();
+    let of_substitutions: Vec<Reg> = substitutions
+        .iter_mut()
+        .flat_map(|substitution| substitution.regs_mut().map(|reg| *reg).collect::<Vec<_>>())
+        .collect();
+    let wanted = [wanted, of_substitutions].concat();
     let (program, layout) = lower.code.finish(&wanted);
     for ending in &mut list {
         ending.when = ending.when.map(|reg| layout.reg(reg));
     }
     round = round.map(|reg| layout.reg(reg));
-    Endings { program, list, round }
+    for reg in substitutions.iter_mut().flat_map(Substitution::regs_mut) {
+        *reg = layout.reg(*reg);
+    }
+    Endings { program, list, round, substitutions }
 }
 
 /// Warns of endings that no match comes to. What an abstract scenario says, its children may

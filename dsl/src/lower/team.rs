@@ -57,7 +57,7 @@ pub(crate) fn lower_difficulty(lower: &mut Lower<'_, '_>, team: Team) -> Reg {
 }
 
 /// A number of 0..1.
-fn share<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, what: &str) -> Reg {
+pub(super) fn share<'w>(lower: &mut Lower<'_, 'w>, expr: &'w Expr, what: &str) -> Reg {
     let reg = lower.want_reg(expr, Ty::Number);
     lower.check_range(reg, (0.0, 1.0), what, expr.span, "`0..1`");
     reg
@@ -223,19 +223,21 @@ fn ai<'w>(lower: &Lower<'_, 'w>, expr: &'w Expr) -> Option<PlayedBy<'w>> {
 }
 
 fn stats<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field, options: &mut PlayerOptions<'w>) {
+    if let Some((stat, reg)) = stat_of(lower, field) {
+        options.stats.retain(|(known, _)| *known != stat);
+        options.stats.push((stat, reg));
+    }
+}
+
+/// A statistic and its value; `None` after a report.
+pub(super) fn stat_of<'w>(lower: &mut Lower<'_, 'w>, field: &'w Field) -> Option<(Stat, Reg)> {
     let Some(stat) = Stat::from_name(&field.key.node) else {
-        lower.report({
-            let known: Vec<&str> = Stat::ALL.iter().map(|stat| stat.name()).collect();
-            let guess = Guess::or_all(&field.key.node, &known);
-            Problem::new(
-                field.key.span,
-                Names::Unknown { kind: Kind::Statistic, name: field.key.node.clone(), guess },
-            )
-        });
-        return;
+        let known: Vec<&str> = Stat::ALL.iter().map(|stat| stat.name()).collect();
+        let (name, guess) = (field.key.node.clone(), Guess::or_all(&field.key.node, &known));
+        let fact = Names::Unknown { kind: Kind::Statistic, name, guess };
+        lower.report(Problem::new(field.key.span, fact));
+        return None;
     };
-    let Some(expr) = fields::expression(lower, field) else { return };
-    let reg = share(lower, expr, &format!("`{stat}`"));
-    options.stats.retain(|(known, _)| *known != stat);
-    options.stats.push((stat, reg));
+    let expr = fields::expression(lower, field)?;
+    Some((stat, share(lower, expr, &format!("`{stat}`"))))
 }

@@ -4,7 +4,7 @@ use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
 use crate::ast::{
     BallStmt, EndCondition, EndStmt, Observed, RewardUse, RewardUseKind, Rounds, ScenarioStmt,
-    ScenarioStmtKind, Spanned,
+    ScenarioStmtKind, Spanned, Substitute,
 };
 use crate::problem::Problem;
 use crate::problem::facts::Names;
@@ -27,6 +27,21 @@ impl Reader<'_> {
             doc.clear();
         }
         ScenarioStmt { doc, span, kind: kind.unwrap_or(ScenarioStmtKind::Broken) }
+    }
+
+    /// `substitute PLAYER when CONDITION [{ … }]`
+    fn substitute(&mut self, nodes: &mut CstNodes<'_>) -> Option<Substitute> {
+        let who = self.take_expr(nodes, Rule::sum)?;
+        nodes.eat(Rule::kw_when);
+        let when = self.take_expr(nodes, Rule::condition)?;
+        Some(Substitute { who, when, fields: self.take_fields(nodes) })
+    }
+
+    /// `rounds N when CONDITION`
+    fn rounds(&mut self, nodes: &mut CstNodes<'_>) -> Option<Rounds> {
+        let count = self.take_expr(nodes, Rule::sum)?;
+        nodes.eat(Rule::kw_when);
+        Some(Rounds { count, when: self.take_expr(nodes, Rule::condition)? })
     }
 
     fn scenario_stmt_kind(&mut self, node: CstNode<'_>, doc: &str) -> Option<ScenarioStmtKind> {
@@ -95,12 +110,8 @@ impl Reader<'_> {
             }
             Rule::reward_use => self.reward_use(&mut nodes)?,
             Rule::end => ScenarioStmtKind::End(self.end(nodes.next()?)?),
-            Rule::rounds => {
-                let count = self.take_expr(&mut nodes, Rule::sum)?;
-                nodes.eat(Rule::kw_when);
-                let when = self.take_expr(&mut nodes, Rule::condition)?;
-                ScenarioStmtKind::Rounds(Rounds { count, when })
-            }
+            Rule::substitute => ScenarioStmtKind::Substitute(self.substitute(&mut nodes)?),
+            Rule::rounds => ScenarioStmtKind::Rounds(self.rounds(&mut nodes)?),
             Rule::require => {
                 let condition = self.take_expr(&mut nodes, Rule::condition)?;
                 let probability = if nodes.eat(Rule::kw_with) {

@@ -12,7 +12,7 @@ use super::parts::chain;
 use crate::ast::{
     Arg, BallStmt, Binding, EndStmt, Expr, Field, FnItem, Ident, ItemKind, Observed, ParamDecl,
     PlayerStmt, Ref, RewardUse, RewardUseKind, Rounds, ScenarioItem, ScenarioStmt,
-    ScenarioStmtKind, Span, Spanned,
+    ScenarioStmtKind, Span, Spanned, Substitute,
 };
 use crate::problem::facts::{Calls, Names, Types};
 use crate::problem::{Guess, Problem};
@@ -54,6 +54,8 @@ pub(crate) struct Flat<'a> {
     pub(crate) limit: Option<(&'a Expr, Span)>,
     /// `rounds …`
     pub(crate) rounds: Option<(&'a Rounds, Span)>,
+    /// `substitute …`
+    pub(crate) substitutes: Vec<&'a Substitute>,
     /// Requirements.
     pub(crate) requires: Vec<&'a ScenarioStmt>,
     /// Records.
@@ -211,6 +213,7 @@ pub(crate) fn flatten<'a>(
         ends: Vec::new(),
         limit: None,
         rounds: None,
+        substitutes: Vec::new(),
         requires: Vec::new(),
         records: Vec::new(),
         observed: None,
@@ -328,6 +331,7 @@ impl<'a> Adding<'a, '_> {
                 self.flat.tuples.push((names, value));
             }
             ScenarioStmtKind::Record(binding) => self.record(binding),
+            ScenarioStmtKind::Substitute(substitute) => self.flat.substitutes.push(substitute),
             ScenarioStmtKind::Rounds(rounds) => {
                 self.only_once("`rounds`", stmt.span);
                 self.flat.rounds = Some((rounds, stmt.span));

@@ -32,7 +32,7 @@ pub fn begin(drawn: &Drawn) -> Match {
         let player = &mut game.players[i];
         let mut body = Body::blank();
         body.stats = stats::stats_of(index, start);
-        body.level = 0.3 + 0.7 * start.difficulty.clamp(0.0, 1.0);
+        body.level = stats::level_of(start.difficulty);
         body.speed_top_mps = stats::speed_top(body.stats[Stat::Speed.index()]);
         body.height_m = stats::height_of(index);
         body.kickoff = [start.pos; 2];

@@ -64,7 +64,7 @@ pub fn stats_of(index: usize, drawn: &DrawnPlayer) -> [f32; Stat::ALL.len()] {
         stats[stat.index()] = row(stat)[index % TEAM_MAX];
     }
     for &(stat, value) in &drawn.stats {
-        stats[stat.index()] = value.clamp(0.01, 1.0);
+        stats[stat.index()] = value.clamp(LEAST, 1.0);
     }
     stats
 }
@@ -72,6 +72,14 @@ pub fn stats_of(index: usize, drawn: &DrawnPlayer) -> [f32; Stat::ALL.len()] {
 /// The height of a team's player, metres.
 pub fn height_of(index: usize) -> f32 {
     HEIGHT_M[index % TEAM_MAX]
+}
+
+/// The least value of a statistic.
+pub const LEAST: f32 = 0.01;
+
+/// How well a player of this difficulty plays, 0.3..1.
+pub fn level_of(difficulty: f32) -> f32 {
+    0.3 + 0.7 * difficulty.clamp(0.0, 1.0)
 }
 
 /// Top speed, m/s: 7.2 at speed 0 to 8.0 at 1.

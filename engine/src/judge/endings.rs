@@ -4,10 +4,10 @@ use crate::in_place::clone_in_place;
 use crate::judge::machine::{Crew, Input, Machine, Registers, truth};
 use crate::judge::script::{Done, HookScene, Memory, Perspective, ScriptError, Scripts, Shelf};
 use crate::snapshot::{Archive, SnapshotError};
-use crate::state::Match;
 use crate::state::event::{Event, Events};
-use setpiece_scenario::vocabulary::{EventKind, Qualifier, Team, Verdict};
-use setpiece_scenario::{Ending, Endings, LIMIT, ROUNDS};
+use crate::state::{ComingOn, Match, PlayerId};
+use setpiece_scenario::vocabulary::{EventKind, Qualifier, Stat, Team, Verdict};
+use setpiece_scenario::{Ending, Endings, LIMIT, ROUNDS, Reg};
 use std::sync::Arc;
 
 /// How an episode ended.
@@ -35,10 +35,13 @@ pub struct EndingJudge {
     at_start: Option<usize>,
     /// Whether the round was over in the last step.
     round_over: bool,
+    /// Whether each substitution has been made.
+    made: Vec<[f64; 1]>,
 }
 
 clone_in_place! {
-    EndingJudge { endings, labels, regs, cells, memories, faults, at_start, round_over }
+    EndingJudge { endings, labels, regs, cells, memories, faults, at_start, round_over,
+        made }
 }
 
 impl EndingJudge {
@@ -59,6 +62,7 @@ impl EndingJudge {
             faults: 0,
             at_start: None,
             round_over: false,
+            made: vec![[0.0]; endings.substitutions.len()],
             endings,
         }
     }
@@ -69,6 +73,7 @@ impl EndingJudge {
         self.memories.fill(Memory::default());
         self.faults = 0;
         self.round_over = false;
+        self.made.fill([0.0]);
         let input = Input { silent: true, ..*input };
         self.machine(&input).begin();
         self.machine(&input).run();
@@ -83,6 +88,7 @@ impl EndingJudge {
         shelf: &mut Shelf,
     ) -> Result<(), SnapshotError> {
         archive.slots("cells", &mut self.cells)?;
+        archive.slots("made", &mut self.made)?;
         for memory in &mut self.memories {
             memory.archive("this", archive, shelf)?;
         }
@@ -104,7 +110,26 @@ impl EndingJudge {
 
     /// Computes again what no step of a round changes.
     pub fn renew(&mut self, input: &Input<'_>) {
+        self.made.fill([0.0]);
         self.machine(input).begin();
+    }
+
+    /// Calls `make` for each substitution whose time has come in the step just judged.
+    pub fn substitutions(&mut self, make: &mut dyn FnMut(&ComingOn)) {
+        let share = |reg: Reg| (self.regs.value(reg) as f32).clamp(0.0, 1.0);
+        for (said, made) in self.endings.substitutions.iter().zip(&mut self.made) {
+            if made[0] != 0.0 || !truth(self.regs.value(said.when)) {
+                continue;
+            }
+            *made = [1.0];
+            let stats = said.stats.iter().take(Stat::ALL.len());
+            make(&ComingOn {
+                player: PlayerId(said.player),
+                fatigue: said.fatigue.map_or(0.0, share),
+                difficulty: said.difficulty.map(share),
+                stats: stats.map(|(stat, reg)| (*stat, share(*reg))).collect(),
+            });
+        }
     }
 
     /// Whether the round was over in the last step.

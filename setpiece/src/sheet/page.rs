@@ -95,8 +95,8 @@ fn region(film: &Film) -> Region {
         let within = move |place: [f32; 2], most_m: f32| {
             (place[0] - ball[0]).hypot(place[1] - ball[1]) < most_m
         };
-        let people =
-            scene.players.iter().map(|player| player.pos).filter(move |&pos| within(pos, NEAR_M));
+        let present = scene.players.iter().filter(|player| player.present);
+        let people = present.map(|player| player.pos).filter(move |&pos| within(pos, NEAR_M));
         let goals =
             [goal, [-goal[0], 0.0]].into_iter().filter(move |&goal| within(goal, NEAR_GOAL_M));
         std::iter::once((ball, AROUND_BALL_M))

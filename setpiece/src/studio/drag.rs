@@ -48,9 +48,17 @@ pub(super) fn dragged(
     let (span, turns) = match player {
         None => (origins.ball, false),
         Some(id) => {
-            let slots = loaded.scenario.players.iter().enumerate();
-            let mut of_team = slots.filter(|(_, slot)| slot.team == team(id.team));
+            let slots = &loaded.scenario.players;
+            let mut of_team = slots
+                .iter()
+                .enumerate()
+                .filter(|(_, slot)| slot.team == team(id.team) && !slot.instead);
             let (at, slot) = of_team.nth(usize::from(id.slot)).ok_or_else(elsewhere)?;
+            if slots.get(at + 1).is_some_and(|next| next.instead) {
+                return Err(
+                    "players of several formations share this place: edit the text".to_owned()
+                );
+            }
             (origins.players.get(at).copied(), slot.team == Team::Right)
         }
     };

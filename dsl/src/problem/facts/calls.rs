@@ -56,8 +56,9 @@ facts! {
             )
 ;
             match text.split_once(' ') {
-                Some((name, _)) if callee == "nearest" => {
-                    said.help(format!("write `min_by(distance({name}, ball) for {text})`"))
+                Some((name, rest)) if callee == "nearest" => {
+                    let of = if rest.starts_with("for ") { rest } else { &format!("for {text}") };
+                    said.help(format!("write `min_by(distance({name}, ball) {of})`"))
                 }
                 _ => said.help("count players first: `count(p in us where …)`"),
             }

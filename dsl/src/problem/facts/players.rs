@@ -90,6 +90,10 @@ facts! {
                 None => said.help("move one of them, or allow it: `{ overlap: allowed }`"),
             }
         },
+        /// A substitution of somebody who isn't one certain player.
+        SubstituteOfNobody { text: String } = Code::WrongType =>
+            say(format!("`{text}` is not one player in every step"), "who goes off?")
+                .help("name a player, `tired: CM at …`, and write `substitute tired when …`"),
         /// The place of what may be nobody.
         MayBeNobody { text: String } = Code::NoPlace =>
             say(format!("`{text}` may be nobody, who has no place"), "whose place?")

@@ -237,6 +237,10 @@ const LAYOUTS: &[(&str, &str)] = &[
         "formation f { GK at (-1, 0) /* its own */ CB at (-0.5, 0) }\nreward r { give 400 steps / 1s }\n",
     ),
     (
+        "scenario s {\n    let a = 1\n  // Where.\n,   ball at (a, 0)\n}",
+        "scenario s {\n    let a = 1\n    // Where.\n    ball at (a, 0)\n}\n",
+    ),
+    (
         "scenario s {\n    reward script rhai \"\"\"\n  fn reward() {\n }\n\"\"\" as \"x\"*2\n}",
         "scenario s {\n    reward script rhai \"\"\"\n  fn reward() {\n }\n\"\"\" as \"x\" * 2\n}\n",
     ),

@@ -115,7 +115,8 @@ impl<'p, 't> LineLayout<'p, 't> {
         let mut free = vec![true; pieces.len()];
         let mut next = true;
         for (free, piece) in free.iter_mut().zip(pieces).rev() {
-            if !piece.is_comment() {
+            // A comma between statements isn't printed: what follows it counts.
+            if !piece.is_comment() && !piece.separates {
                 next = piece.begins || piece.is(Rule::brace_close);
             }
             *free = next;

@@ -13,7 +13,7 @@ use crate::lower::mirror::Mirror;
 use crate::lower::param_info::ParamInfo;
 use crate::lower::people::Casting;
 use crate::lower::{
-    Effort, MAX_LOWERED, World, behavior, ending, hidden, observation, record, reward, start,
+    Effort, MAX_LOWERED, World, behavior, dead, ending, hidden, observation, record, reward, start,
 };
 use crate::origins::Origins;
 use crate::parse::MAX_PROBLEMS;
@@ -261,6 +261,7 @@ impl<'a> Compilation<'a> {
         let observation = observation::lower_observation(&step);
         let library_rewards = reward::lower_library(&step);
         let behaviors = behavior::lower_behaviors(&step, &behaviors, &mut players);
+        dead::check_scenario(&world);
         self.unused.declare(&world);
 
         let origins = Origins {

@@ -12,6 +12,7 @@ mod begin;
 pub(crate) mod behavior;
 pub(crate) mod builder;
 pub(crate) mod casting;
+pub(crate) mod dead;
 pub(crate) mod ending;
 pub(crate) mod expr;
 mod fields;

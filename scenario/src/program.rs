@@ -90,8 +90,8 @@ pub enum Instr {
     EpisodeIndex,
     /// The round of the episode, from 1 on.
     Round,
-    /// Seconds from the episode's start to when the round began.
-    RoundStart,
+    /// Seconds since the round began.
+    RoundElapsed,
     /// A unary operator.
     Unary(UnaryOp, Reg),
     /// A binary operator.
@@ -467,7 +467,7 @@ impl Instr {
             | Instr::Let(_)
             | Instr::EpisodeIndex
             | Instr::Round
-            | Instr::RoundStart
+            | Instr::RoundElapsed
             | Instr::Terminated
             | Instr::Us
             | Instr::Me

@@ -257,6 +257,9 @@ fn verify_program(
                     return Err(format!("instruction {at} reads the match before it has begun"));
                 }
             }
+            (Instr::RoundElapsed, ProgramPlace::Start | ProgramPlace::Init) => {
+                return misplaced(at);
+            }
             (Instr::Event(_), _) if !open.iter().any(|body| body.3) => {
                 return Err(format!("instruction {at} reads an event outside a loop over events"));
             }

@@ -40,7 +40,7 @@ scenario s {
 
 #[test]
 fn a_file_is_read_and_each_team_looks_in_its_own_frame() {
-    let csv = "# expected threat\n\n0, 1, 2, 3\r\n4;5\t6 70\n";
+    let csv = "# expected threat\n\n0, 1, 2, 3\r\n4; 5;6;70\n";
     let loaded = with_table(csv, BOTH).unwrap();
     let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
     environment.reset(Some(1), Some(0)).unwrap();
@@ -64,6 +64,9 @@ fn what_a_file_gets_wrong_is_shown_there() {
         ("x, y\n1, 2\n", "SP0301", ("threat.csv", "x")),
         ("1, 2\n3, inf\n", "SP0301", ("threat.csv", "inf")),
         ("1, 2\n3\n", "SP0303", ("threat.csv", "3")),
+        ("1,,2\n", "SP0301", ("threat.csv", "")),
+        ("1,5;2,5\n", "SP0301", ("threat.csv", "1,5")),
+        ("1 2\n3  4x\n", "SP0301", ("threat.csv", "4x")),
         ("# nothing\n", "SP0301", ("s.pitch", "\"threat.csv\"")),
     ] {
         let Err(Error::Compile(failure)) = with_table(csv, BOTH) else { panic!("{csv:?}") };

@@ -34,6 +34,7 @@ pub(crate) fn check_alone<'w>(step: &StepWorld<'_, 'w>, item: &'w Item) -> Vec<P
         ItemKind::Region(item) => as_called(step, item, Some(Ty::Region), LiteralFrame::World),
         ItemKind::Table(item) => found_by(step, || {
             let mut lower = Caller::Reward.program(step);
+            lower.rectangle(item.over.as_ref());
             lower.table_of(item);
         }),
         ItemKind::Ending(item) => found_by(step, || ending::lower_alone(step, item)),

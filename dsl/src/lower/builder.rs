@@ -44,7 +44,7 @@ enum Key {
     Let(u32),
     EpisodeIndex,
     Round,
-    RoundStart,
+    RoundElapsed,
     Terminated,
     Us,
     Me,
@@ -228,9 +228,9 @@ impl Builder {
         self.shared(ROOT, Key::Round, Instr::Round)
     }
 
-    /// Seconds from the episode's start to when the round began.
-    pub(crate) fn round_start(&mut self) -> Reg {
-        self.shared(ROOT, Key::RoundStart, Instr::RoundStart)
+    /// The time since the round began.
+    pub(crate) fn round_elapsed(&mut self) -> Reg {
+        self.shared(ROOT, Key::RoundElapsed, Instr::RoundElapsed)
     }
 
     /// Whether the episode terminates in this step.

@@ -124,12 +124,14 @@ impl<'w> Rostered<'w> {
         }
     }
 
-    /// Whether they belong to every episode.
-    pub(crate) fn is_certain(&self) -> bool {
-        self.when.is_none()
-            && self.maybe.is_none()
-            && self.numbered.is_none()
-            && self.formations.is_none()
+    /// Whether they and another one may be meant never to play together: by what their `when` says,
+    /// or because they belong to different formations.
+    pub(crate) fn may_exclude(&self, other: &Rostered<'_>) -> bool {
+        let formations = match (&self.formations, &other.formations) {
+            (Some(own), Some(others)) => !own.which.iter().any(|it| others.which.contains(it)),
+            _ => false,
+        };
+        formations || (self.when.is_some() && other.when.is_some() && self.span != other.span)
     }
 
     /// The player in a sentence.

@@ -29,6 +29,23 @@ impl<'w> Lower<'_, 'w> {
         presence
     }
 
+    /// Whether a player of the roster takes part, in the start program.
+    pub(crate) fn exists_at_start(&mut self, player: Reg, asked: Span) -> Option<Reg> {
+        self.start()?;
+        let first = self.roster_index(player)?;
+        let others = self.world.roster.iter().skip(first + 1).take_while(|other| other.instead);
+        let mut any = None;
+        for index in first..=first + others.count() {
+            let yes = self.code.bool(true);
+            let conditions = self.presence_of(index, asked);
+            let all = conditions
+                .conditions()
+                .fold(yes, |all, one| self.code.binary(BinaryOp::And, all, one));
+            any = Some(any.map_or(all, |any| self.code.binary(BinaryOp::Or, any, all)));
+        }
+        any
+    }
+
     fn set_presence(&mut self, index: usize, presence: OnDemand<Presence>) {
         if let Some(slot) = self.start_mut().and_then(|start| start.presence.get_mut(index)) {
             *slot = presence;

@@ -335,10 +335,14 @@ fn check_size(world: &World<'_>, players: &[Rostered<'_>], seats: usize, team: T
     if let Some(extra) = extra.filter(|_| seats > TEAM_MAX) {
         world.report(Problem::new(extra.span, Players::TooMany { team, most: TEAM_MAX }));
     }
-    let keepers: Vec<&Rostered<'_>> =
-        players.iter().filter(|p| p.role == Role::GK && p.is_certain()).collect();
-    if let [first, second, ..] = keepers.as_slice() {
-        world.report(Problem::new(second.span, Players::TwoKeepers { team, first: first.span }));
+    let keepers: Vec<&Rostered<'_>> = players.iter().filter(|p| p.role == Role::GK).collect();
+    for (nth, second) in keepers.iter().enumerate() {
+        let first = keepers.iter().take(nth).find(|first| !first.may_exclude(second));
+        if let Some(first) = first {
+            world
+                .report(Problem::new(second.span, Players::TwoKeepers { team, first: first.span }));
+            return;
+        }
     }
 }
 

@@ -13,7 +13,7 @@ use setpiece_scenario::{BinaryOp, Reg, Table};
 
 /// A rectangle in the reader's frame: the corner with the least x and y, and the other one.
 #[derive(Clone, Copy)]
-pub(super) struct Rectangle {
+pub(crate) struct Rectangle {
     pub(super) low: (Reg, Reg),
     pub(super) high: (Reg, Reg),
 }
@@ -57,7 +57,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// A rectangle, the pitch if nothing is written; `None` after a report.
-    pub(super) fn rectangle(&mut self, over: Option<&'w Expr>) -> Option<Rectangle> {
+    pub(crate) fn rectangle(&mut self, over: Option<&'w Expr>) -> Option<Rectangle> {
         let (a, b) = match over {
             None => {
                 let (x, y) = (HALF_LENGTH_M, HALF_WIDTH_M);
@@ -124,7 +124,8 @@ impl<'w> Lower<'_, 'w> {
         self.whole(read, rows.span)
     }
 
-    /// Reads comma-separated values; semicolons, tabs and spaces separate as well.
+    /// Reads comma-separated values; without commas, semicolons or blanks separate. A line has one
+    /// kind of separator.
     fn table_file(&self, path: &Spanned<String>) -> Option<Table> {
         let world = self.world;
         let file = named_file(world, path)?;
@@ -140,17 +141,24 @@ impl<'w> Lower<'_, 'w> {
             let content = line.trim_end();
             let mut values = Vec::new();
             let mut at = 0;
-            for cell in content.split(|c: char| matches!(c, ',' | ';') || c.is_whitespace()) {
+            let by = [';', ','].into_iter().find(|by| content.contains(*by));
+            let separates = |c: char| by.map_or(c.is_whitespace(), |by| c == by);
+            if content.trim_start().starts_with('#') || content.trim().is_empty() {
+                start += line.len();
+                continue;
+            }
+            for cell in content.split(separates) {
                 let word = span(at, cell.len());
                 at += cell.len()
                     + content[at + cell.len()..].chars().next().map_or(0, char::len_utf8);
-                if cell.is_empty() || content.starts_with('#') {
+                // Several blanks are one separator; several commas have nothing between them.
+                if cell.is_empty() && by.is_none() {
                     continue;
                 }
-                match cell.trim_start_matches('\u{feff}').parse::<f64>() {
+                match cell.trim_start_matches('\u{feff}').trim().parse::<f64>() {
                     Ok(value) if value.is_finite() => values.push(value),
                     _ => {
-                        let text = cell.to_owned();
+                        let text = cell.trim().to_owned();
                         self.report(Problem::new(word, Tables::NoNumberInFile { text }));
                         return None;
                     }

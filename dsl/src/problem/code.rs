@@ -112,6 +112,7 @@ codes! {
     TwoKeepers = 412 Error "a team has two keepers";
     AbsentPlayer = 413 Error "a player is absent and placed";
     AgentOverScript = 414 Warning "an agent may take a scripted player";
+    DeadParameter = 415 Warning "an inherited parameter does nothing";
     TooCostly = 418 Error "a scenario costs too much";
     // SP05xx: scripts.
     ScriptSyntax = 501 Error "a script can't be read";

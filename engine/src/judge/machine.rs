@@ -289,7 +289,12 @@ impl<const W: usize> Machine<'_, W> {
             Instr::Let(index) => [input.lets.get(*index as usize).copied().unwrap_or(f64::NAN); N],
             Instr::EpisodeIndex => [input.index as f64; N],
             Instr::Round => [f64::from(input.round); N],
-            Instr::RoundStart => [f64::from(input.round_start) / STEPS_PER_S; N],
+            Instr::RoundElapsed => {
+                // In whole steps, so that a comparison with 2 s holds where it should.
+                let elapsed = input.now.map_or(0.0, |now| now.load(Field::Elapsed, 0.0));
+                let steps = libm::round(elapsed * STEPS_PER_S) - f64::from(input.round_start);
+                [steps / STEPS_PER_S; N]
+            }
             Instr::Unary(op, a) => {
                 let exists = |player| input.now.is_some_and(|now| now.exists(player));
                 self.lanes::<N>(*a).map(|a| op.apply(a, exists))

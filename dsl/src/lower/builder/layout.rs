@@ -181,7 +181,7 @@ impl LaidOutCode {
             | Instr::Let(_)
             | Instr::EpisodeIndex
             | Instr::Round
-            | Instr::RoundStart
+            | Instr::RoundElapsed
             | Instr::Terminated
             | Instr::Us
             | Instr::Me

@@ -155,7 +155,9 @@ impl<'w> Lower<'_, 'w> {
             (F::Polar, &[r, angle]) => self.polar(r, angle),
             (F::Exists, &[p]) => {
                 let reg = self.want_reg(p, Ty::Player);
-                Value::one(Ty::Bool, self.code.unary(UnaryOp::Exists, reg))
+                let present = self.exists_at_start(reg, p.span);
+                let exists = present.unwrap_or_else(|| self.code.unary(UnaryOp::Exists, reg));
+                Value::one(Ty::Bool, exists)
             }
             (F::OffsideLine, &[team]) => {
                 let reg = self.want_reg(team, Ty::Team);

@@ -11,7 +11,7 @@ use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{
     EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team,
 };
-use setpiece_scenario::{BinaryOp, Reg, UnaryOp, When};
+use setpiece_scenario::{Reg, UnaryOp, When};
 
 impl<'w> Lower<'_, 'w> {
     pub(super) fn name(&mut self, name: &'w str, span: Span) -> Value<'w> {
@@ -282,11 +282,11 @@ impl<'w> Lower<'_, 'w> {
             "score" => Value { ty: Ty::Score, repr: Repr::Nothing },
             "round" => self.round(span),
             "round_elapsed" => {
-                let Some(now) = self.load(Field::Elapsed, None, name, span) else {
+                // Reports where the match is not known.
+                if self.load(Field::Elapsed, None, name, span).is_none() {
                     return Some(Value::error());
-                };
-                let start = self.code.round_start();
-                Value::one(Ty::DURATION, self.code.binary(BinaryOp::Sub, now, start))
+                }
+                Value::one(Ty::DURATION, self.code.round_elapsed())
             }
             "centre" => {
                 let zero = self.code.constant(0.0);

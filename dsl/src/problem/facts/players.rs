@@ -117,6 +117,15 @@ facts! {
                 format!("says nothing of the {team} team"),
             )
             .help(format!("write `{team}: 0` beside it, or list the players that are meant, `{team}: [NAME]`")),
+        /// An option that was written by an inherited parameter is written anew, and nothing else
+        /// reads the parameter.
+        DeadParameter { name: String, parent: String, value: String, wrote: Span } = Code::DeadParameter =>
+            say(
+                format!("the inherited parameter `{name}` does nothing here"),
+                "written without it",
+            )
+            .at(wrote, "the parent writes it by the parameter")
+            .help(format!("write `extends {parent}({name}: {value})` instead of this option")),
         /// Listed agents can't switch players.
         ListedAgentSwitches = Code::BadAgents =>
             say("an agent that is listed by name keeps its player", "")

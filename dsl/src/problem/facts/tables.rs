@@ -17,7 +17,11 @@ facts! {
                 .help("write a number or a `const`"),
         /// A word of a file that is no number.
         NoNumberInFile { text: String } = Code::WrongType =>
-            say(format!("`{text}` is no number"), "").help("the file has numbers alone, and no header; a line that begins with `#` is left out"),
+            say(
+                if text.is_empty() { "a number is missing".to_owned() } else { format!("`{text}` is no number") },
+                "",
+            )
+            .help("the file has numbers alone, `0.5` and not `0,5`, and no header; a line that begins with `#` is left out"),
         /// Rows of different lengths.
         UnequalRows { found: usize, wanted: usize } = Code::WrongArguments =>
             say(format!("this row has {found} {}, the first has {wanted}", if *found == 1 { "number" } else { "numbers" }), "")

@@ -1,7 +1,7 @@
 //! The statements of a team, merged with those it inherits.
 
 use super::{Adding, replace};
-use crate::ast::{Ident, ScenarioStmt, ScenarioStmtKind, TeamStmt, TeamStmtKind};
+use crate::ast::{Field, Ident, ScenarioStmt, ScenarioStmtKind, TeamStmt, TeamStmtKind};
 use crate::problem::facts::{Kind, Names, Players};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::vocabulary::Team;
@@ -68,6 +68,9 @@ impl<'a> Adding<'a, '_> {
                 TeamStmtKind::Each { who, fields } => flat.each.push((who, fields)),
                 TeamStmtKind::Absent(role) => flat.absent.push(role.clone()),
                 TeamStmtKind::Field(field) => {
+                    let same = |known: &&&Field| known.key.node == field.key.node;
+                    let known = flat.fields.iter().find(same).copied();
+                    flat.rewritten.extend(known.map(|known| (known, field)));
                     replace(&mut flat.fields, field, false, |field| &field.key.node);
                 }
                 TeamStmtKind::Broken => {}

@@ -1,0 +1,39 @@
+//! Warns of inherited parameters that do nothing, because an option that they gave is written anew.
+
+use super::World;
+use crate::ast::{Expr, ExprKind, Field, FieldValue};
+use crate::problem::Problem;
+use crate::problem::facts::Players;
+
+/// Reports those of a lowered scenario: what it has read is known.
+pub(crate) fn check_scenario(world: &World<'_>) {
+    let flat = world.flat;
+    let Some(parent) = flat.item.extends.as_ref().filter(|_| !flat.item.is_abstract) else {
+        return;
+    };
+    for (old, new) in flat.teams.iter().flat_map(|team| &team.rewritten) {
+        let (Some(by), Some(value)) = (value_of(old), value_of(new)) else { continue };
+        let ExprKind::Name(name) = &by.kind else { continue };
+        let mut inherited = world.params.iter().filter(|param| flat.is_inherited(param.name.span));
+        let Some(param) = inherited.find(|param| param.name.node == *name) else { continue };
+        let is_read = world.used.borrow().contains(&param.name.span);
+        if is_read || param.bound.is_some() || !flat.is_own(new.key.span) {
+            continue;
+        }
+        let (name, parent) = (name.clone(), parent.bare().to_owned());
+        let fact = Players::DeadParameter {
+            name,
+            parent,
+            value: world.text(value.span),
+            wrote: old.key.span,
+        };
+        world.report(Problem::new(new.key.span, fact));
+    }
+}
+
+fn value_of(field: &Field) -> Option<&Expr> {
+    match &field.value {
+        FieldValue::Expr(expr) => Some(expr),
+        FieldValue::Fields(..) | FieldValue::Script(_) => None,
+    }
+}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 import zlib
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -69,7 +70,7 @@ class Panel:
     ) -> None:
         """Draws a line through some points, `width` in pixels."""
         nearest = np.full(self.x.shape, np.inf)
-        for start, end in zip(points[:-1], points[1:], strict=True):
+        for start, end in pairwise(points):
             way = np.subtract(end, start).astype(float)
             length = max(float(way @ way), 1e-9)
             along = ((self.x - start[0]) * way[0] + (self.y - start[1]) * way[1]) / length

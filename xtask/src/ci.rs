@@ -92,7 +92,7 @@ pub(crate) fn python() -> Result<(), String> {
     run_in("", &["ruff", "check"])?;
     run_in("", &["ruff", "format", "--check"])?;
     run_in("../benches", &["ruff", "check", "--config", "../python/pyproject.toml"])?;
-    for folder in ["../lab/record", "../lab/transfer"] {
+    for folder in ["../lab/pictures", "../lab/record", "../lab/transfer"] {
         run_in(folder, &["ruff", "check", "--config", "../../python/pyproject.toml"])?;
     }
     run_in("tests", &["mypy", "--strict", "--config-file", "../pyproject.toml", "-p", "setpiece"])?;

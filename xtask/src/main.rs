@@ -5,6 +5,7 @@
 mod ci;
 mod fuzz;
 mod grammar;
+mod pictures;
 mod shell;
 mod studio;
 mod tidy;
@@ -73,6 +74,8 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "OPTIONS")]
         args: Vec<String>,
     },
+    /// Draw the pictures of docs/examples.md
+    Pictures,
     /// Try random inputs; see fuzz/README.md
     Fuzz(fuzz::FuzzArgs),
 }
@@ -97,6 +100,7 @@ fn main() -> ExitCode {
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
         Command::Soak { args } => ("soak", ci::lab("soak", &args)),
         Command::Transfer { args } => ("transfer", transfer::transfer(&args)),
+        Command::Pictures => ("pictures", pictures::pictures()),
         Command::Fuzz(args) => ("fuzz", fuzz::fuzz(&args)),
     };
     match result {

@@ -93,6 +93,19 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
         behavior::verify_nodes(behavior, n_scripts)
             .map_err(|fault| format!("{}: {fault}", behavior.name))?;
     }
+    for (script, named) in
+        scenario.scripts.iter().flat_map(|of| of.named.iter().map(move |named| (of, named)))
+    {
+        let what = format!("{} in {}", named.name, script.name);
+        check(&what, &named.program, ProgramPlace::Step { terms: 0 })?;
+        named.values.iter().try_for_each(|&reg| visible(&named.program, reg))?;
+        if named.values.len() != named.kind.n_values()
+            || named.program.cells != named.kind.n_cells()
+            || named.program.uses_me()
+        {
+            return Err(format!("{what}: is not what a script can read"));
+        }
+    }
     verify_start(scenario)
 }
 

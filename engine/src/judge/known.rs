@@ -67,14 +67,9 @@ impl Known {
         (self.seed, self.index) = (seed, index);
         self.scene = self.scripted.then(|| {
             let random = Stream::new(seed, index, self.purpose);
-            Arc::new(HookScene::new(
-                MatchView::EMPTY,
-                MatchView::EMPTY,
-                &[],
-                self.scripts.params(params),
-                random,
-                self.key(),
-            ))
+            let (nothing, shown) = (MatchView::EMPTY, self.scripts.params(params));
+            let scene = HookScene::new(nothing, nothing, &[], shown, random, self.key());
+            Arc::new(scene.in_episode(self.scripts.names(params, lets)))
         });
     }
 
@@ -85,6 +80,9 @@ impl Known {
         shelf: &mut Shelf,
     ) -> Result<(), SnapshotError> {
         shelf.archive("scene", &mut self.scene, archive)?;
+        if archive.is_reading() && self.scripted {
+            shelf.name(&self.scripts.names(&self.params, &self.lets));
+        }
         if self.scene.is_some() == self.scripted {
             return Ok(());
         }
@@ -99,6 +97,9 @@ impl Known {
     /// Replaces the scripts.
     pub fn adopt(&mut self, scripts: Scripts) {
         self.scripts = scripts;
+        if let Some(scene) = &mut self.scene {
+            *scene = Arc::new(scene.renamed(self.scripts.names(&self.params, &self.lets)));
+        }
     }
 
     /// The scripts.

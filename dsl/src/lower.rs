@@ -25,6 +25,7 @@ mod layouts;
 pub(crate) mod loaded_scripts;
 pub(crate) mod mirror;
 mod mirrored;
+mod named;
 mod never;
 pub(crate) mod observation;
 pub(crate) mod param;

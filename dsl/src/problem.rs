@@ -13,7 +13,7 @@ mod triage;
 
 pub use code::{Code, Severity, Stage};
 pub use said::{Label, Words};
-pub use script::{ScriptApi, ScriptProblem};
+pub use script::{ScriptApi, ScriptProblem, ScriptSight};
 pub(crate) use similar::Guess;
 pub use similar::nearest;
 pub(crate) use triage::triage;

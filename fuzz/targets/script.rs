@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use setpiece::engine::environment::EnvironmentOptions;
-use setpiece::engine::judge::check_script;
+use setpiece::engine::judge::{ScriptNames, check_script};
 use setpiece::scenario::Scenario;
 use setpiece_fuzz::choice::Choices;
 use setpiece_fuzz::game;
@@ -15,7 +15,8 @@ const STEPS: u32 = 3;
 fuzz_target!(init: setpiece_fuzz::seed::write("script"), |data: &[u8]| {
     let Ok(text) = std::str::from_utf8(data) else { return };
     for hook in HOOKS {
-        for fault in check_script(text, hook, &["pace"]) {
+        let known = ScriptNames { params: &["pace"], ..ScriptNames::default() };
+        for fault in check_script(text, hook, &known) {
             assert!(text.get(fault.range.clone()).is_some(), "{fault:?} points outside the script");
         }
     }

@@ -6,6 +6,7 @@
 //! an agent. The compiler reports an excess at its place in the text; a file is rejected.
 
 use crate::behavior::Node;
+use crate::named::NamedValue;
 use crate::pitch::PLAYERS_MAX;
 use crate::program::{Distribution, Instr, Over, Program};
 use crate::scenario::{Ai, Reward, Scenario};
@@ -147,6 +148,11 @@ pub fn start_work(scenario: &Scenario) -> u64 {
     work(&scenario.start.program, &Counts::of(scenario)).max(1)
 }
 
+/// The cost of a value that a script reads by name, in instructions.
+pub fn named_work(scenario: &Scenario, named: &NamedValue) -> u64 {
+    work(&named.program, &Counts::of(scenario))
+}
+
 /// The cost of a step, in instructions.
 fn step_work(scenario: &Scenario) -> Total {
     let counts = Counts::of(scenario);
@@ -198,12 +204,15 @@ fn programs(scenario: &Scenario) -> impl Iterator<Item = (Part, &Program)> {
         scenario.behaviors.iter().enumerate().map(|(at, one)| (Part::Behavior(at), &one.program));
     let observation =
         scenario.observation.iter().map(|observation| (Part::Observation, &observation.program));
+    let named = scenario.scripts.iter().flat_map(|script| &script.named);
+    let named = named.map(|named| (Part::Scenario, &named.program));
     [(Part::Start, &scenario.start.program), (Part::Endings, &scenario.endings.program)]
         .into_iter()
         .chain(rewards)
         .chain(records)
         .chain(observation)
         .chain(behaviors)
+        .chain(named)
 }
 
 /// The rewards that are paid, and those that can be requested.

@@ -11,6 +11,7 @@ pub mod behavior;
 pub mod bounds;
 pub mod container;
 pub mod file;
+pub mod named;
 pub mod operators;
 pub mod params;
 pub mod pitch;
@@ -25,6 +26,7 @@ pub mod vocabulary;
 
 pub use behavior::{Act, Behavior, Do, Node, ScriptArg, Then, Watch};
 pub use file::{FORMAT_VERSION, FormatError};
+pub use named::{NamedKind, NamedValue};
 pub use params::{Bindings, Param, ParamError};
 pub use program::{
     BinaryOp, Distribution, Each, EventFilter, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp,

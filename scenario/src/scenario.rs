@@ -1,6 +1,7 @@
 //! The compiled scenario.
 
 use crate::behavior::{Behavior, ScriptArg};
+use crate::named::NamedValue;
 use crate::params::Param;
 use crate::program::{Program, Reg};
 use crate::vocabulary::{Role, Rule, StartKind, Stat, Team, Verdict, WorldFigure};
@@ -78,7 +79,7 @@ impl Scenario {
 }
 
 /// A Rhai script, embedded.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Script {
     /// The path as written, for messages.
@@ -88,6 +89,9 @@ pub struct Script {
     pub at: (u32, u32),
     /// The text.
     pub source: String,
+    /// What it may read by name.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub named: Vec<NamedValue>,
 }
 
 fn at_the_top() -> (u32, u32) {

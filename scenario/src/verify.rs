@@ -8,7 +8,7 @@ use crate::bounds::{self, NAME_MAX_BYTES};
 use crate::pitch::TEAM_MAX;
 use crate::program::{Fold, Instr, Program, Reg};
 use crate::scenario::{Ai, RewardBody, Scenario, SideAgents};
-use crate::table::TABLE_MAX;
+use crate::table::{TABLE_MAX, Table};
 use crate::vocabulary::{Owner, Team};
 
 /// The most instructions of one program.
@@ -101,6 +101,19 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
         check(&behavior.name, &behavior.program, ProgramPlace::Step { terms: 0 })?;
         behavior::verify_nodes(behavior, n_scripts)
             .map_err(|fault| format!("{}: {fault}", behavior.name))?;
+    }
+    for (script, named) in
+        scenario.scripts.iter().flat_map(|of| of.named.iter().map(move |named| (of, named)))
+    {
+        let what = format!("{} in {}", named.name, script.name);
+        check(&what, &named.program, ProgramPlace::Step { terms: 0 })?;
+        named.values.iter().try_for_each(|&reg| visible(&named.program, reg))?;
+        if named.values.len() != named.kind.n_values()
+            || named.program.cells != named.kind.n_cells()
+            || named.program.uses_me()
+        {
+            return Err(format!("{what}: is not what a script can read"));
+        }
     }
     verify_start(scenario)
 }
@@ -203,6 +216,17 @@ impl ProgramPlace {
     }
 }
 
+fn verify_table(table: &Table) -> Result<(), String> {
+    let whole = table.columns > 0
+        && !table.values.is_empty()
+        && table.values.len() <= TABLE_MAX
+        && table.values.len().is_multiple_of(table.columns as usize);
+    if !whole || table.values.iter().any(|value| !value.is_finite()) {
+        return Err("a table is not a rectangle of finite numbers".to_owned());
+    }
+    Ok(())
+}
+
 fn verify_program(
     program: &Program,
     place: ProgramPlace,
@@ -212,15 +236,7 @@ fn verify_program(
     if program.code.len() > CODE_MAX || program.cells as usize > CODE_MAX {
         return Err("too large".to_owned());
     }
-    for table in &program.tables {
-        let whole = table.columns > 0
-            && !table.values.is_empty()
-            && table.values.len() <= TABLE_MAX
-            && table.values.len().is_multiple_of(table.columns as usize);
-        if !whole || table.values.iter().any(|value| !value.is_finite()) {
-            return Err("a table is not a rectangle of finite numbers".to_owned());
-        }
-    }
+    program.tables.iter().try_for_each(verify_table)?;
     // Ends of the bodies around the current instruction, innermost last.
     let mut open: Vec<(usize, usize, Fold, bool)> = Vec::new();
     for (at, instr) in program.code.iter().enumerate() {

@@ -1,17 +1,18 @@
 //! Checks scripts against the engine's hook API, the only thing that the compiler needs from the
 //! engine.
 
-use setpiece_dsl::problem::{Code, ScriptApi, ScriptProblem};
+use setpiece_dsl::problem::{Code, ScriptApi, ScriptProblem, ScriptSight};
 use setpiece_dsl::source::Source;
-use setpiece_engine::judge::{ScriptFaultKind, check_script};
+use setpiece_engine::judge::{ScriptFaultKind, ScriptNames, check_script};
 
 /// The engine's implementation of [`ScriptApi`].
 #[derive(Clone, Copy, Debug)]
 pub struct EngineScripts;
 
 impl ScriptApi for EngineScripts {
-    fn check(&self, script: &Source, hook: &str, params: &[&str]) -> Vec<ScriptProblem> {
-        check_script(&script.text, hook, params)
+    fn check(&self, script: &Source, hook: &str, sight: &ScriptSight<'_>) -> Vec<ScriptProblem> {
+        let ScriptSight { params, named, others } = sight;
+        check_script(&script.text, hook, &ScriptNames { params, named, others })
             .into_iter()
             .map(|fault| ScriptProblem {
                 code: match fault.kind {

@@ -234,7 +234,7 @@ impl<'c, 'w> BehaviorWriter<'c, 'w> {
 
     fn script(&mut self, script: &'w ScriptRef, args: Vec<setpiece_scenario::ScriptArg>) {
         let own: Vec<&str> = args.iter().map(|arg| arg.name.as_str()).collect();
-        if let Some(script) = super::script::embed(self.lower.world, script, "act", &own) {
+        if let Some(script) = super::script::embed(&self.lower, script, "act", &own) {
             let act = Act::Script { script, args };
             self.nodes.push(Node::Do(Do { act, sprint: false, until: None, seconds: None }));
         }

@@ -1,4 +1,5 @@
-//! Warns of inherited parameters that do nothing, because an option that they gave is written anew.
+//! Warns of inherited parameters that do nothing, because an option that they gave is written
+//! again.
 
 use super::World;
 use crate::ast::{Expr, ExprKind, Field, FieldValue};

@@ -120,7 +120,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
     match (ending.condition, ending.label) {
         (Some(EndCondition::Expr(condition)), _) => lowered.when = Some(lower.condition(condition)),
         (Some(EndCondition::Script(source)), _) => {
-            lowered.script = Some(script::embed(lower.world, source, "done", &[])?);
+            lowered.script = Some(script::embed(lower, source, "done", &[])?);
         }
         (None, Some(reference)) => {
             let found = lower.world.library.find(reference.name.span.file, &reference.name.node);

@@ -1,14 +1,15 @@
 //! Rhai scripts: loaded, checked against the engine's hooks, embedded with their arguments.
 
+use super::named::{nameable, named_values};
 use super::value::{LocalName, Repr, Value};
 use super::{Lower, World};
 use crate::ast::{ParamDecl, ScriptRef, ScriptSource, Span, Spanned};
 use crate::check::types::Ty;
-use crate::problem::Problem;
 use crate::problem::facts::{Files, Types};
+use crate::problem::{Problem, ScriptSight};
 use crate::source::{FileId, Source};
 use setpiece_scenario::vocabulary::Type;
-use setpiece_scenario::{Script, ScriptArg};
+use setpiece_scenario::{NamedValue, Script, ScriptArg};
 
 impl<'w> Lower<'_, 'w> {
     /// The parameters around a script, as its hook sees them; `every` one must be such that it can.
@@ -44,7 +45,7 @@ impl<'w> Lower<'_, 'w> {
 }
 
 /// The type under which a script gets a value.
-fn script_type(value: &Value<'_>) -> Option<Type> {
+pub(super) fn script_type(value: &Value<'_>) -> Option<Type> {
     match (&value.repr, value.ty) {
         (Repr::One(_), Ty::Bool) => Some(Type::Bool),
         (Repr::One(_), Ty::Int) => Some(Type::Int),
@@ -71,12 +72,13 @@ pub(super) fn named_file(world: &World<'_>, path: &Spanned<String>) -> Option<Fi
 
 /// Embeds a script and gives its place in the scenario; `None` after a report. `own` are the names
 /// that its hook finds among the scenario's parameters.
-pub(crate) fn embed(
-    world: &World<'_>,
-    script: &ScriptRef,
+pub(crate) fn embed<'w>(
+    lower: &Lower<'_, 'w>,
+    script: &'w ScriptRef,
     hook: &'static str,
     own: &[&str],
 ) -> Option<u32> {
+    let world = lower.world;
     let (name, source, text_at) = match &script.source {
         ScriptSource::File(path) => {
             let file = named_file(world, path)?;
@@ -96,16 +98,17 @@ pub(crate) fn embed(
         world.report(Problem::new(script.span, why));
         return None;
     }
-    check(world, &source, text_at, hook, own);
     // A script reads a parameter by its name, in whatever way.
     let words: Vec<&str> = source.text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let named = named_values(lower, &words, script.span);
+    check(lower, script.span, &source, text_at, hook, own, &named);
     for param in world.params.iter().filter(|param| words.contains(&param.name.node.as_str())) {
         world.mark_used(param.name.span);
     }
     let mut scripts = world.scripts.borrow_mut();
     let at =
         world.library.sources.get(text_at.0).map_or((1, 1), |file| file.line_column(text_at.1));
-    let embedded = Script { name, at, source: source.text.to_string() };
+    let embedded = Script { name, at, source: source.text.to_string(), named };
     let known = scripts.iter().position(|script| *script == embedded);
     let index = known.unwrap_or_else(|| {
         scripts.push(embedded);
@@ -115,17 +118,23 @@ pub(crate) fn embed(
 }
 
 fn check(
-    world: &World<'_>,
+    lower: &Lower<'_, '_>,
+    used: Span,
     source: &Source,
     (file, offset): (FileId, u32),
     hook: &str,
     own: &[&str],
+    named: &[NamedValue],
 ) {
+    let world = lower.world;
     let Some(api) = world.scripts_loaded.api else { return };
     let bound = world.params.iter().filter(|param| param.bound.is_none());
-    let params: Vec<&str> =
-        bound.map(|param| param.param.name.as_str()).chain(own.iter().copied()).collect();
-    for found in api.check(source, hook, &params) {
+    let sight = ScriptSight {
+        params: bound.map(|param| param.param.name.as_str()).chain(own.iter().copied()).collect(),
+        named: named.iter().map(|named| (named.name.as_str(), named.kind)).collect(),
+        others: nameable(lower, used),
+    };
+    for found in api.check(source, hook, &sight) {
         let span = Span {
             file,
             start: offset + found.range.start as u32,

@@ -39,14 +39,23 @@ impl<'w> Lower<'_, 'w> {
             }
         };
         let place = self.want_point(at);
+        self.look_up(item, place, linear)
+            .map_or_else(Value::error, |number| Value::one(Ty::Number, number))
+    }
+
+    /// The number at a place of the world's frame; `None` after a report.
+    pub(super) fn look_up(
+        &mut self,
+        item: &'w TableItem,
+        place: (Reg, Reg),
+        linear: bool,
+    ) -> Option<Reg> {
         let place = self.turned(place);
         let over = self.rectangle(item.over.as_ref());
-        let (Some(table), Some(over)) = (self.table_of(item), over) else {
-            return Value::error();
-        };
+        let (table, over) = (self.table_of(item)?, over?);
         let x = self.share_of(place.0, over.low.0, over.high.0);
         let y = self.share_of(place.1, over.low.1, over.high.1);
-        Value::one(Ty::Number, self.code.look_up(table, (x, y), linear))
+        Some(self.code.look_up(table, (x, y), linear))
     }
 
     /// How far a coordinate is from one to another.
@@ -148,7 +157,8 @@ impl<'w> Lower<'_, 'w> {
                 continue;
             }
             for cell in content.split(separates) {
-                let word = span(at, cell.len());
+                let blanks = cell.len() - cell.trim_start().len();
+                let word = span(at + blanks, cell.trim().len());
                 at += cell.len()
                     + content[at + cell.len()..].chars().next().map_or(0, char::len_utf8);
                 // Several blanks are one separator; several commas have nothing between them.

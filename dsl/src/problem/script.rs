@@ -2,12 +2,24 @@
 
 use super::Code;
 use crate::source::Source;
+use setpiece_scenario::NamedKind;
 
 /// Checks scripts against the engine's hook API, which the compiler does not know.
 pub trait ScriptApi {
     /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done`
-    /// or `act`) and finds these names in `ctx.params`.
-    fn check(&self, script: &Source, hook: &str, params: &[&str]) -> Vec<ScriptProblem>;
+    /// or `act`).
+    fn check(&self, script: &Source, hook: &str, sight: &ScriptSight<'_>) -> Vec<ScriptProblem>;
+}
+
+/// The names that a script may read.
+#[derive(Clone, Debug, Default)]
+pub struct ScriptSight<'a> {
+    /// Those in `ctx.params`.
+    pub params: Vec<&'a str>,
+    /// Those in `named` that the script mentions.
+    pub named: Vec<(&'a str, NamedKind)>,
+    /// Every name that it might have meant instead.
+    pub others: Vec<&'a str>,
 }
 
 /// A fault of a script.

@@ -165,7 +165,7 @@ pub(crate) struct FlatTeam<'a> {
     pub(crate) each: Vec<(&'a Ident, &'a [Field])>,
     /// `GK absent`
     pub(crate) absent: Vec<Spanned<Role>>,
-    /// Options of a parent that a child writes anew: the parent's and the child's.
+    /// Options of a parent that a child writes again: the parent's and the child's.
     pub(crate) rewritten: Vec<(&'a Field, &'a Field)>,
 }
 

@@ -31,6 +31,7 @@ fn script_reward(source: &str) -> Scenario {
         name: "own.rhai".to_owned(),
         at: (1, 1),
         source: source.to_owned(),
+        named: Vec::new(),
     });
     scenario.rewards = vec![Reward {
         name: "own".to_owned(),
@@ -202,6 +203,7 @@ fn a_done_hook_ends_with_its_label() {
         name: "own.rhai".to_owned(),
         at: (1, 1),
         source: source.to_owned(),
+        named: Vec::new(),
     });
     let (verdict, label) = (Some(Verdict::Failure), "script".to_owned());
     scenario.endings.list.push(Ending { verdict, label, when: None, script: Some(0) });

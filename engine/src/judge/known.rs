@@ -2,7 +2,7 @@
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::Input;
-use crate::judge::script::{HookScene, Scripts, Shelf};
+use crate::judge::script::{EpisodeNames, HookScene, Scripts, Shelf};
 use crate::judge::view::{MatchView, Sight};
 use crate::random::{Purpose, Stream};
 use crate::snapshot::{Archive, SnapshotError};
@@ -76,17 +76,13 @@ impl Known {
         self.params.clear();
         self.params.extend_from_slice(params);
         (self.seed, self.index) = (seed, index);
+        self.scene = None;
         self.begin_round(given);
         self.scene = self.scripted.then(|| {
             let random = Stream::new(seed, index, self.purpose);
-            Arc::new(HookScene::new(
-                MatchView::EMPTY,
-                MatchView::EMPTY,
-                &[],
-                self.scripts.params(params),
-                random,
-                self.key(),
-            ))
+            let (nothing, shown) = (MatchView::EMPTY, self.scripts.params(params));
+            let scene = HookScene::new(nothing, nothing, &[], shown, random, self.key());
+            Arc::new(scene.in_episode(self.names()))
         });
     }
 
@@ -96,6 +92,17 @@ impl Known {
         self.lets.extend_from_slice(given.lets);
         (self.round, self.rounds) = (given.round, given.rounds);
         self.round_start = given.round_start;
+        self.rename();
+    }
+
+    /// Lets scripts read the names of this round.
+    fn rename(&mut self) {
+        self.scene = self.scene.take().map(|scene| Arc::new(scene.renamed(self.names())));
+    }
+
+    /// What scripts read by name in this round.
+    fn names(&self) -> Arc<EpisodeNames> {
+        self.scripts.names(&self.params, &self.lets, (self.round, self.round_start))
     }
 
     /// Whether the episode has no more rounds.
@@ -110,6 +117,9 @@ impl Known {
         shelf: &mut Shelf,
     ) -> Result<(), SnapshotError> {
         shelf.archive("scene", &mut self.scene, archive)?;
+        if archive.is_reading() && self.scripted {
+            shelf.name(&self.names());
+        }
         if self.scene.is_some() == self.scripted {
             return Ok(());
         }
@@ -132,6 +142,7 @@ impl Known {
     /// Replaces the scripts.
     pub fn adopt(&mut self, scripts: Scripts) {
         self.scripts = scripts;
+        self.rename();
     }
 
     /// The scripts.

@@ -20,11 +20,11 @@ mod limits;
 mod place;
 mod words;
 
-pub(crate) use api::Shelf;
 pub use api::{Argument, HookScene, Member, Params, Perspective, Subject, functions, members};
-pub use check::{ScriptFault, ScriptFaultKind, check_script};
+pub(crate) use api::{EpisodeNames, Shelf};
+pub use check::{ScriptFault, ScriptFaultKind, ScriptNames, check_script};
 
-use api::{ShownState, events_of};
+use api::{NamedList, NamedProgram, ShownState, events_of};
 use budget::Edits;
 use call::CompiledScript;
 use hooks::{DONE, RESET, REWARD};
@@ -120,6 +120,7 @@ struct Compiled {
     reads_events: bool,
     /// Whether it has a `reset` hook.
     resets: bool,
+    named: NamedList,
     /// Its share of the memory of an episode, one for each of the players and scripts.
     memory_bytes: usize,
 }
@@ -157,6 +158,7 @@ impl Scripts {
             Ok(Compiled {
                 resets,
                 memory_bytes,
+                named: NamedProgram::list(scenario, &script.named),
                 name: script.name.clone(),
                 at: script.at,
                 source: script.source.clone(),
@@ -199,6 +201,22 @@ impl Scripts {
             .zip(values)
             .map(|(param, &value)| (param.name.as_str().into(), shown(param, value)));
         Arc::new(map.collect())
+    }
+
+    /// What scripts read by name in an episode with these values.
+    pub(crate) fn names(
+        &self,
+        params: &[f64],
+        lets: &[f64],
+        (round, round_start): (u32, u32),
+    ) -> Arc<EpisodeNames> {
+        Arc::new(EpisodeNames {
+            scripts: self.list.iter().map(|compiled| compiled.named.clone()).collect(),
+            params: params.to_vec(),
+            lets: lets.to_vec(),
+            round,
+            round_start,
+        })
     }
 
     /// Calls a script's `reward` hook.
@@ -266,7 +284,7 @@ impl Scripts {
         let own =
             (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
         let seen = own.as_ref().unwrap_or(scene);
-        let now = ShownState::now(seen, perspective);
+        let now = ShownState::now(seen, perspective, script);
         compiled.begin(&now, memory)?;
         let called = compiled.call(HOOK, (now.ctx(), now.me(), now.clone()), memory, seen);
         if let Some(own) = &own {
@@ -297,10 +315,10 @@ impl Scripts {
         let own =
             (!arguments.is_empty()).then(|| Arc::new(scene.with_arguments(perspective, arguments)));
         let seen = own.as_ref().unwrap_or(scene);
-        let now = ShownState::now(seen, perspective);
+        let now = ShownState::now(seen, perspective, script);
         compiled.begin(&now, memory)?;
         let events = if compiled.reads_events { events_of(&now) } else { Array::new() };
-        let arguments = (now.ctx(), now.clone(), ShownState::prev(seen, perspective), events);
+        let arguments = (now.ctx(), now.clone(), now.before(), events);
         let called = compiled.call(hook, arguments, memory, seen);
         if let Some(own) = &own {
             scene.take_random(own);

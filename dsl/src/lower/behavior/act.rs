@@ -15,7 +15,7 @@ impl<'w> BehaviorWriter<'_, 'w> {
             DoWhat::Named { name, args, span } => (name, args.as_slice(), *span),
             DoWhat::Script(script) => {
                 self.refuse_sprint(stmt, "a script");
-                let index = crate::lower::script::embed(self.lower.world, script, "act", &[]);
+                let index = crate::lower::script::embed(&self.lower, script, "act", &[]);
                 let (until, seconds) = self.clauses(stmt);
                 if let Some(script) = index {
                     let act = Act::Script { script, args: Vec::new() };

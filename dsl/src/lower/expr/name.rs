@@ -129,7 +129,11 @@ impl<'w> Lower<'_, 'w> {
         self.fail(Problem::new(span, Scopes::ChangesWithinStep { name: name.to_owned() }))
     }
 
-    fn scenario_name(&mut self, name: &'w str, span: Span) -> Option<Value<'w>> {
+    pub(in super::super) fn scenario_name(
+        &mut self,
+        name: &'w str,
+        span: Span,
+    ) -> Option<Value<'w>> {
         let world = self.world;
         let named = world.flat.named(name);
         if let Some(Named::Param(at)) = named
@@ -198,7 +202,7 @@ impl<'w> Lower<'_, 'w> {
         Some(Value::one(Ty::Player, self.code.constant(f64::from(player.id))))
     }
 
-    pub(super) fn file_name(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
+    pub(in super::super) fn file_name(&mut self, name: &str, span: Span) -> Option<Value<'w>> {
         let library = self.world.library;
         let found = library.find(span.file, name)?;
         if let Some(problem) = library.ambiguous(span.file, name, span) {

@@ -320,7 +320,7 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
     pub(super) fn script(&mut self, script: &'w ScriptRef) -> Reg {
         let args = self.lower.script_args(self.params.iter().copied(), false);
         let own: Vec<&str> = args.iter().map(|arg| arg.name.as_str()).collect();
-        let Some(index) = embed(self.lower.world, script, "reward", &own) else {
+        let Some(index) = embed(self.lower, script, "reward", &own) else {
             return self.lower.code.unknown();
         };
         let known = self.hooks.iter().find(|hook| hook.script == index).map(|hook| hook.cell);

@@ -117,9 +117,10 @@ facts! {
                 format!("says nothing of the {team} team"),
             )
             .help(format!("write `{team}: 0` beside it, or list the players that are meant, `{team}: [NAME]`")),
-        /// An option that was written by an inherited parameter is written anew, and nothing else
+        /// An option that was written by an inherited parameter is written again, and nothing else
         /// reads the parameter.
-        DeadParameter { name: String, parent: String, value: String, wrote: Span } = Code::DeadParameter =>
+        DeadParameter { name: String, parent: String, value: String, wrote: Span }
+            = Code::DeadParameter =>
             say(
                 format!("the inherited parameter `{name}` does nothing here"),
                 "written without it",

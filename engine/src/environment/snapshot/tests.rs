@@ -286,6 +286,7 @@ fn scripted(source: &str) -> Scenario {
         name: "own.rhai".to_owned(),
         at: (1, 1),
         source: source.to_owned(),
+        named: Vec::new(),
     });
     let body = RewardBody {
         init: Program { code: Vec::new(), cells: 1, ..Program::default() },

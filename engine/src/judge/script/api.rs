@@ -8,6 +8,7 @@ mod convert;
 mod functions;
 mod getters;
 mod kept;
+mod named;
 mod table;
 
 pub(super) use convert::{to_number, type_words};
@@ -15,6 +16,8 @@ pub(super) use functions::function;
 pub use functions::functions;
 pub(crate) use kept::Shelf;
 pub(super) use kept::scene_of;
+pub(crate) use named::EpisodeNames;
+pub(super) use named::{NamedList, NamedProgram, SeenRegion, SeenTable, register_named};
 pub use table::{Member, Subject, members};
 
 use crate::judge::script::budget::count_operations;
@@ -25,7 +28,7 @@ use crate::state::event::Event;
 use rhai::{Array, Dynamic, Engine};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{Team, Type};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// A scenario's parameters as scripts see them.
 pub type Params = Arc<rhai::Map>;
@@ -37,6 +40,8 @@ pub struct HookScene {
     prev: MatchView,
     events: Vec<Event>,
     params: Params,
+    /// What names stand for; none in a scene from a snapshot until its episode is read.
+    episode: OnceLock<Arc<EpisodeNames>>,
     random: Mutex<Stream>,
     /// The episode's seed.
     pub seed: u64,
@@ -59,10 +64,23 @@ impl HookScene {
             prev,
             events: events.to_vec(),
             params,
+            episode: OnceLock::new(),
             random: Mutex::new(random),
             seed: key.0,
             index: key.1,
         }
+    }
+
+    /// The same scene in an episode with these names.
+    #[must_use]
+    pub(crate) fn in_episode(self, names: Arc<EpisodeNames>) -> HookScene {
+        HookScene { episode: OnceLock::from(names), ..self }
+    }
+
+    /// The same scene with other names, for scripts that have changed.
+    #[must_use]
+    pub(crate) fn renamed(&self, names: Arc<EpisodeNames>) -> HookScene {
+        self.followed_by(self.now, &self.prev, &self.events).in_episode(names)
     }
 
     /// Switches to another step.
@@ -75,14 +93,9 @@ impl HookScene {
     /// Creates a scene of another step that continues this one's random numbers.
     #[must_use]
     pub fn followed_by(&self, now: MatchView, prev: &MatchView, events: &[Event]) -> HookScene {
-        HookScene::new(
-            now,
-            *prev,
-            events,
-            self.params.clone(),
-            self.random(),
-            (self.seed, self.index),
-        )
+        let key = (self.seed, self.index);
+        let scene = HookScene::new(now, *prev, events, self.params.clone(), self.random(), key);
+        HookScene { episode: self.episode.clone(), ..scene }
     }
 
     /// The same scene with a behaviour's arguments in `ctx.params`.
@@ -92,23 +105,13 @@ impl HookScene {
         perspective: Perspective,
         arguments: &[Argument<'_>],
     ) -> HookScene {
-        let sight = ShownState::now(self, perspective);
+        let sight = ShownState::now(self, perspective, 0);
         let mut params = (*self.params).clone();
         params.extend(
             arguments.iter().map(|argument| (argument.name.into(), sight.argument(argument))),
         );
-        let key = (self.seed, self.index);
-        HookScene {
-            params: Arc::new(params),
-            ..HookScene::new(
-                self.now,
-                self.prev,
-                &self.events,
-                Params::default(),
-                self.random(),
-                key,
-            )
-        }
+        let same = self.followed_by(self.now, &self.prev, &self.events);
+        HookScene { params: Arc::new(params), ..same }
     }
 
     /// Continues the random numbers of another scene.
@@ -154,6 +157,8 @@ pub struct Perspective {
 pub(super) struct ShownState {
     scene: Arc<HookScene>,
     perspective: Perspective,
+    /// Which script reads it.
+    script: u32,
     past: bool,
 }
 
@@ -188,12 +193,13 @@ pub(super) struct Vector {
 }
 
 impl ShownState {
-    pub(super) fn now(scene: &Arc<HookScene>, perspective: Perspective) -> ShownState {
-        ShownState { scene: scene.clone(), perspective, past: false }
+    pub(super) fn now(scene: &Arc<HookScene>, perspective: Perspective, script: u32) -> ShownState {
+        ShownState { scene: scene.clone(), perspective, script, past: false }
     }
 
-    pub(super) fn prev(scene: &Arc<HookScene>, perspective: Perspective) -> ShownState {
-        ShownState { scene: scene.clone(), perspective, past: true }
+    /// The state of the step before.
+    pub(super) fn before(&self) -> ShownState {
+        ShownState { past: true, ..self.clone() }
     }
 
     pub(super) fn ctx(&self) -> Ctx {
@@ -314,6 +320,8 @@ names_of_types! {
     SeenEvent: "event",
     Point: "point",
     Vector: "vector",
+    SeenRegion: "region",
+    SeenTable: "table",
 }
 
 /// Registers types, getters and functions.

@@ -8,6 +8,7 @@ use super::place::{definition, offset, word_at};
 use super::{host, words};
 use names::Names;
 use rhai::{AST, ASTNode, Expr, Position, Stmt};
+use setpiece_scenario::NamedKind;
 use std::ops::Range;
 
 /// Least similarity of a suggestion.
@@ -37,15 +38,26 @@ pub struct ScriptFault {
     pub help: Option<String>,
 }
 
+/// The names that a script may read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ScriptNames<'a> {
+    /// Those in `ctx.params`.
+    pub params: &'a [&'a str],
+    /// Those in `named`.
+    pub named: &'a [(&'a str, NamedKind)],
+    /// Names that it might have meant instead.
+    pub others: &'a [&'a str],
+}
+
 /// The most problems reported per script, because finding the place of each scans the script from
 /// its beginning.
 const FAULTS_MAX: usize = 100;
 
-/// Checks a script that is used as `hook` (`reward`, `done`, `act` or `reset`) and has these names
-/// in `ctx.params`.
+/// Checks a script that is used as `hook` (`reward`, `done`, `act` or `reset`) and may read these
+/// names.
 ///
 /// Problems are in text order. A script that isn't valid Rhai has only one.
-pub fn check_script(source: &str, hook: &str, params: &[&str]) -> Vec<ScriptFault> {
+pub fn check_script(source: &str, hook: &str, known: &ScriptNames<'_>) -> Vec<ScriptFault> {
     let ast = match host::read(source) {
         Ok(ast) => ast,
         Err(error) => {
@@ -65,7 +77,7 @@ pub fn check_script(source: &str, hook: &str, params: &[&str]) -> Vec<ScriptFaul
     let mut faults: Vec<ScriptFault> = check_hook(source, hook, &ast).into_iter().collect();
     faults.extend(check_reset(source, &ast));
     faults.extend(check_top_level(source, &ast));
-    let mut names = Names::of(source, hook, params, &ast);
+    let mut names = Names::of(source, hook, *known, &ast);
     ast.walk(&mut |path: &[ASTNode]| {
         names.visit(path);
         names.faults.len() < FAULTS_MAX

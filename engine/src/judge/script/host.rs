@@ -71,6 +71,7 @@ fn build() -> Engine {
     let mut engine = plain_engine();
     register_maths(&mut engine);
     api::register(&mut engine);
+    api::register_named(&mut engine);
     for word in DISABLED {
         engine.disable_symbol(*word);
     }

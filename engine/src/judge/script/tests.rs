@@ -33,6 +33,7 @@ fn scripts(source: &str) -> Scripts {
         name: "own.rhai".to_owned(),
         at: (1, 1),
         source: source.to_owned(),
+        named: Vec::new(),
     });
     Scripts::compile(&scenario).unwrap()
 }
@@ -217,8 +218,11 @@ fn the_sandbox_holds() {
         .unwrap_err();
     assert!(error.message.contains("deeper"), "{error}");
     for text in ["eval(\"1\")", "import \"x\" as y;", "print(1)", "debug(1)", "2.0 ** 3.0"] {
-        let faults =
-            check_script(&format!("fn reward(ctx, now, prev, events) {{ {text} }}"), "reward", &[]);
+        let faults = check_script(
+            &format!("fn reward(ctx, now, prev, events) {{ {text} }}"),
+            "reward",
+            &ScriptNames::default(),
+        );
         assert!(!faults.is_empty(), "{text}");
     }
     for call in ["timestamp()", "sleep(1)", "exit()", "parse_json(\"1\")"] {
@@ -360,7 +364,12 @@ fn memory_is_bounded_and_a_failure_names_the_files_line() {
     }
     let mut scenario = scenario(&[]);
     let source = "fn reward(ctx, now, prev, events) { throw 1 }\nfn f() { 1 }".to_owned();
-    scenario.scripts.push(Script { name: "inline in a.pitch".to_owned(), at: (9, 22), source });
+    scenario.scripts.push(Script {
+        name: "inline in a.pitch".to_owned(),
+        at: (9, 22),
+        source,
+        named: Vec::new(),
+    });
     let scripts = Scripts::compile(&scenario).unwrap();
     let failed =
         scripts.reward(0, &scene(&[]), perspective, &[], &mut Memory::default()).unwrap_err();
@@ -387,7 +396,8 @@ fn events_are_there_for_who_looks() {
 fn faults(body: &str) -> Vec<(ScriptFaultKind, String, Option<String>)> {
     let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
     let of = |fault: ScriptFault| (fault.kind, source[fault.range].to_owned(), fault.help);
-    check_script(&source, "reward", &["pace"]).into_iter().map(of).collect()
+    let known = ScriptNames { params: &["pace"], ..ScriptNames::default() };
+    check_script(&source, "reward", &known).into_iter().map(of).collect()
 }
 
 #[test]
@@ -452,7 +462,10 @@ fn arguments_words_and_changes_are_checked() {
         []
     );
     let of = |source: &str, hook: &str| -> Vec<String> {
-        check_script(source, hook, &[]).into_iter().map(|fault| fault.message).collect()
+        check_script(source, hook, &ScriptNames::default())
+            .into_iter()
+            .map(|fault| fault.message)
+            .collect()
     };
     let own = "fn h(a) { a }\nfn h(a, b) { b }\nfn reward(ctx, now, prev, events) { h(1) + h(1, 2) + 1.h(2) + h(1, 2, 3) }";
     assert_eq!(of(own, "reward"), ["`h` takes 1 or 2 arguments, found 3"]);
@@ -462,18 +475,19 @@ fn arguments_words_and_changes_are_checked() {
 
 #[test]
 fn hooks_are_checked() {
-    let missing = check_script("fn rewards(ctx, now, prev, events) { 0 }", "reward", &[]);
+    let missing =
+        check_script("fn rewards(ctx, now, prev, events) { 0 }", "reward", &ScriptNames::default());
     assert_eq!((missing.len(), missing[0].kind), (1, ScriptFaultKind::Hook));
     assert_eq!(missing[0].help.as_deref(), Some("write `fn reward(ctx, now, prev, events) { … }`"));
     let source = "\n fn reward(now) { 0 }";
-    let few = check_script(source, "reward", &[]);
+    let few = check_script(source, "reward", &ScriptNames::default());
     assert_eq!((few[0].kind, &source[few[0].range.clone()]), (ScriptFaultKind::Hook, "reward"));
     assert_eq!(few[0].message, "`reward` takes 4 arguments, found 1");
     let source = "fn reward(ctx, now, prev, events) {\n    1 + \n}";
-    let broken = check_script(source, "reward", &[]);
+    let broken = check_script(source, "reward", &ScriptNames::default());
     assert_eq!(broken[0].kind, ScriptFaultKind::Syntax);
     assert_eq!(&source[broken[0].range.clone()], "}");
-    assert_eq!(check_script("", "reward", &[])[0].kind, ScriptFaultKind::Hook);
+    assert_eq!(check_script("", "reward", &ScriptNames::default())[0].kind, ScriptFaultKind::Hook);
 }
 
 #[test]

@@ -43,6 +43,8 @@ const OWN: &[Function] = &[
         &[2, 3],
         "count(events, kind), count(events, kind, team): the number of events of a kind, \"shot\" or \"pass completed\"; team is \"us\" or \"them\"",
     ),
+    own("at", &[2], "table.at(place): the table's number in the cell where the place lies"),
+    own("linear", &[2], "table.linear(place): linear between the centres of the table's cells"),
     own("clamp", &[3], "clamp(x, low, high): x limited to low..high"),
     own("smoothstep", &[3], "smoothstep(low, high, x): 0 below low, 1 above high, smooth between"),
     own("pow", &[2], "pow(x, y): x to the power y"),
@@ -340,7 +342,7 @@ impl Placed for SeenEvent {
 }
 
 /// The place of a player, the ball, an event or a point.
-fn place(of: &Dynamic) -> Failable<Point> {
+pub(super) fn place(of: &Dynamic) -> Failable<Point> {
     fn of_a<T: Placed>(of: &Dynamic) -> Option<Point> {
         of.read_lock::<T>().map(|it| it.place())
     }

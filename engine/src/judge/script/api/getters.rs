@@ -27,6 +27,9 @@ pub(super) fn register(engine: &mut Engine) {
             | Subject::Events
             | Subject::Params
             | Subject::Memory
+            | Subject::Named
+            | Subject::Region
+            | Subject::Table
             | Subject::Plain => {}
         }
     }
@@ -55,9 +58,14 @@ pub(super) fn is_registered(of: Subject, name: &str) -> bool {
         Subject::Event => event(name).is_some(),
         Subject::Point => point(name).is_some(),
         Subject::Vector => vector(name).is_some(),
-        Subject::Players | Subject::Events | Subject::Params | Subject::Memory | Subject::Plain => {
-            true
-        }
+        Subject::Players
+        | Subject::Events
+        | Subject::Params
+        | Subject::Memory
+        | Subject::Named
+        | Subject::Region
+        | Subject::Table
+        | Subject::Plain => true,
     }
 }
 
@@ -77,6 +85,7 @@ fn heading(x: f64, y: f64) -> Dynamic {
 fn ctx(name: &str) -> Option<Getter<Ctx>> {
     Some(match name {
         "params" => |ctx| Dynamic::from_map((*ctx.0.scene.params).clone()),
+        "named" => |ctx| ctx.0.named(),
         "side" => |ctx| ctx.0.perspective.us.name().into(),
         "agent" => |ctx| whole(ctx.0.perspective.agent as i64),
         "index" => |ctx| whole(ctx.0.scene.index as i64),
@@ -87,6 +96,7 @@ fn ctx(name: &str) -> Option<Getter<Ctx>> {
 
 fn state(name: &str) -> Option<Getter<ShownState>> {
     Some(match name {
+        "named" => |now| now.named(),
         "ball" => |now| Dynamic::from(SeenBall(now.clone())),
         "us" => |now| Dynamic::from(SeenTeam(now.clone(), now.perspective.us)),
         "them" => |now| Dynamic::from(SeenTeam(now.clone(), now.perspective.us.other())),

@@ -7,7 +7,7 @@
 
 use super::convert::type_words;
 use super::{Ctx, Point, SeenBall, SeenEvent, SeenPlayer, SeenScore, SeenTeam, ShownState, Vector};
-use super::{HookScene, Perspective};
+use super::{EpisodeNames, HookScene, Perspective, SeenRegion, SeenTable};
 use crate::judge::script::host::MEMORIES_BYTES_MAX;
 use crate::judge::script::limits::{EXPRESSION_DEPTH_MAX, MAP_MAX};
 use crate::judge::script::{Memory, host};
@@ -82,6 +82,8 @@ enum ShownKind {
     Side(Team),
     Score,
     Event(Event),
+    Region(u32),
+    Table(u32),
 }
 
 /// The perspective and the scene.
@@ -91,6 +93,7 @@ struct Eye {
     us: Team,
     me: Option<PlayerId>,
     agent: u32,
+    script: u32,
     past: bool,
 }
 
@@ -159,6 +162,13 @@ impl Shelf {
             }
         }
         Ok(())
+    }
+
+    /// Gives the scenes that were read the names of their episode.
+    pub(crate) fn name(&self, names: &Arc<EpisodeNames>) {
+        for scene in &self.scenes {
+            scene.episode.get_or_init(|| names.clone());
+        }
     }
 
     fn stage(&mut self, kept: KeptScene) -> Result<HookScene, String> {
@@ -235,7 +245,8 @@ impl Shelf {
         };
         let Perspective { us, me, agent } = sight.perspective;
         let scene = self.place(&sight.scene)?;
-        Ok(KeptValue::Shown(shown, Eye { scene, us, me, agent: agent as u32, past: sight.past }))
+        let (script, past) = (sight.script, sight.past);
+        Ok(KeptValue::Shown(shown, Eye { scene, us, me, agent: agent as u32, script, past }))
     }
 
     /// Decodes a value from nodes.
@@ -290,7 +301,8 @@ impl Shelf {
 
     fn show(&self, shown: ShownKind, eye: &Eye) -> Result<Dynamic, String> {
         let perspective = Perspective { us: eye.us, me: eye.me, agent: eye.agent as usize };
-        let sight = ShownState { scene: self.scene(eye.scene)?, perspective, past: eye.past };
+        let (scene, script, past) = (self.scene(eye.scene)?, eye.script, eye.past);
+        let sight = ShownState { scene, perspective, script, past };
         Ok(match shown {
             ShownKind::State => Dynamic::from(sight),
             ShownKind::Ctx => Dynamic::from(Ctx(sight)),
@@ -299,6 +311,8 @@ impl Shelf {
             ShownKind::Side(team) => Dynamic::from(SeenTeam(sight, team)),
             ShownKind::Score => Dynamic::from(SeenScore(sight)),
             ShownKind::Event(event) => Dynamic::from(SeenEvent(sight, event)),
+            ShownKind::Region(at) => Dynamic::from(SeenRegion(sight, at)),
+            ShownKind::Table(at) => Dynamic::from(SeenTable(sight, at)),
         })
     }
 }
@@ -330,6 +344,10 @@ fn shown(value: &Dynamic) -> Option<(ShownKind, ShownState)> {
         (ShownKind::Score, score.0.clone())
     } else if let Some(happening) = value.read_lock::<SeenEvent>() {
         (ShownKind::Event(happening.1), happening.0.clone())
+    } else if let Some(region) = value.read_lock::<SeenRegion>() {
+        (ShownKind::Region(region.1), region.0.clone())
+    } else if let Some(table) = value.read_lock::<SeenTable>() {
+        (ShownKind::Table(table.1), table.0.clone())
     } else {
         return None;
     })

@@ -31,6 +31,12 @@ pub enum Subject {
     Params,
     /// A script's memory, with the script's own names.
     Memory,
+    /// What has a name in the scenario or the file.
+    Named,
+    /// A region.
+    Region,
+    /// A table of numbers.
+    Table,
     /// A number, word or truth value.
     Plain,
 }
@@ -52,6 +58,9 @@ impl Subject {
             Subject::Events => "an array of events",
             Subject::Params => "the parameters",
             Subject::Memory => "the script's memory",
+            Subject::Named => "what has a name",
+            Subject::Region => "a region",
+            Subject::Table => "a table",
             Subject::Plain => "a plain value",
         }
     }
@@ -77,6 +86,8 @@ const fn row(of: Subject, name: &'static str, gives: Subject, doc: &'static str)
 /// Names for scripts, in addition to the language's properties.
 const EXTRA: &[Member] = &[
     row(Subject::Ctx, "params", Subject::Params, "the scenario's parameters, SI units"),
+    row(Subject::Ctx, "named", Subject::Named, "what the scenario and the file name"),
+    row(Subject::State, "named", Subject::Named, "the same, as it is in this state"),
     row(Subject::Ctx, "side", Subject::Plain, "the judged side: left or right"),
     row(Subject::Ctx, "agent", Subject::Plain, "the agent's index, from 0"),
     row(Subject::Ctx, "index", Subject::Plain, "the episode's index"),

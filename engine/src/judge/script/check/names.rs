@@ -7,13 +7,17 @@
 use super::super::api::{Subject, function, functions, members};
 use super::super::hooks::{DONE, hook_arguments};
 use super::super::place::word_at;
-use super::{ScriptFault, ScriptFaultKind, position_offset, suggest};
+use super::{ScriptFault, ScriptFaultKind, ScriptNames, position_offset, suggest};
 use rhai::{AST, ASTFlags, ASTNode, Expr, FnCallExpr, Position, Stmt};
-use setpiece_scenario::vocabulary::{EventKind, Qualifier};
+use setpiece_scenario::NamedKind;
+use setpiece_scenario::vocabulary::{EventKind, Qualifier, Type};
 use std::collections::BTreeMap;
 
 /// The agent's own player, which only rewards and behaviours have.
 const ME: &str = "me";
+
+/// What can be read by name.
+const NAMED_HELP: &str = "a script reads constants, regions and tables of its file; in a scenario also its players, `let`s, constants and regions";
 
 /// What is known about a script's names.
 pub(super) struct Names<'a> {
@@ -25,7 +29,7 @@ pub(super) struct Names<'a> {
     /// Names and numbers of arguments.
     own_functions: Vec<(String, usize)>,
     hook: &'a str,
-    params: &'a [&'a str],
+    known: ScriptNames<'a>,
     pub(super) faults: Vec<ScriptFault>,
 }
 
@@ -33,7 +37,7 @@ impl<'a> Names<'a> {
     pub(super) fn of(
         source: &'a str,
         hook: &'a str,
-        params: &'a [&'a str],
+        known: ScriptNames<'a>,
         ast: &AST,
     ) -> Names<'a> {
         let mut names = Names {
@@ -45,7 +49,7 @@ impl<'a> Names<'a> {
                 .map(|f| (f.name.to_owned(), f.params.len()))
                 .collect(),
             hook,
-            params,
+            known,
             faults: Vec::new(),
         };
         for function in ast.iter_functions() {
@@ -231,6 +235,7 @@ impl<'a> Names<'a> {
                 Subject::Plain
                 | Subject::Memory
                 | Subject::Params
+                | Subject::Named
                 | Subject::Players
                 | Subject::Events,
             ) => {
@@ -248,8 +253,9 @@ impl<'a> Names<'a> {
         let candidates = members()
             .filter(|member| of.is_none_or(|of| member.of == of))
             .map(|member| member.name);
-        let params = self.params.iter().copied().filter(|_| of == Some(Subject::Params));
-        let mut help = suggest(name, candidates.chain(params));
+        let params = self.known.params.iter().filter(|_| of == Some(Subject::Params));
+        let others = self.known.others.iter().filter(|_| of == Some(Subject::Named));
+        let mut help = suggest(name, candidates.chain(params.chain(others).copied()));
         let message = match of {
             Some(Subject::State) if name == ME => {
                 help = Some(
@@ -259,6 +265,14 @@ impl<'a> Names<'a> {
                 "nobody is `me` where an episode's end is judged".to_owned()
             }
             Some(Subject::Params) => format!("no parameter is called `{name}`"),
+            Some(Subject::Named) if self.known.others.contains(&name) => {
+                help = Some("a script reads players, points, teams, numbers, truth values, regions and tables".to_owned());
+                format!("a script can't read a value of the kind of `{name}`")
+            }
+            Some(Subject::Named) => {
+                help = help.or_else(|| Some(NAMED_HELP.to_owned()));
+                format!("nothing that a script can read here is called `{name}`")
+            }
             Some(of) => format!("{} has no property `{name}`", of.words()),
             None => format!("unknown property `{name}`"),
         };
@@ -340,12 +354,25 @@ impl<'a> Names<'a> {
         match of {
             Some(Subject::Memory) => None,
             Some(of @ Subject::Params) => {
-                if !self.params.contains(&name) && !is_function() {
+                if !self.known.params.contains(&name) && !is_function() {
                     unknown(Some(of), name, position);
                 }
                 None
             }
-            Some(of @ (Subject::Players | Subject::Events | Subject::Plain)) => {
+            Some(of @ Subject::Named) => {
+                let known = self.known.named.iter().find(|(known, _)| *known == name);
+                if known.is_none() && !is_function() {
+                    unknown(Some(of), name, position);
+                }
+                known.map(|(_, kind)| subject_of(*kind))
+            }
+            Some(
+                of @ (Subject::Players
+                | Subject::Events
+                | Subject::Region
+                | Subject::Table
+                | Subject::Plain),
+            ) => {
                 if !is_function() {
                     unknown(Some(of), name, position);
                 }
@@ -368,6 +395,17 @@ impl<'a> Names<'a> {
                 None
             }
         }
+    }
+}
+
+/// What a name stands for.
+fn subject_of(kind: NamedKind) -> Subject {
+    match kind {
+        NamedKind::Value(Type::Player) => Subject::Player,
+        NamedKind::Value(Type::Point) => Subject::Point,
+        NamedKind::Value(_) => Subject::Plain,
+        NamedKind::Region => Subject::Region,
+        NamedKind::Table => Subject::Table,
     }
 }
 

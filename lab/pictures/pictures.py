@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from drawing import CYAN, GOLD, RED, WHITE, Panel, save, sheet
+import setpiece
 from numpy.typing import NDArray
 
-import setpiece
+from drawing import CYAN, GOLD, RED, WHITE, Panel, save, sheet
 
 ROOT = Path(__file__).resolve().parents[2]
 METRES = np.array([54.4, 83.6])

@@ -207,7 +207,7 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// A truth value; `better` knows what was meant by some values that are none.
-    fn condition_or(
+    pub(crate) fn condition_or(
         &mut self,
         expr: &'w Expr,
         better: impl FnOnce(&Self, Ty) -> Option<String>,

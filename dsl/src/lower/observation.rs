@@ -2,13 +2,14 @@
 
 use super::step_world::StepWorld;
 use super::value::{LiteralFrame, Repr, Scope, Value};
-use super::{Lower, ProgramStage};
-use crate::ast::{Expr, Observed};
+use super::{Lower, ProgramStage, World};
+use crate::ast::{Expr, ExprKind, Observed, Span};
 use crate::check::types::Ty;
-use crate::problem::Problem;
 use crate::problem::facts::{Bounds, Chance, Instead, Names, Rewards};
+use crate::problem::{Code, Problem};
 use setpiece_scenario::pitch::{STEPS_PER_S, X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::{BinaryOp, Instr, Observation, ObservedValue, Reg};
+use std::collections::BTreeSet;
 
 /// Most numbers of an observation.
 const NUMBERS_MAX: usize = 10_000;
@@ -32,18 +33,27 @@ pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation>
     let us = lower.code.us();
     lower.team = Some(us);
     let (mut values, mut history): (Vec<ObservedValue>, u32) = (Vec::new(), 0);
+    let (mut taken, mut missed) = (BTreeSet::new(), None);
     for line in observed {
+        if missed.take().is_some_and(|missed| is_beside(world, missed, line.value.span)) {
+            continue;
+        }
         let label = line.label.as_ref();
         let name = label.map_or_else(|| world.text(line.value.span), |label| label.node.clone());
-        if let Some(label) =
-            label.filter(|label| values.iter().any(|known| known.name == label.node))
-        {
-            world.report(Problem::new(
-                label.span,
-                Names::ObservedTwice { label: label.node.clone() },
-            ));
-        }
+        let (known, found) = (values.len(), world.problems.borrow().len());
         history = history.max(lower.line(line, &name, &mut values));
+        // Behind a name that nothing has may stand what was meant to be its value.
+        let is_unknown = |problem: &Problem| problem.code() == Code::UnknownName;
+        missed = (matches!(line.value.kind, ExprKind::Name(_))
+            && world.problems.borrow().iter().skip(found).any(is_unknown))
+        .then_some(line.value.span);
+        let mut names = values.iter().skip(known).map(|value| &value.name);
+        // The numbers of a line have names of their own: those of a place end in `.x` and `.y`.
+        if let Some(label) = label.filter(|_| names.any(|name| taken.contains(name))) {
+            let label = (label.span, label.node.clone());
+            world.report(Problem::new(label.0, Names::ObservedTwice { label: label.1 }));
+        }
+        taken.extend(values.iter().skip(known).map(|value| value.name.clone()));
     }
     if observed.is_empty() || values.len() > NUMBERS_MAX {
         world.report(Problem::new(span, Rewards::Numbers { most: NUMBERS_MAX }));
@@ -56,6 +66,12 @@ pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation>
         value.delay = value.delay.map(|delay| layout.reg(delay));
     }
     Some(Observation { program, values, history })
+}
+
+/// Whether a part follows another one on its line, without a comma.
+fn is_beside(world: &World<'_>, first: Span, next: Span) -> bool {
+    let between = Span { start: first.end, end: next.start, ..first };
+    !world.library.sources.text(between).contains(['\n', ','])
 }
 
 impl<'w> Lower<'_, 'w> {

@@ -68,8 +68,13 @@ impl<'w> Lower<'_, 'w> {
                     }
                 }
                 if let Some(when) = player.when {
-                    let reg =
-                        lower.drawing(&format!("{stream} when"), |lower| lower.condition(when));
+                    let share = |lower: &Self, ty| {
+                        let share = lower.world.text(when.span);
+                        (ty == Ty::Percent).then(|| format!("maybe {share} {} …", player.role))
+                    };
+                    let reg = lower.drawing(&format!("{stream} when"), |lower| {
+                        lower.condition_or(when, share)
+                    });
                     if lower.is_drawn(reg) {
                         presence.active = Some(lower.both(presence.active, reg));
                     } else {

@@ -210,7 +210,8 @@ pub(super) fn copies<'w>(
     if let Some(least) = &player.least {
         if least.node >= count {
             let fact = Players::NumberEndsSwapped { least: least.node, most: count };
-            world.report(Problem::new(least.span, fact));
+            let most = player.count.as_ref().map_or(least.span, |most| most.span);
+            world.report(Problem::new(least.span.to(most), fact));
         }
         for (before, one) in (0..).zip(&mut players) {
             one.numbered = Some(Numbered { before, least: least.node, most: count });
@@ -333,7 +334,14 @@ pub(super) fn apply_each<'w>(
 fn check_size(world: &World<'_>, players: &[Rostered<'_>], seats: usize, team: Team) {
     let extra = players.iter().find(|player| player.seat == TEAM_MAX);
     if let Some(extra) = extra.filter(|_| seats > TEAM_MAX) {
-        world.report(Problem::new(extra.span, Players::TooMany { team, most: TEAM_MAX }));
+        let of_line = || players.iter().filter(|player| player.span == extra.span);
+        let room = of_line().filter(|player| player.seat < TEAM_MAX).count();
+        let least = extra.numbered.map(|numbered| numbered.least);
+        let line = (of_line().count() > 1 && room > 0).then(|| match least {
+            Some(least) if (least as usize) < room => format!("{least}..{room} {}", extra.role),
+            _ => format!("{room} {}", extra.role),
+        });
+        world.report(Problem::new(extra.span, Players::TooMany { team, most: TEAM_MAX, line }));
     }
     let keepers: Vec<&Rostered<'_>> = players.iter().filter(|p| p.role == Role::GK).collect();
     for (nth, second) in keepers.iter().enumerate() {

@@ -102,6 +102,16 @@ impl Guess {
         }
     }
 
+    /// The same, but what was meant is written as `read` says; nothing is guessed where it can't be
+    /// read.
+    pub(crate) fn read_as(self, read: impl FnOnce(&str) -> Option<String>) -> Guess {
+        let meant = match self.meant {
+            Some(Meant::Name(name)) => read(&name).map(Meant::Name),
+            meant => meant,
+        };
+        Guess { meant, ..self }
+    }
+
     fn all(known: &[&str]) -> Guess {
         Guess { meant: None, known: known.iter().map(|&name| name.to_owned()).collect() }
     }

@@ -66,7 +66,7 @@ impl<'w> BehaviorWriter<'_, 'w> {
             return;
         }
         let done = self.drawing(|writer| {
-            let act = writer.act(primitive, args, span);
+            let act = writer.act("do", primitive, args, span);
             let (until, seconds) = writer.clauses(stmt);
             act.map(|act| Do { act, sprint: stmt.sprinting.is_some(), until, seconds })
         });
@@ -75,7 +75,7 @@ impl<'w> BehaviorWriter<'_, 'w> {
 
     /// One act, without a statement around it.
     pub(super) fn alone(&mut self, primitive: Primitive, args: &'w [Arg], span: Span) {
-        let act = self.drawing(|writer| writer.act(primitive, args, span));
+        let act = self.drawing(|writer| writer.act("ai:", primitive, args, span));
         let alone = |act| Node::Do(Do { act, sprint: false, until: None, seconds: None });
         self.nodes.extend(act.map(alone));
     }
@@ -104,7 +104,14 @@ impl<'w> BehaviorWriter<'_, 'w> {
         (until, seconds)
     }
 
-    fn act(&mut self, primitive: Primitive, args: &'w [Arg], span: Span) -> Option<Act> {
+    /// - `head`: what stands before it.
+    fn act(
+        &mut self,
+        head: &'static str,
+        primitive: Primitive,
+        args: &'w [Arg],
+        span: Span,
+    ) -> Option<Act> {
         use Primitive as P;
         let names: &[&str] = match primitive {
             P::MoveTo | P::DribbleTo => &["to"],
@@ -120,6 +127,7 @@ impl<'w> BehaviorWriter<'_, 'w> {
             self.lower.report(Problem::new(
                 span,
                 Behaviors::NoTarget {
+                    head,
                     primitive: primitive.name(),
                     is_player,
                     signature: signature(primitive.doc()),

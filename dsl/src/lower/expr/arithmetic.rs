@@ -473,7 +473,10 @@ impl<'w> Lower<'_, 'w> {
             ([r, s, t], true) if matches!(x.repr, Repr::Three(..)) => {
                 Value { ty, repr: Repr::Three(*r, *s, *t) }
             }
-            _ => self.fail(Problem::new(a.span.to(b.span), Types::NoChoiceOf { ty })),
+            _ => {
+                let values = [a, b].map(|value| self.world.text(value.span));
+                self.fail(Problem::new(a.span.to(b.span), Types::NoChoiceOf { ty, values }))
+            }
         }
     }
 
@@ -521,6 +524,10 @@ impl<'w> Lower<'_, 'w> {
         let Some(before) = self.before(what, span) else { return Value::error() };
         if now.is_error() || before.is_error() {
             return Value::error();
+        }
+        if !now.regs().is_empty() && now.regs() == before.regs() {
+            let text = self.world.text(what.span);
+            return self.fail(Problem::new(span, Scopes::NeverChanges { text }));
         }
         let different = self.equal(false, (&now, what), (&before, what));
         let mut reg = self.reg(&different);

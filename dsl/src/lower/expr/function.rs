@@ -6,7 +6,7 @@ use crate::ast::{Arg, Expr, Ident, Span};
 use crate::check::types::Ty;
 use crate::lower::builder::Builder;
 use crate::problem::Problem;
-use crate::problem::facts::{Calls, Chance, Types};
+use crate::problem::facts::{Calls, Chance, Instead, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{Field, Function};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
@@ -334,6 +334,11 @@ impl<'w> Lower<'_, 'w> {
 
     fn polar(&mut self, r: &'w Expr, angle: &'w Expr) -> Value<'w> {
         let size = self.expr(r);
+        if size.ty.is_plain() {
+            let text = self.world.text(r.span);
+            let instead = Instead::Distance { text };
+            return self.fail(self.mismatch_with(size.ty, Ty::LENGTH, r.span, instead));
+        }
         let (wanted, ty) = match size.ty {
             Ty::SPEED => (Ty::SPEED, Ty::Velocity),
             _ => (Ty::LENGTH, Ty::Vector),

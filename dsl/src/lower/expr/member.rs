@@ -44,7 +44,10 @@ impl<'w> Lower<'_, 'w> {
             }
             _ => {}
         }
-        let value = self.expr(of);
+        let value = match &of.kind {
+            ExprKind::Name(name) => self.name_before(name, of.span, true),
+            _ => self.expr(of),
+        };
         let name = member.node.as_str();
         if self.is_nobody(of) {
             return self.fail(Problem::new(

@@ -9,12 +9,18 @@ use crate::problem::facts::{BeforeOutside, Chance, Names, Scopes, Types, Use, Vi
 use crate::problem::{Code, Guess, Problem};
 use crate::resolve::Named;
 use setpiece_scenario::vocabulary::{
-    EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Team,
+    EventField, EventKind, Field, Owner, PROPERTIES, PitchRegion, Property, Role, Team,
 };
 use setpiece_scenario::{Reg, UnaryOp, When};
 
 impl<'w> Lower<'_, 'w> {
+    /// A name that stands for a value.
     pub(super) fn name(&mut self, name: &'w str, span: Span) -> Value<'w> {
+        self.name_before(name, span, false)
+    }
+
+    /// The same; `has_member`: a property of it is asked for.
+    pub(super) fn name_before(&mut self, name: &'w str, span: Span, has_member: bool) -> Value<'w> {
         if let Some(binding) = self.scope.find(name).cloned() {
             return self.local(name, binding, span);
         }
@@ -50,10 +56,20 @@ impl<'w> Lower<'_, 'w> {
         if matches!(self.stage, ProgramStage::Reward | ProgramStage::Ending) {
             candidates.extend(EventKind::ALL.iter().map(|kind| kind.name().to_owned()));
         }
+        if matches!(self.stage, ProgramStage::Observation) {
+            let sight = ["noise", "delayed", "stack"].into_iter().filter(|word| *word != name);
+            candidates.extend(sight.map(str::to_owned));
+        }
         if let Some(fact) = self.of_the_scenario(name, span) {
             return self.fail(Problem::new(span, fact));
         }
-        let guess = Guess::of(name, candidates.iter().map(String::as_str));
+        let mut guess = Guess::of(name, candidates.iter().map(String::as_str));
+        if !has_member {
+            guess = guess.read_as(|meant| match self.states_read(meant) {
+                Some(states) => states.first().cloned(),
+                None => Some(meant.to_owned()),
+            });
+        }
         self.fail(Problem::new(
             span,
             Names::NoValue { name: name.to_owned(), guess, late: self.scope.scenario },
@@ -417,6 +433,7 @@ impl<'w> Lower<'_, 'w> {
             visible.filter(|(_, found)| values(&found.item.kind)).map(|(name, _)| name.to_owned()),
         );
         known.extend(names::VALUES.iter().map(|&name| name.to_owned()));
+        known.extend(Role::ALL.iter().map(|role| role.name().to_owned()));
         let of_match = PROPERTIES.iter().filter(|property| property.owner == Owner::Match);
         known.extend(of_match.map(|property| property.name.to_owned()));
         known

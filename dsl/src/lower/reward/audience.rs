@@ -38,6 +38,10 @@ impl<'w> Lower<'_, 'w> {
                 return each.into_iter().reduce(|a, b| self.code.binary(BinaryOp::Or, a, b));
             }
             ExprKind::Event(event) => return self.did_it(event),
+            ExprKind::Name(name) if self.is_nobody(who) || name == "none" => {
+                self.report(Problem::new(who.span, Rewards::NoReceiver { word }));
+                return None;
+            }
             ExprKind::Name(name) if is_view(name) && self.scope.find(name).is_none() => {
                 let name = name.clone();
                 self.report(Problem::new(who.span, Rewards::ReceiverOfView { name, word }));

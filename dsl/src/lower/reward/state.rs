@@ -98,6 +98,13 @@ impl<'w> Lower<'_, 'w> {
 
     /// Reports a reward that stands for a value, and says how its states are read.
     pub(crate) fn reward_is_no_value(&self, name: &str, span: Span) -> Value<'w> {
+        let states = self.states_read(name);
+        self.fail(Problem::new(span, Types::RewardIsNoValue { name: name.to_owned(), states }))
+    }
+
+    /// How the states of a reward of the scenario are read here; `None` where none can be, and of
+    /// what is no reward.
+    pub(crate) fn states_read(&self, name: &str) -> Option<Vec<String>> {
         let world = self.world;
         // The scenario knows it by its label.
         let named = |used: &RewardUse| match &used.what {
@@ -108,12 +115,11 @@ impl<'w> Lower<'_, 'w> {
         let used = rewards().find(|(known, ..)| known == name);
         let used = used.or_else(|| rewards().find(|(_, used, _)| named(used)));
         let reads = matches!(self.stage, ProgramStage::Record | ProgramStage::Ending);
-        let states = used.filter(|_| reads && self.scope.scenario).map(|(known, used, stmt)| {
+        used.filter(|_| reads && self.scope.scenario).map(|(known, used, stmt)| {
             let written = world.tentatively(|| super::written(world, used, stmt.span));
             let kept = written.iter().flat_map(|(written, _)| states(&written.statements()));
             kept.map(|state| format!("{known}.{}", state.name.node)).collect()
-        });
-        self.fail(Problem::new(span, Types::RewardIsNoValue { name: name.to_owned(), states }))
+        })
     }
 
     /// `chain.n` in a record or an ending: a state of a reward that the scenario uses.

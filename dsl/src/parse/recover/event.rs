@@ -16,10 +16,14 @@ impl Reader<'_> {
         let at = wrong.token_at();
         let event = |rule: &Rule| matches!(rule, Rule::event | Rule::events | Rule::event_name);
         if wrong.positives.iter().any(event) && is_name(word) {
+            if wrong.tokens.get(at + 1).is_some_and(|(_, next)| *next == "changes") {
+                let fact = Syntax::ChangeNoEvent { name: word.to_owned() };
+                return Some(Problem::new(self.at(wrong.at), fact));
+            }
             return Some(no_event(word, self.at(wrong.at)));
         }
-        let (from, name) =
-            wrong.tokens.get(at.checked_sub(1)?).filter(|(_, name)| is_name(name))?;
+        let may_be = |name: &str| is_name(name) && !wrong.context.keywords().contains(&name);
+        let (from, name) = wrong.tokens.get(at.checked_sub(1)?).filter(|(_, name)| may_be(name))?;
         let span = self.between(*from, from + name.len());
         if matches!(word, "by" | "to" | "from") || Qualifier::from_name(word).is_some() {
             nearest(name, names()).filter(|meant| meant != name)?;

@@ -21,14 +21,16 @@ facts! {
         NoSprint { what: String, runs: Vec<&'static str> } = Code::WrongArguments =>
             say(format!("{what} is not done `sprinting`"), "not here")
                 .help(format!("what can be: `{}`", runs.join("`, `"))),
-        /// A primitive without its argument.
+        /// A primitive without its argument; `head`: what stands before it.
         NoTarget {
+            head: &'static str,
             primitive: &'static str,
             is_player: bool,
             signature: &'static str,
         } = Code::WrongArguments => {
             let what = if *is_player { "who" } else { "where" };
-            say(format!("`{primitive}` doesn't say {what}"), "").help(format!("write `do {signature}`"))
+            let form = signature.replace("(player)", "(NAME)");
+            say(format!("`{primitive}` doesn't say {what}"), "").help(format!("write `{head} {form}`"))
         },
         /// `choose { }`.
         NoChoices = Code::WrongArguments =>

@@ -9,7 +9,12 @@ facts! {
     pub(crate) Bounds {
         /// A value outside of its range; `shown`: the range, in backticks where it is written so.
         Outside { what: String, text: String, shown: String } = Code::OutOfRange =>
-            say(format!("{what} is `{text}`, outside {shown}"), "").help(format!("write a value in {shown}")),
+            say(format!("{what} is `{text}`, outside {shown}"), "").help(match text.parse::<f64>() {
+                Ok(share) if shown == "`0%..100%`" && (1.0..=100.0).contains(&share) => {
+                    format!("a share has its sign: `{text}%`")
+                }
+                _ => format!("write a value in {shown}"),
+            }),
         /// A velocity above the greatest one; `what`: whose.
         TooFast { what: String, most_mps: f64 } = Code::OutOfRange =>
             say(format!("{what} is never faster than {most_mps} m/s"), "").help("write a smaller velocity"),

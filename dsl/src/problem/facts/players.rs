@@ -13,9 +13,14 @@ facts! {
         TooManyWritten { team: Team, most: usize, team_max: usize } = Code::TooManyPlayers =>
             say(format!("more than {most} players are written for the {team} team"), "one too many")
                 .help(format!("a team has at most {team_max} players: leave the others out")),
-        /// More players than a team has.
-        TooMany { team: Team, most: usize } = Code::TooManyPlayers =>
-            say(format!("the {team} team has more than {most} players"), "this is the twelfth").help("leave one out"),
+        /// More players than a team has; `line`: how a line of several is written so that it fits.
+        TooMany { team: Team, most: usize, line: Option<String> } = Code::TooManyPlayers => {
+            let said = say(format!("the {team} team has more than {most} players"), "this is the twelfth");
+            match line {
+                Some(line) => said.help(format!("write at most `{line} …`")),
+                None => said.help("leave one out"),
+            }
+        },
         /// A number of players that is no small number.
         TooManyInLine { text: String } = Code::TooManyPlayers =>
             say(format!("`{text}` players are too many"), "a team has at most 11").help("write a number up to 11"),

@@ -54,6 +54,16 @@ facts! {
         NoEarlierStep = Code::WrongScope =>
             say("there is no earlier step here", "this is computed before the match begins")
                 .help(JUDGES),
+        /// `changes` of what is the same before and after every step.
+        NeverChanges { text: String } = Code::WrongScope => {
+            let said = say(format!("`{text}` is the same before and after every step"), "never holds");
+            match text.as_str() {
+                "round" => {
+                    said.help("write `round_elapsed == 1 step`, which holds in the first step of every round")
+                }
+                _ => said.help("leave it out, or look at the match: `possession changes`"),
+            }
+        },
         /// `prev` inside of `prev`.
         OneStepRemembered = Code::WrongScope =>
             say("only one step is remembered", "inside a look at the step before")

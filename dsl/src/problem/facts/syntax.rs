@@ -56,6 +56,12 @@ facts! {
         /// A state of the match where an event is wanted.
         StateNoEvent { name: String } = Code::UnknownEvent =>
             say(format!("`{name}` is a state, no event"), "lasts").help(format!("write `when {name}`")),
+        /// A condition of what changes where an event is wanted.
+        ChangeNoEvent { name: String } = Code::UnknownEvent =>
+            say(format!("`{name} changes` is a condition, no event"), "a value").help(match name.as_str() {
+                "round" => "write `when round_elapsed == 1 step`: the first step of every round".to_owned(),
+                _ => format!("write `when {name} changes`"),
+            }),
         /// Behind `on`, a property of a player.
         PropertyNoEvent { name: String, is_action: bool } = Code::UnknownEvent =>
             say(format!("`{name}` is a property of a player, no event"), "read at every step").help(

@@ -32,6 +32,10 @@ facts! {
         /// A region that is no rectangle.
         NoRectangle { text: String } = Code::WrongType =>
             say(format!("`{text}` is no rectangle"), "").help("write `pitch`, `right.half` or `rect(from, to)`"),
+        /// A second argument that is another word than `linear`.
+        HowWord { name: String, word: String } = Code::WrongArguments =>
+            say(format!("`{name}` is never looked up `{word}`"), "only `linear` stands here")
+                .help(format!("write `{name}(…, linear)` to have it between the cells' centres, or leave it out")),
         /// A table is called with something else than a place.
         Arguments { name: String } = Code::WrongArguments =>
             say(format!("`{name}` is looked up at one place"), "")

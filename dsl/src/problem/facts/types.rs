@@ -76,9 +76,15 @@ facts! {
         NobodyHasNoProperty { property: String } = Code::Impossible =>
             say(format!("`nobody` has no `{property}`"), "nobody is there").help(NAME_A_PLAYER),
         /// A choice between values that no register holds.
-        NoChoiceOf { ty: Ty } = Code::NotYet =>
-            say(format!("a choice between values that are each {} is not supported yet", ty.noun()), "")
-                .help("choose between conditions instead: `c and … or not c and …`"),
+        NoChoiceOf { ty: Ty, values: [String; 2] } = Code::NotYet => {
+            let said = say(format!("a choice between values that are each {} is not supported yet", ty.noun()), "");
+            match ty {
+                Ty::Formation => {
+                    said.help(format!("choose where it is used: `formation: choice({})`", values.join(", ")))
+                }
+                _ => said.help("choose between conditions instead: `c and … or not c and …`"),
+            }
+        },
         /// A division by 0; `text`: the divisor, if it doesn't say so itself.
         DividedByZero { text: Option<String> } = Code::Impossible => {
             let what = text.as_ref().map_or(String::new(), |text| format!("`{text}` is 0, and "));
@@ -238,6 +244,8 @@ pub(crate) enum Instead {
     Metres { text: String },
     /// A number stands behind `facing`.
     Facing { text: String },
+    /// A number is the first value of `polar`.
+    Distance { text: String },
     /// A value that a record holds.
     Recorded,
     /// What `max of` and its like look at.
@@ -286,6 +294,9 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
         }
         Instead::Metres { text } => said.help(metres(text)),
         Instead::Facing { text } => said.help(format!("write an angle, `{text}deg`, or a point")),
+        Instead::Distance { text } => {
+            said.help(format!("write `{text}m` for an offset, `{text}m/s` for a velocity"))
+        }
         Instead::Recorded => {
             said.help("a record holds a number, a length, a duration, a place or a condition")
         }

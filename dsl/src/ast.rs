@@ -221,6 +221,13 @@ pub struct Binding {
     pub value: Expr,
 }
 
+impl Binding {
+    /// From its name to the end of its value.
+    pub fn whole(&self) -> Span {
+        self.name.span.to(self.value.span)
+    }
+}
+
 /// A pure function, region or ending.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FnItem {

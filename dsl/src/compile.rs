@@ -262,6 +262,7 @@ impl<'a> Compilation<'a> {
         let library_rewards = reward::lower_library(&step);
         let behaviors = behavior::lower_behaviors(&step, &behaviors, &mut players);
         dead::check_scenario(&world);
+        dead::check_constants(&world);
         self.unused.declare(&world);
 
         let origins = Origins {

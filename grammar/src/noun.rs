@@ -262,7 +262,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::mirror => "`mirror`",
         Rule::observe => "`observe`",
         Rule::remove => "`remove`",
-        Rule::removed => "`reward`, `end`, `require`, `record`",
+        Rule::removed | Rule::removed_whole => "what is removed, for example `reward scoring`",
         Rule::end_limit => "`limit`",
         Rule::end_when => "a name or a condition, for example `when goal by left`",
         Rule::verdict => "`success` or `failure`",

@@ -205,7 +205,8 @@ module.exports = grammar({
     require: ($) => seq("require", $._expression, optional(seq("with", $._expression)), optional($.label)),
     record: ($) => seq("record", field("name", $.identifier), "=", $._expression),
     remove: ($) => seq("remove", choice(
-      seq(choice("reward", "end", "require", "record"), choice($.identifier, $.string)), "ball",
+      seq(choice("reward", "end", "require", "record", "substitute"), choice($.identifier, $.string)),
+      "ball", "rounds", "world", "start", "observe",
     )),
     substitute: ($) => seq("substitute", $._expression, "when", $._condition, optional($.fields)),
     rounds: ($) => seq("rounds", $._expression, "when", $._condition),

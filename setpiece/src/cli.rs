@@ -182,6 +182,13 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match Args::try_parse_from(arguments) {
         Ok(args) => run(args),
         Err(error) => {
+            // What an argument names may have a code of its own.
+            let fault =
+                std::error::Error::source(&error).and_then(<dyn std::error::Error>::downcast_ref);
+            if let Some(fault) = fault {
+                Out::new(ColourChoice::Auto, false).error(fault);
+                return FAULT;
+            }
             // Help and version also come this way; if they can't be printed, nothing can.
             let _ = error.print();
             error.exit_code() as u8

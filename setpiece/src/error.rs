@@ -58,11 +58,11 @@ pub enum Error {
     },
     /// Threads can't be started.
     Threads(String),
-    /// A level is of another scenario.
+    /// A level is of another scenario, or can't be read.
     Level {
         /// The level.
         level: String,
-        /// How the scenario differs.
+        /// What is wrong with it.
         why: LevelFault,
     },
     /// There is no such suite or curriculum.
@@ -85,7 +85,7 @@ pub enum Error {
     },
 }
 
-/// How a level's scenario differs from the one that it is used with.
+/// What is wrong with a level: most often, its scenario differs from the one that it is used with.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LevelFault {
     /// The level has the digest of another version.
@@ -97,6 +97,8 @@ pub enum LevelFault {
     },
     /// Neither the library nor a file has this name.
     Unknown,
+    /// Its text or JSON can't be read.
+    Unreadable(String),
 }
 
 /// What is wrong with a file.
@@ -216,6 +218,7 @@ impl Error {
             },
             Error::NoStep { .. } => Code::NoStep,
             Error::Threads(_) => Code::NoThreads,
+            Error::Level { why: LevelFault::Unreadable(_), .. } => Code::BadLevel,
             Error::Level { .. } => Code::OtherLevel,
             Error::NoPlan { .. } => Code::NoPlans,
         }
@@ -273,6 +276,10 @@ impl Error {
             Error::NoPlan { name: None, known, .. } if known.len() > 1 => {
                 Some("name one of them".to_owned())
             }
+            Error::Level { why: LevelFault::Unreadable(_), .. } => Some(
+                "a level is written `academy_corner{difficulty=0.8}#12:3`, or as its JSON"
+                    .to_owned(),
+            ),
             Error::Level { why: LevelFault::Unknown, .. } => Some(
                 "name the file that holds it: `setpiece run FILE.pitch --level …`".to_owned(),
             ),
@@ -369,6 +376,9 @@ impl std::fmt::Display for Error {
                 }
                 LevelFault::Name { found } => {
                     write!(f, "the level `{level}` is of another scenario than `{found}`")
+                }
+                LevelFault::Unreadable(why) => {
+                    write!(f, "the level `{level}` can't be read: {why}")
                 }
                 LevelFault::Unknown => {
                     write!(f, "the level `{level}` is of a scenario that isn't in the library")

@@ -624,6 +624,14 @@ fn a_level_that_stands_for_a_scenario_is_recognised() {
 }
 
 #[test]
+fn a_level_that_cant_be_read_has_a_code() {
+    for level in ["", "x{", "academy_corner{difficulty=0.8", "{\"scenario\": 3}", "a#1:x"] {
+        fails(&["run", "--level", level], 1, &["SP0022", "can't be read", "help: a level is"]);
+    }
+    fails(&["run", "--level", &format!("academy_corner#1:{}", u64::MAX)], 1, &["SP0022"]);
+}
+
+#[test]
 fn a_script_finds_the_parameters_by_their_names() {
     let folder = folder();
     let scenario = |name: &str| {

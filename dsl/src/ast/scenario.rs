@@ -81,7 +81,7 @@ pub enum ScenarioStmtKind {
     },
     /// `record NAME = …`
     Record(Binding),
-    /// `remove reward|end|require|record NAME`, `remove ball`
+    /// `remove reward|end|require|record|substitute NAME`, `remove ball|rounds|world|start|observe`
     Remove {
         /// What kind of thing.
         what: Ident,

@@ -7,7 +7,7 @@ use crate::ast::{
 };
 use crate::lower::mirror::Mirror;
 use crate::lower::{World, alone, start};
-use crate::problem::Problem;
+use crate::problem::{Code, Problem};
 use crate::resolve::flatten;
 
 impl<'a> Compilation<'a> {
@@ -66,9 +66,13 @@ impl<'a> Compilation<'a> {
         let world = World::new(self.library, &flat, Mirror::Off, &[], self.scripts, self.effort);
         drop(start::lower_start(&world, false));
         found.extend(world.problems.take());
-        // What is wrong at the name is wrong with the user alone: it hands nothing in.
+        // What is wrong at the name is wrong with the user alone: it hands nothing in. How many
+        // play is the team's affair, too: it may declare some of them absent.
         let is_own = |problem: &Problem| {
-            problem.is_error() && !problem.code().may_be_echo() && problem.place() != span
+            problem.is_error()
+                && !problem.code().may_be_echo()
+                && problem.code() != Code::TooManyPlayers
+                && problem.place() != span
         };
         let empty = nothing().name.span;
         found.retain(|problem| is_own(problem) && problem.place() != empty);

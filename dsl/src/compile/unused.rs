@@ -14,7 +14,8 @@ use std::collections::BTreeSet;
 #[derive(Default)]
 pub(super) struct Unused {
     used: BTreeSet<Span>,
-    declared: Vec<(Declared, Ident)>,
+    /// What, its name, and all of its declaration.
+    declared: Vec<(Declared, Ident, Span)>,
     /// Whether a scenario that can be run stands in the file: what it leaves, nobody uses.
     has_scenario: bool,
 }
@@ -28,16 +29,24 @@ impl Unused {
             return;
         }
         self.has_scenario = true;
-        let mut add = |what: Declared, name: &Ident| {
+        let mut add = |what: Declared, name: &Ident, whole: Span| {
             if name.span.file == FileId(0) {
-                self.declared.push((what, name.clone()));
+                self.declared.push((what, name.clone(), whole));
             }
         };
-        world.params.iter().for_each(|param| add(Declared::Parameter, param.name));
-        flat.lets.iter().for_each(|binding| add(Declared::Let, &binding.name));
-        flat.tuples.iter().flat_map(|(names, _)| *names).for_each(|name| add(Declared::Let, name));
-        flat.consts.iter().for_each(|binding| add(Declared::Const, &binding.name));
-        flat.regions.iter().for_each(|region| add(Declared::Region, &region.name));
+        flat.params.iter().for_each(|param| {
+            add(Declared::Parameter, &param.decl.name, param.decl.span);
+        });
+        flat.lets.iter().for_each(|binding| add(Declared::Let, &binding.name, binding.whole()));
+        flat.tuples.iter().for_each(|(names, value)| {
+            names.iter().for_each(|name| add(Declared::Let, name, name.span.to(value.span)));
+        });
+        flat.consts.iter().for_each(|binding| {
+            add(Declared::Const, &binding.name, binding.whole());
+        });
+        flat.regions.iter().for_each(|region| {
+            add(Declared::Region, &region.name, region.name.span.to(region.body.span));
+        });
     }
 
     /// Notes what a scenario refers to.
@@ -52,8 +61,8 @@ impl Unused {
 
     /// Reports what nothing refers to.
     pub(super) fn report(mut self, items: &[Item], problems: &mut Vec<Problem>) {
-        for (what, name) in std::mem::take(&mut self.declared) {
-            self.check(what, &name, problems);
+        for (what, name, whole) in std::mem::take(&mut self.declared) {
+            self.check(what, &name, whole, problems);
         }
         if !self.has_scenario {
             return;
@@ -84,7 +93,7 @@ impl Unused {
                 | ItemKind::Import { .. }
                 | ItemKind::Broken => continue,
             };
-            if self.check(what, name, problems) {
+            if self.check(what, name, item.span, problems) {
                 self.inner(&item.kind, problems);
             }
         }
@@ -93,7 +102,7 @@ impl Unused {
     /// The names that an item which is used declares for itself.
     fn inner(&self, item: &ItemKind, problems: &mut Vec<Problem>) {
         for param in item.params() {
-            self.check(Declared::Parameter, &param.name, problems);
+            self.check(Declared::Parameter, &param.name, param.span, problems);
         }
         if let ItemKind::Reward(RewardItem { body, .. }) = item {
             self.statements(body, true, problems);
@@ -104,10 +113,10 @@ impl Unused {
         for statement in body {
             match &statement.kind {
                 RewardStmtKind::State(binding) if is_top => {
-                    self.check(Declared::State, &binding.name, problems);
+                    self.check(Declared::State, &binding.name, binding.whole(), problems);
                 }
                 RewardStmtKind::Let(binding) => {
-                    self.check(Declared::Let, &binding.name, problems);
+                    self.check(Declared::Let, &binding.name, binding.whole(), problems);
                 }
                 RewardStmtKind::On { body, .. } => self.statements(body, false, problems),
                 RewardStmtKind::When { then, otherwise, .. } => {
@@ -119,10 +128,17 @@ impl Unused {
         }
     }
 
-    /// Whether something is used; reports it if not.
-    fn check(&self, what: Declared, name: &Ident, problems: &mut Vec<Problem>) -> bool {
+    /// Whether something is used; reports it if not, and if nothing is wrong with it itself.
+    fn check(
+        &self,
+        what: Declared,
+        name: &Ident,
+        whole: Span,
+        problems: &mut Vec<Problem>,
+    ) -> bool {
         let used = self.used.contains(&name.span);
-        if !used && !name.node.starts_with('_') {
+        let is_wrong = |problem: &Problem| problem.is_error() && whole.holds(problem.place());
+        if !used && !name.node.starts_with('_') && !problems.iter().any(is_wrong) {
             problems.push(Problem::new(name.span, Whole::Unused { what, name: name.node.clone() }));
         }
         used

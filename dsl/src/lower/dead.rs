@@ -1,7 +1,8 @@
-//! Warns of inherited parameters that do nothing, because an option that they gave is written
-//! again.
+//! What a scenario declares and nothing reads: inherited parameters that do nothing, because an
+//! option that they gave is written again, and constants with mistakes.
 
-use super::World;
+use super::value::{LiteralFrame, Scope};
+use super::{Lower, World};
 use crate::ast::{Expr, ExprKind, Field, FieldValue};
 use crate::problem::Problem;
 use crate::problem::facts::Players;
@@ -36,5 +37,16 @@ fn value_of(field: &Field) -> Option<&Expr> {
     match &field.value {
         FieldValue::Expr(expr) => Some(expr),
         FieldValue::Fields(..) | FieldValue::Script(_) => None,
+    }
+}
+
+/// Lowers the constants of a scenario that nothing reads, for what is wrong with them.
+pub(crate) fn check_constants(world: &World<'_>) {
+    for binding in &world.flat.consts {
+        let name = binding.name.span;
+        if !world.used.borrow().contains(&name) {
+            let scope = Scope::new(false, LiteralFrame::World);
+            Lower::constant(world, scope).constant_item(binding, name);
+        }
     }
 }

@@ -84,7 +84,7 @@ impl Reader<'_> {
             }
             _ => {
                 let name = nodes.want(Rule::ident)?;
-                let name = self.value_name(&name);
+                let name = self.assigned_name(&name);
                 nodes.eat(Rule::equals);
                 BehaviorStmtKind::Assign {
                     name,

@@ -83,6 +83,8 @@ pub(super) struct Reader<'t> {
     effort: usize,
     /// Names that are declared where the text could not be read.
     pub(super) lost: BTreeSet<String>,
+    /// Words of the language that were declared as names.
+    misnamed: BTreeSet<String>,
 }
 
 /// Blanks that count as indentation.
@@ -106,6 +108,7 @@ impl<'t> Reader<'t> {
             blocks: 0,
             effort: LEAST_EFFORT + 2 * original.len(),
             lost: BTreeSet::new(),
+            misnamed: BTreeSet::new(),
         }
     }
 
@@ -254,9 +257,17 @@ impl<'t> Reader<'t> {
     pub(super) fn value_name(&mut self, node: &CstNode<'_>) -> Ident {
         let name = self.ident(node);
         if let Some(owner) = owner_of_value(&name.node) {
+            self.misnamed.insert(name.node.clone());
             self.push(reserved(&name.node, name.span, owner));
         }
         name
+    }
+
+    /// The name of what is assigned; where it was declared, it has been reported if it can't be a
+    /// name.
+    pub(super) fn assigned_name(&mut self, node: &CstNode<'_>) -> Ident {
+        let name = self.ident(node);
+        if self.misnamed.contains(&name.node) { name } else { self.value_name(node) }
     }
 
     /// The name of what is called: it can't be a function's, either.

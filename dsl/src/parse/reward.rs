@@ -86,7 +86,7 @@ impl Reader<'_> {
             Rule::when_block => return self.when_block(nodes),
             _ => {
                 let name = nodes.want(Rule::ident)?;
-                let name = self.value_name(&name);
+                let name = self.assigned_name(&name);
                 nodes.eat(Rule::equals);
                 RewardStmtKind::Assign { name, value: nodes.next().map(|value| self.expr(value))? }
             }

@@ -61,6 +61,7 @@ codes! {
     OtherLevel = 19 Error "a level is of another scenario";
     NoPlans = 20 Error "there is no such suite, check or curriculum";
     OtherSpaces = 21 Error "a level doesn't fit its vector";
+    BadLevel = 22 Error "a level can't be read";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

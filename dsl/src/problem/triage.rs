@@ -59,11 +59,10 @@ fn drop_lost_names(problems: &mut Vec<Problem>, sources: &Sources, lost: &BTreeS
 /// A word of the language that was declared as a name is reported at the declaration, not where it
 /// is used for what it can't be.
 fn drop_uses_of_reserved(problems: &mut Vec<Problem>, sources: &Sources) {
-    let mut reserved = BTreeSet::new();
     let is_reserved = |problem: &Problem| problem.code() == Code::ReservedName;
-    problems.retain(|problem| {
-        !is_reserved(problem) || reserved.insert(sources.text(problem.place()).to_owned())
-    });
+    let declared = problems.iter().filter(|problem| is_reserved(problem));
+    let reserved: BTreeSet<String> =
+        declared.map(|problem| sources.text(problem.place()).to_owned()).collect();
     problems.retain(|problem| {
         let words = problem.words();
         let uses = |name: &String| {

@@ -92,11 +92,13 @@ fn pair(text: &str) -> Result<(String, String), String> {
     }
 }
 
-fn level(text: &str) -> Result<Level, String> {
-    let level = Level::read(text)?;
+fn level(text: &str) -> Result<Level, Error> {
+    let unreadable =
+        |why| Error::Level { level: text.to_owned(), why: LevelFault::Unreadable(why) };
+    let level = Level::read(text).map_err(unreadable)?;
     // The range of its one episode has an end.
     if level.episode == u64::MAX {
-        return Err(format!("the greatest index of an episode is {}", u64::MAX - 1));
+        return Err(unreadable(format!("the greatest index of an episode is {}", u64::MAX - 1)));
     }
     Ok(level)
 }

@@ -144,7 +144,12 @@ impl<'w> Planner<'_, 'w> {
                     let form = format!("mean(record {other})");
                     Facts::IsRecord { name: named, form }
                 } else {
-                    let guess = Guess::similar_or_all(other, &MEASURES);
+                    let records = scenario.records.iter().map(|record| record.name.as_str());
+                    let known: Vec<&str> = MEASURES.into_iter().chain(records).collect();
+                    let guess = Guess::similar_or(other, &known, &MEASURES).read_as(|meant| {
+                        let record = format!("mean(record {meant})");
+                        Some(if is_record(meant, scenario) { record } else { meant.to_owned() })
+                    });
                     Facts::NoMeasure { name: named, guess }
                 };
                 self.report(name.span, fact);
@@ -199,7 +204,12 @@ impl<'w> Planner<'_, 'w> {
                 (span, self.world.text(span))
             }
         };
-        let guess = Guess::similar_or_all(&text, &QUANTITIES);
+        let records = scenario.records.iter().map(|record| record.name.as_str());
+        let known: Vec<&str> = QUANTITIES.into_iter().chain(records).collect();
+        let guess = Guess::similar_or(&text, &known, &QUANTITIES).read_as(|meant| {
+            let record = format!("record {meant}");
+            Some(if is_record(meant, scenario) { record } else { meant.to_owned() })
+        });
         self.report(span, Facts::NoQuantity { text, guess });
         None
     }

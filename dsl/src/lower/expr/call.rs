@@ -2,7 +2,7 @@
 
 use super::super::value::{LiteralFrame, LocalName, Scope, Value};
 use super::super::{Lower, param};
-use crate::ast::{Arg, Expr, FnItem, Ident, ItemKind, ParamDecl, Span};
+use crate::ast::{Arg, Expr, ExprKind, FnItem, Ident, InfixOp, ItemKind, ParamDecl, Span};
 use crate::check::types::Ty;
 use crate::problem::facts::{Calls, Form, Names, NotAFunction};
 use crate::problem::{Code, Guess, Problem, signature};
@@ -22,6 +22,8 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("len", "count"),
     ("size", "count"),
     ("average", "mean"),
+    ("closest", "nearest"),
+    ("farthest", "max_by"),
     ("argmin", "min_by"),
     ("argmax", "max_by"),
 ];
@@ -173,15 +175,18 @@ impl<'w> Lower<'_, 'w> {
             };
             // The default tells the type of an argument.
             let ty = declared.or_else(|| self.default_type(param));
-            let value = now.then(|| {
-                self.within(home.clone(), |lower| match ty {
+            let computed = |lower: &mut Self| {
+                lower.within(home.clone(), |lower| match ty {
                     Some(ty) => lower.want(expr, ty),
                     None => lower.expr(expr),
                 })
-            });
+            };
+            let value = now.then(|| computed(self));
             let found = self.world.found();
-            if let (Some(domain), Some(value)) = (&param.domain, &value) {
-                self.check_domain(value, domain, expr, &param.name.node);
+            if let Some(domain) = &param.domain {
+                let value = value.clone();
+                let value = value.unwrap_or_else(|| self.world.tentatively(|| computed(self)));
+                self.check_domain(&value, domain, expr, &param.name.node);
             }
             // What a wrong argument would do further on is no news.
             let wrong = self.world.found() > found;
@@ -244,8 +249,8 @@ impl<'w> Lower<'_, 'w> {
         let mut next = 0;
         for arg in args {
             if arg.binder.is_some() || arg.filter.is_some() {
-                let text = self.world.text(arg.span);
-                let fact = Calls::NoPlayers { callee: callee.to_owned(), text };
+                let least = (callee == Function::Nearest.name()).then(|| self.least_of(arg, args));
+                let fact = Calls::NoPlayers { callee: callee.to_owned(), least };
                 self.report(Problem::new(arg.span, fact));
                 return None;
             }
@@ -298,6 +303,24 @@ impl<'w> Lower<'_, 'w> {
             return None;
         }
         Some(given)
+    }
+}
+
+impl Lower<'_, '_> {
+    /// How the nearest of some players is written: `nearest(p for p in them)` and its like.
+    fn least_of(&self, arg: &Arg, args: &[Arg]) -> String {
+        let text = |expr: &Expr| self.world.text(expr.span);
+        let (name, set) = match (&arg.binder, &arg.value.kind) {
+            (Some((name, set)), _) => (name.node.clone(), text(set)),
+            (None, ExprKind::Binary(op, name, set)) if op.node == InfixOp::In => {
+                (text(name), text(set))
+            }
+            (None, _) => ("p".to_owned(), text(&arg.value)),
+        };
+        let filter = arg.filter.as_ref().map_or(String::new(), |c| format!(" where {}", text(c)));
+        let to = args.iter().find(|arg| arg_name(arg) == Some("to"));
+        let to = to.map_or_else(|| "ball".to_owned(), |to| text(&to.value));
+        format!("min_by(distance({name}, {to}) for {name} in {set}{filter})")
     }
 }
 

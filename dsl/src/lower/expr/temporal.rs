@@ -39,6 +39,56 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
+    /// `possession changes to right`: in the step in which it goes over; the first owner is no
+    /// change.
+    pub(super) fn changes(
+        &mut self,
+        what: &'w Expr,
+        to: Option<&'w Expr>,
+        span: Span,
+    ) -> Value<'w> {
+        let now = self.expr(what);
+        let Some(before) = self.before(what, span) else { return Value::error() };
+        if now.is_error() || before.is_error() {
+            return Value::error();
+        }
+        if !now.regs().is_empty() && now.regs() == before.regs() {
+            let text = self.world.text(what.span);
+            return self.fail(Problem::new(span, Scopes::NeverChanges { text }));
+        }
+        let different = self.equal(false, (&now, what), (&before, what));
+        let mut reg = self.reg(&different);
+        if matches!(now.ty, Ty::Team | Ty::Player) {
+            let old = self.reg(&before);
+            let zero = self.code.constant(0.0);
+            let somebody = self.code.binary(BinaryOp::Ge, old, zero);
+            reg = self.code.binary(BinaryOp::And, reg, somebody);
+        }
+        if let Some(to) = to {
+            let wanted = self.beside(now.ty, to);
+            let reached = self.equal(true, (&now, what), (&wanted, to));
+            let reached = self.reg(&reached);
+            reg = self.code.binary(BinaryOp::And, reg, reached);
+        }
+        Value::one(if different.is_error() { Ty::Error } else { Ty::Bool }, reg)
+    }
+
+    /// An expression a step ago; reports where there is none.
+    pub(super) fn before(&mut self, expr: &'w Expr, span: Span) -> Option<Value<'w>> {
+        if !self.stage.is_step() {
+            self.report(Problem::new(span, Scopes::NoEarlierStep));
+            return None;
+        }
+        if self.when == When::Prev {
+            self.report(Problem::new(span, Scopes::OneStepRemembered));
+            return None;
+        }
+        self.when = When::Prev;
+        let value = self.expr(expr);
+        self.when = When::Now;
+        Some(value)
+    }
+
     /// Writes code outside every loop, where no event and no element of a loop is known.
     pub(super) fn hoisted<T>(&mut self, f: impl FnOnce(&mut Self) -> T) -> T {
         let loops = self.code.leave_loops();

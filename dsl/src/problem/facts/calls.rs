@@ -48,21 +48,16 @@ facts! {
                 .help("write `name: value`"),
         /// `for` or `where` in the call of a function that goes through no players.
         ///
-        /// - `text`: the argument.
-        NoPlayers { callee: String, text: String } = Code::WrongArguments => {
-            let said = say(
+        /// - `least`: how the nearest of them is written.
+        NoPlayers { callee: String, least: Option<String> } = Code::WrongArguments =>
+            say(
                 format!("`{callee}` goes through no players"),
                 "`for` and `where` belong to `count`, `sum`, `min` and their like",
             )
-;
-            match text.split_once(' ') {
-                Some((name, rest)) if callee == "nearest" => {
-                    let of = if rest.starts_with("for ") { rest } else { &format!("for {text}") };
-                    said.help(format!("write `min_by(distance({name}, ball) {of})`"))
-                }
-                _ => said.help("count players first: `count(p in us where …)`"),
-            }
-        },
+            .help(match least {
+                Some(least) => format!("write `{least}`"),
+                None => "count players first: `count(p in us where …)`".to_owned(),
+            }),
         /// `count` and its like without one set of players.
         OneSet { function: &'static str, signature: String } = Code::WrongArguments =>
             say(format!("`{function}` goes through one set of players"), "").help(format!("`{signature}`")),

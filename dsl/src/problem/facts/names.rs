@@ -208,7 +208,7 @@ facts! {
         } = Code::NothingToRemove => {
             let message = match name {
                 Some(name) => format!("no {what} `{name}` is inherited"),
-                None => format!("no {what} is inherited"),
+                None => format!("no `{what}` is inherited"),
             };
             say(message, "nothing to remove").guess(guess, "")
         },

@@ -1,7 +1,7 @@
 //! `remove …`: what a child takes away from what it inherits.
 
 use super::Adding;
-use crate::ast::{ScenarioStmt, ScenarioStmtKind};
+use crate::ast::{ExprKind, ScenarioStmt, ScenarioStmtKind, Substitute};
 use crate::problem::facts::Names;
 use crate::problem::{Guess, Problem};
 
@@ -21,6 +21,7 @@ impl<'a> Adding<'a, '_> {
                     self.flat.records.iter().map(|known| known.name.node.as_str()).collect()
                 }
                 "end" => self.flat.ends.iter().filter_map(|end| Some(end.label?.bare())).collect(),
+                "substitute" => self.flat.substitutes.iter().filter_map(|one| who(one)).collect(),
                 "require" => self.flat.requires.iter().filter_map(|stmt| label(stmt)).collect(),
                 _ => Vec::new(),
             };
@@ -35,6 +36,13 @@ impl<'a> Adding<'a, '_> {
         let flat = &mut *self.flat;
         match (what, name) {
             ("ball", _) => flat.ball.take().is_some(),
+            ("rounds", _) => flat.rounds.take().is_some(),
+            ("start", _) => flat.start.take().is_some(),
+            ("observe", _) => flat.observed.take().is_some(),
+            ("world", _) => !std::mem::take(&mut flat.world).is_empty(),
+            ("substitute", Some(name)) => {
+                removed(&mut flat.substitutes, |one| who(one) == Some(name))
+            }
             ("reward", Some(name)) => removed(&mut flat.rewards, |(known, _, _)| known == name),
             ("record", Some(name)) => removed(&mut flat.records, |known| known.name.node == name),
             ("end", Some("limit")) => flat.limit.take().is_some(),
@@ -49,6 +57,14 @@ impl<'a> Adding<'a, '_> {
             }
             _ => false,
         }
+    }
+}
+
+/// Who goes off by a substitution, if it is a name.
+fn who(substitute: &Substitute) -> Option<&str> {
+    match &substitute.who.kind {
+        ExprKind::Name(name) => Some(name),
+        _ => None,
     }
 }
 

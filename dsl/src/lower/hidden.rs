@@ -31,7 +31,7 @@ impl Lower<'_, '_> {
     }
 }
 
-/// Warns of the scenario's own values and players that hide a value of its file.
+/// Warns of the scenario's own values, players and records that hide a value of its file.
 pub(crate) fn check_scenario(world: &World<'_>) {
     let flat = world.flat;
     let params = flat.params.iter().map(|param| &param.decl.name);
@@ -39,8 +39,9 @@ pub(crate) fn check_scenario(world: &World<'_>) {
     let regions = flat.regions.iter().map(|region| &region.name);
     let shuffled = flat.tuples.iter().flat_map(|(names, _)| *names);
     let players = world.roster.iter().filter_map(|player| player.name);
-    let all: Vec<&Ident> =
-        params.chain(bindings).chain(regions).chain(shuffled).chain(players).collect();
+    let records = flat.records.iter().map(|record| &record.name);
+    let values = params.chain(bindings).chain(regions).chain(shuffled);
+    let all: Vec<&Ident> = values.chain(players).chain(records).collect();
     for name in all {
         warn(world, &name.node, name.span, || of_file(world, name.span.file, &name.node));
     }

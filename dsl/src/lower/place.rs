@@ -2,6 +2,7 @@
 
 use super::mirror::Mirror;
 use super::people::{Rostered, Stand};
+use super::seats::sharers;
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, ProgramStage};
 use crate::ast::{BallStmt, Expr, Facing, Place, PlaceKind, Span};
@@ -75,8 +76,7 @@ impl<'w> Lower<'_, 'w> {
     /// The start place of whoever has the place in the team of a player of the roster, who is the
     /// first there.
     pub(crate) fn place_of_seat(&mut self, index: usize, asked: Span) -> (Reg, Reg) {
-        let others = self.world.roster.iter().skip(index + 1).take_while(|player| player.instead);
-        let places: Vec<_> = (index..=index + others.count())
+        let places: Vec<_> = sharers(self.world, index)
             .map(|index| {
                 let presence = self.shared_presence(index, asked);
                 (presence, self.place_of_rostered(index, asked))

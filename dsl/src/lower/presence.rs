@@ -2,6 +2,7 @@
 
 use super::known::OnDemand;
 use super::people::{Formations, Numbered, Presence};
+use super::seats::sharers;
 use super::{Lower, World};
 use crate::ast::Span;
 use crate::check::types::Ty;
@@ -33,9 +34,8 @@ impl<'w> Lower<'_, 'w> {
     pub(crate) fn exists_at_start(&mut self, player: Reg, asked: Span) -> Option<Reg> {
         self.start()?;
         let first = self.roster_index(player)?;
-        let others = self.world.roster.iter().skip(first + 1).take_while(|other| other.instead);
         let mut any = None;
-        for index in first..=first + others.count() {
+        for index in sharers(self.world, first) {
             let yes = self.code.bool(true);
             let conditions = self.presence_of(index, asked);
             let all = conditions

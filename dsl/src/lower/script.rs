@@ -63,7 +63,7 @@ pub(super) fn named_file(world: &World<'_>, path: &Spanned<String>) -> Option<Fi
         Ok(file) => Some(*file),
         Err(error) => {
             let (why, similar) = (error.message.clone(), error.similar.first().cloned());
-            let fact = Files::Missing { why, similar, is_script: true };
+            let fact = Files::Missing { why, similar, is_import: false };
             world.report(Problem::new(path.span, fact));
             None
         }

@@ -9,6 +9,7 @@ use super::value::{LiteralFrame, Scope};
 use super::{Lower, World};
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::{BinaryOp, Instr, Reg, UnaryOp};
+use std::ops::RangeInclusive;
 
 /// Sorts a team's players by their places and numbers the places; the first of a place, then the
 /// others. Gives the number of places.
@@ -36,6 +37,13 @@ pub(super) fn take_seats<'w>(world: &World<'w>, players: &mut Vec<Rostered<'w>>)
         }));
     }
     number
+}
+
+/// The players of the roster who share the place in the team of one of them, who is the first
+/// there.
+pub(super) fn sharers(world: &World<'_>, first: usize) -> RangeInclusive<usize> {
+    let others = world.roster.iter().skip(first + 1).take_while(|other| other.instead);
+    first..=first + others.count()
 }
 
 /// Whether no program needs to tell the two apart.

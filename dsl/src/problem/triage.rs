@@ -30,6 +30,7 @@ pub(crate) fn triage(
         // What never pays or ends may do so once the errors are mended.
         problems.retain(|problem| !matches!(problem.code(), Code::NeverPays | Code::NeverEnds));
     }
+    drop_hidden(&mut problems);
     drop_uses_of_reserved(&mut problems, sources);
     drop_around_unread(&mut problems);
     problems
@@ -109,6 +110,17 @@ fn drop_likely_used(problems: &mut Vec<Problem>, sources: &Sources) {
         let of_file = of_files.entry(span.file).or_insert_with(|| words(text()));
         of_file.get(name).is_none_or(|times| *times < 2) && !meant.contains(name)
     });
+}
+
+/// What another name hides is not used for this reason.
+fn drop_hidden(problems: &mut Vec<Problem>) {
+    let hiding = problems.iter().filter(|problem| problem.code() == Code::HidingName);
+    let hidden: BTreeSet<Span> = hiding
+        .flat_map(|problem| problem.words().labels.into_iter().skip(1))
+        .map(|label| label.span)
+        .collect();
+    problems
+        .retain(|problem| problem.code() != Code::UnusedName || !hidden.contains(&problem.place()));
 }
 
 /// What holds a part that could not be read is not what the author wrote.

@@ -251,7 +251,7 @@ impl Loading<'_> {
                     let (why, similar) = (error.message, error.similar.into_iter().next());
                     self.problems.push(Problem::new(
                         path.span,
-                        Files::Missing { why, similar, is_script: false },
+                        Files::Missing { why, similar, is_import: true },
                     ));
                     continue;
                 }

@@ -8,9 +8,10 @@ use crate::problem::said::say;
 facts! {
     /// Facts about files.
     pub(crate) Files {
-        /// A file that can't be loaded, in the loader's words.
-        Missing { why: String, similar: Option<String>, is_script: bool } = Code::FileMissing => {
-            let said = say(why.as_str(), if *is_script { "named here" } else { "imported here" });
+        /// A file that can't be loaded, in the loader's words; `is_import`: it is imported, else it
+        /// is a script's or a table's.
+        Missing { why: String, similar: Option<String>, is_import: bool } = Code::FileMissing => {
+            let said = say(why.as_str(), if *is_import { "imported here" } else { "named here" });
             match similar {
                 Some(similar) => said.help(format!("did you mean `{similar}`?")),
                 None => said,

@@ -10,6 +10,7 @@ use setpiece::engine::control::sticky;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::state::PlayerId;
 use setpiece::scenario::{Action, Verdict};
+use setpiece_tests::environment as written;
 
 const EPISODES: u64 = 40;
 const KICKS: [Action; 4] = [Action::ShortPass, Action::LongPass, Action::HighPass, Action::Shot];
@@ -30,11 +31,6 @@ const THREE: &str = "scenario s {
 
 fn environment(name: &str) -> Environment {
     Environment::new(setpiece::load(name).unwrap().scenario, EnvironmentOptions::default()).unwrap()
-}
-
-fn written(text: &str) -> Environment {
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap()
 }
 
 fn all(environment: &Environment, action: Action) -> Vec<Action> {

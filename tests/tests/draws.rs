@@ -9,6 +9,7 @@
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::scenario::pitch::HALF_LENGTH_M;
 use setpiece::scenario::vocabulary::Role;
+use setpiece_tests::environment;
 
 const DRAWS: u64 = 6000;
 
@@ -144,8 +145,7 @@ fn a_player_is_played_by_one_of_several_behaviours() {
         team left { CM at (-0.4, 0) { ai: choice(up(0deg): 1, hold: 1, run(180deg): 2) } }
         end limit 10 steps
     }";
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut environment = environment(text);
     let [mut forth, mut back] = [0.0; 2];
     for index in 0..600 {
         environment.reset(Some(7), Some(index)).unwrap();
@@ -176,8 +176,7 @@ fn formations_of_other_roles_share_the_places_of_a_team() {
         require min_gap(left) > 1m
         end limit 1 step
     }";
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut environment = environment(text);
     let mut threes = 0;
     for index in 0..600 {
         environment.reset(Some(7), Some(index)).unwrap();
@@ -217,8 +216,7 @@ fn players_take_part_as_often_as_the_text_says() {
         require count(p in left) >= 3
         end limit 1 step
     }";
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut environment = environment(text);
     let (mut mates, mut wide, mut backs) = (0, 0, [0; 5]);
     for index in 0..DRAWS {
         environment.reset(Some(7), Some(index)).unwrap();

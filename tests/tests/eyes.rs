@@ -6,13 +6,9 @@
     reason = "a test fails by panicking"
 )]
 
-use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::environment::{Environment, Scratch};
 use setpiece::scenario::Action;
-
-fn environment(text: &str) -> Environment {
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap()
-}
+use setpiece_tests::environment;
 
 /// A scenario of two agents on each side, with these lines to observe.
 fn scenario(lines: &str) -> String {

@@ -148,8 +148,7 @@ fn an_edited_copy_pays_what_it_says() {
 
 /// Episodes of bots in a scenario, and the names of its terms.
 fn bots(text: &str, n: u64) -> (Vec<EpisodeSummary>, Vec<String>) {
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    let environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let environment = setpiece_tests::environment(text);
     let episodes =
         run_episodes(&environment, 1, 0..n, 1, |_| None, || ReadyMade::new(Agent::Bot), |_| ())
             .unwrap();

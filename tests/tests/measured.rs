@@ -11,11 +11,7 @@ use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::judge::Recorded;
 use setpiece::run::{RunOptions, run};
 use setpiece::scenario::{Action, EventKind, Qualifier, Team};
-
-fn environment(text: &str) -> Environment {
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap()
-}
+use setpiece_tests::environment;
 
 fn number(environment: &Environment, name: &str) -> f64 {
     let (_, value) = environment.records().find(|(known, _)| *known == name).unwrap();

@@ -8,6 +8,7 @@
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::scenario::vocabulary::Action;
+use setpiece_tests::environment;
 
 /// Pays the same by the language and by a script, for both teams.
 const BOTH: &str = r#"
@@ -76,8 +77,7 @@ scenario s {
 
 #[test]
 fn scripts_and_the_language_agree_on_every_name() {
-    let loaded = setpiece::compile_text(BOTH, "s.pitch").unwrap_or_else(|error| panic!("{error}"));
-    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut environment = environment(BOTH);
     let names = environment.term_names().to_vec();
     let pairs = [
         ("elsewhere/written", "elsewhere/script"),

@@ -6,15 +6,11 @@
     reason = "a test fails by panicking"
 )]
 
-use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::environment::{Environment, Scratch};
 use setpiece::engine::state::PlayerId;
 use setpiece::engine::state::event::Event;
 use setpiece::scenario::{Action, EventKind, Qualifier};
-
-fn environment(text: &str) -> Environment {
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap()
-}
+use setpiece_tests::environment;
 
 /// The sum of a term over the episode so far, by agent.
 fn sums(environment: &Environment, term: &str) -> Vec<f64> {

@@ -6,7 +6,7 @@
     reason = "a test fails by panicking"
 )]
 
-use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::environment::{Environment, Scratch};
 use setpiece::scenario::Action;
 use setpiece::scenario::pitch::X_SCALE_M;
 
@@ -39,8 +39,7 @@ scenario s {
 ";
 
 fn environment() -> Environment {
-    let loaded = setpiece::compile_text(ROUNDS, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap()
+    setpiece_tests::environment(ROUNDS)
 }
 
 /// What a step shows: the ball, the players, the terms.
@@ -137,8 +136,7 @@ fn a_substitute_has_the_place_of_the_other_and_legs_of_their_own() {
         }
         end limit 40 steps
     }";
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut environment = setpiece_tests::environment(text);
     for index in 0..2 {
         environment.reset(Some(3), Some(index)).unwrap();
         let mut scratch = Scratch::default();

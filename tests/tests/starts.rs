@@ -130,8 +130,7 @@ fn a_set_piece_of_a_team_without_players_is_taken_by_the_others() {
         team right { GK at (1, 0)  CF at (0.2, 0.1)  CM at (0, 0) }
         end limit 600 steps
     }";
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut environment = setpiece_tests::environment(text);
     environment.reset(Some(1), Some(0)).unwrap();
     let mut scratch = Scratch::default();
     let mut touches = 0;

@@ -7,13 +7,14 @@
     reason = "a test fails by panicking"
 )]
 
-use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::environment::Scratch;
 use setpiece::engine::random::{Purpose, Stream};
 use setpiece::engine::start::{Drawn, DrawnPlayer};
 use setpiece::engine::state::event::{Event, Events};
 use setpiece::engine::state::{Match, PlayerId};
 use setpiece::engine::step;
 use setpiece::scenario::vocabulary::{Action, EventKind, Team};
+use setpiece_tests::environment;
 
 /// A player's counterpart.
 fn other(id: PlayerId) -> PlayerId {
@@ -137,8 +138,7 @@ fn play(start: &Drawn, seed: u64, steps: u32, seen: &mut Vec<EventKind>) {
 
 /// The starts of a scenario's text, with chance off.
 fn starts(text: &str, count: u64) -> Vec<Drawn> {
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut environment = environment(text);
     (0..count)
         .map(|seed| {
             environment.reset(Some(seed), None).unwrap();

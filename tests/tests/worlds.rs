@@ -6,11 +6,12 @@
     reason = "a test fails by panicking"
 )]
 
-use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece::engine::environment::{Environment, Scratch};
 use setpiece::engine::physics::{Conditions, Forecast};
 use setpiece::engine::state::Match;
 use setpiece::replay::{Recorder, Replay};
 use setpiece::scenario::vocabulary::WorldFigure as Figure;
+use setpiece_tests::environment;
 
 /// A lofted ball over an empty pitch, under a world.
 fn lofted(world: &str) -> String {
@@ -21,11 +22,6 @@ fn lofted(world: &str) -> String {
             agents {{ left: 0 }}
             end limit 100 steps }}"
     )
-}
-
-fn environment(text: &str) -> Environment {
-    let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
-    Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap()
 }
 
 /// The match of an episode after some steps.

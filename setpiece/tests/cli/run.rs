@@ -1,0 +1,204 @@
+//! `setpiece run`: what it shows, and options and scenarios that it refuses.
+
+use super::{CLOSE, fails, folder, json, setpiece, text, write};
+
+#[test]
+fn runs_a_scenario_of_the_library() {
+    let result = json(&[
+        "run",
+        "academy_empty_goal_close",
+        "--agent",
+        "run_and_shoot",
+        "--episodes",
+        "20",
+        "--seed",
+        "1",
+        "--format",
+        "json",
+    ]);
+    let keys = [
+        "scenario",
+        "episodes",
+        "seed",
+        "outcomes",
+        "score",
+        "mean_return",
+        "mean_length",
+        "success_rate",
+        "terms",
+        "steps_per_second",
+        "digest",
+    ];
+    for key in keys {
+        assert!(!result[key].is_null(), "no `{key}` in {result}");
+    }
+    assert_eq!(result["episodes"], 20);
+    assert!(result["success_rate"].as_f64().unwrap() >= 0.9, "{result}");
+    assert!(
+        (result["mean_return"].as_f64().unwrap()
+            - result["terms"]["scoring/goal"].as_f64().unwrap())
+        .abs()
+            < 1e-9
+    );
+}
+
+#[test]
+fn the_text_shows_the_start_and_the_outcomes() {
+    let output = setpiece(&["run", "academy_3_vs_1_with_keeper", "--episodes", "5", "--seed", "3"]);
+    assert!(output.status.success());
+    let stdout = text(&output.stdout);
+    for word in ["Three of ours", "┌", "steps per second", "mean length"] {
+        assert!(stdout.contains(word), "no `{word}` in {stdout}");
+    }
+}
+
+#[test]
+fn threads_and_repetition_change_nothing() {
+    let run = |threads: &str| {
+        json(&[
+            "run",
+            "academy_3_vs_1_with_keeper",
+            "--agent",
+            "random",
+            "--episodes",
+            "12",
+            "--seed",
+            "5",
+            "--threads",
+            threads,
+            "--format",
+            "json",
+        ])
+    };
+    let (one, again, two) = (run("1"), run("1"), run("2"));
+    for key in ["digest", "outcomes", "terms", "mean_return", "mean_length"] {
+        assert_eq!(one[key], again[key], "{key}");
+        assert_eq!(one[key], two[key], "{key}");
+    }
+}
+
+#[test]
+fn wrong_options_are_one_clear_error() {
+    fails(&["run", "academy_empty_goal", "--episodes", "0"], 2, &["--episodes"]);
+    fails(&["run", "academy_empty_goal", "--threads", "0"], 2, &["--threads"]);
+    fails(&["run", "academy_empty_goal", "--agent", "genius"], 2, &["--agent"]);
+    fails(&["run", "academy_empty_goal", "--set", "difficulty"], 2, &["name=value"]);
+    fails(
+        &["run", "academy_empty_goal", "--set", "dificulty=0.9"],
+        1,
+        &["SP0008", "did you mean `difficulty`?"],
+    );
+    fails(&["run", "academy_empty_goal", "--set", "difficulty=2"], 1, &["SP0008", "0..1"]);
+    fails(&["run", "academy_empty_goal", "--set", "difficulty=much"], 1, &["SP0008", "much"]);
+    fails(
+        &["run", "academy_empty_goal", "--reward", "scorin"],
+        1,
+        &["SP0009", "did you mean `scoring`?"],
+    );
+    fails(&["run", "academy_empty_goal", "--seed", "-1"], 2, &["--seed"]);
+}
+
+#[test]
+fn a_parameter_that_makes_no_start_is_one_clear_error() {
+    let folder = folder();
+    let source = CLOSE.replace(
+        "ball at (0.77, 0)",
+        "param x = 0.77\n    param n = 5\n    ball at (x, 0)\n    end limit n * 1 step",
+    );
+    let path = write(folder.path(), "free.pitch", source);
+    assert!(setpiece(&["run", &path, "--episodes", "1"]).status.success());
+    let off = fails(
+        &["run", &path, "--set", "x=3"],
+        1,
+        &["SP0701", "`the ball lies on the pitch` does not hold"],
+    );
+    assert!(!off.contains("attempts"), "nothing is drawn: {off}");
+    fails(&["run", &path, "--set", "n=0"], 1, &["SP0701", "the limit is 1 step"]);
+    fails(
+        &["run", &path, "--set", "n=2.5"],
+        1,
+        &["SP0008", "expected a whole number, found `2.5`"],
+    );
+    fails(
+        &["run", "academy_corner", "--set", "difficulty=2"],
+        1,
+        &["SP0008", "is 2, outside 0..1"],
+    );
+    fails(
+        &["run", "academy_corner", "--reward", "scoring", "--reward", "scoring"],
+        1,
+        &["SP0009", "requested twice"],
+    );
+}
+
+#[test]
+fn values_that_are_not_finite_are_reported() {
+    let folder = folder();
+    let source =
+        CLOSE.replace("ball at", "reward x { state n = 0  give 1 / n as \"broken\" }\n    ball at");
+    let path = write(folder.path(), "faulty.pitch", source);
+    let output = text(&setpiece(&["run", &path, "--episodes", "2"]).stdout);
+    assert!(output.contains("values in `x` were not finite"), "{output}");
+    assert!(
+        json(&["run", &path, "--episodes", "2", "--format", "json"])["faults"].as_u64().unwrap()
+            > 0
+    );
+}
+
+#[test]
+fn a_value_that_grows_beyond_numbers_is_not_paid() {
+    let folder = folder();
+    let source = CLOSE.replace(
+        "ball at",
+        "reward x { state n = 1  n = n * 1e10  give n as \"grows\" }\n    ball at",
+    );
+    let path = write(folder.path(), "grows.pitch", source);
+    let result = json(&["run", &path, "--episodes", "1", "--format", "json"]);
+    assert!(result["faults"].as_u64().unwrap() > 0);
+    assert!(result["mean_return"].as_f64().unwrap().abs() < 1e31);
+}
+
+#[test]
+fn an_episode_without_an_end_is_refused_at_once() {
+    let folder = folder();
+    let path = write(
+        folder.path(),
+        "endless.pitch",
+        "scenario s { ball at centre  team left { CM at (-0.1, 0) } }",
+    );
+    fails(&["run", &path], 1, &["SP0703", "has no end"]);
+}
+
+#[test]
+fn agents_of_both_sides_have_a_mean_each() {
+    let folder = folder();
+    let both = CLOSE.replace("ball at", "agents { left: 1, right: 1 }\n    ball at");
+    let path = write(folder.path(), "both.pitch", both);
+    let output = text(&setpiece(&["run", &path, "--episodes", "3"]).stdout);
+    let line = output.lines().find(|line| line.contains("mean return")).unwrap();
+    assert!(line.contains(" : "), "{output}");
+    let result = json(&["run", &path, "--episodes", "3", "--format", "json"]);
+    let (left, right) = (&result["mean_returns"]["left"], &result["mean_returns"]["right"]);
+    let mean = f64::midpoint(left.as_f64().unwrap(), right.as_f64().unwrap());
+    assert!((result["mean_return"].as_f64().unwrap() - mean).abs() < 1e-9, "{result}");
+    let one = write(folder.path(), "close.pitch", CLOSE);
+    let result = json(&["run", &one, "--episodes", "1", "--format", "json"]);
+    assert!(result["mean_returns"].is_null(), "{result}");
+}
+
+#[test]
+fn a_level_that_stands_for_a_scenario_is_recognised() {
+    fails(
+        &["run", "academy_corner{difficulty=0.8}#3"],
+        1,
+        &["SP0005", "`--level 'academy_corner{difficulty=0.8}#3'`"],
+    );
+}
+
+#[test]
+fn a_level_that_cant_be_read_has_a_code() {
+    for level in ["", "x{", "academy_corner{difficulty=0.8", "{\"scenario\": 3}", "a#1:x"] {
+        fails(&["run", "--level", level], 1, &["SP0022", "can't be read", "help: a level is"]);
+    }
+    fails(&["run", "--level", &format!("academy_corner#1:{}", u64::MAX)], 1, &["SP0022"]);
+}

@@ -3,7 +3,6 @@ import pickle
 import threading
 import time
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ import gymnasium
 import numpy as np
 import pytest
 from conftest import play, same
+from environment_texts import SCRIPTED, SEVERAL
 from gymnasium.utils.env_checker import check_env
 from gymnasium.wrappers import (
     FlattenObservation,
@@ -23,8 +23,11 @@ import setpiece
 from setpiece import Action
 
 PitchFile = Callable[..., Path]
+
 CLOSE = "academy_empty_goal_close"
+
 THREE = "academy_3_vs_1_with_keeper"
+
 IDS = [f"setpiece/{name}-v0" for name in setpiece.list()]
 
 
@@ -123,14 +126,6 @@ def test_seed_of_make_is_that_of_the_first_reset() -> None:
     assert not same(*unseeded)
 
 
-@pytest.mark.parametrize("seed", [-1, 2**64, 1.5, "one"])
-def test_seed_out_of_range(seed: Any) -> None:
-    with pytest.raises(setpiece.ParameterError, match="seed"):
-        setpiece.make(CLOSE).reset(seed=seed)
-    with pytest.raises(setpiece.ParameterError, match="seed"):
-        setpiece.make(CLOSE, seed=seed)
-
-
 def shoot() -> Callable[[], Action]:
     """An agent for the empty goal: runs, then shoots."""
     steps = iter(range(10_000))
@@ -223,12 +218,6 @@ def test_an_edited_reward_pays_otherwise(pitch_file: PitchFile) -> None:
     assert a_goal(other)[-1][1] == 7.0
 
 
-@pytest.mark.parametrize("rewards", ["scorin", "scoring,nothing", ["scoring", "chekpoints"]])
-def test_unknown_reward(rewards: str | list[str]) -> None:
-    with pytest.raises(setpiece.RewardError, match="no reward"):
-        setpiece.make(CLOSE, rewards=rewards)
-
-
 def test_params_of_reset_hold_until_others_come() -> None:
     env = setpiece.make("11_vs_11_stochastic", params={"difficulty": 0.0})
 
@@ -244,66 +233,12 @@ def test_params_of_reset_hold_until_others_come() -> None:
 
 @pytest.mark.parametrize(
     "action",
-    [
-        19,
-        -1,
-        1.5,
-        "shot",
-        None,
-        True,
-        [1, 2],
-        np.array([1, 2]),
-        np.array([[1]]),
-        np.float32(3),
-        2**70,
-        {5: 5},
-        {5},
-    ],
-)
-def test_wrong_actions_leave_the_episode_untouched(action: Any) -> None:
-    env = setpiece.make(THREE)
-    env.reset(seed=1)
-    with pytest.raises(setpiece.ActionError) as caught:
-        env.step(action)
-    assert "0..18" in str(caught.value)
-    after = env.step(Action.RIGHT)
-    assert same(after, play(setpiece.make(THREE), 1, lambda: Action.RIGHT, steps=1)[1])
-
-
-@pytest.mark.parametrize(
-    "action",
     [5, np.int32(5), np.int64(5), np.uint8(5), Action.RIGHT, [5], (5,), np.array(5), np.array([5])],
 )
 def test_actions_of_every_integer_kind(action: Any) -> None:
     env = setpiece.make(THREE)
     env.reset(seed=1)
     assert same(env.step(action), play(setpiece.make(THREE), 1, lambda: 5, steps=1)[1])
-
-
-def test_step_needs_an_episode() -> None:
-    env = setpiece.make(CLOSE)
-    with pytest.raises(gymnasium.error.ResetNeeded):
-        env.step(0)
-    play(env, 1, lambda: Action.IDLE)
-    with pytest.raises(gymnasium.error.ResetNeeded):
-        env.step(0)
-
-
-def test_unknown_options_are_named() -> None:
-    wrong: list[Any] = [
-        {"param": {}},
-        {"params": 3},
-        {"params": {3: 4}},
-        {"episode": -1},
-        {"episode": "one"},
-    ]
-    for options in wrong:
-        with pytest.raises(setpiece.ParameterError):
-            setpiece.make(CLOSE).reset(options=options)
-    with pytest.raises(setpiece.ParameterError, match="did you mean `simple115v2`"):
-        setpiece.make(CLOSE, observation="simple15v2")
-    with pytest.raises(setpiece.ParameterError, match="ansi"):
-        setpiece.make(CLOSE, render_mode="humane")
 
 
 def test_observations_are_copies_unless_disabled() -> None:
@@ -317,24 +252,6 @@ def test_observations_are_copies_unless_disabled() -> None:
     for _ in range(10):
         assert env.step(Action.RIGHT)[0] is first
     assert not np.array_equal(first, kept)
-
-
-def test_frozen_buffer_is_an_error_and_not_a_crash() -> None:
-    env = setpiece.make(THREE, copy=False)
-    first = env.reset(seed=1)[0]
-    first.flags.writeable = False
-    with pytest.raises(setpiece.SetpieceError, match="read-only"):
-        env.step(0)
-    first.flags.writeable = True
-    env.step(0)
-
-
-SEVERAL = """import "std/academy/academy_3_vs_1_with_keeper.pitch"
-
-scenario several extends academy_3_vs_1_with_keeper {
-    agents { left: 3 right: 1 }
-}
-"""
 
 
 @pytest.mark.parametrize("observation", ["simple115v2", "smm", "raw"])
@@ -420,92 +337,10 @@ def test_step_releases_the_interpreter() -> None:
     assert counted > steps
 
 
-def test_one_environment_is_for_one_thread_at_a_time() -> None:
-    env = setpiece.make("11_vs_11_stochastic")
-    env.reset(seed=1)
-    failures: list[BaseException] = []
-
-    def steps() -> None:
-        for _ in range(300):
-            try:
-                env.step(0)
-            except (RuntimeError, gymnasium.error.ResetNeeded) as error:
-                failures.append(error)
-
-    threads = [threading.Thread(target=steps) for _ in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert all("Already" in str(error) or "thread" in str(error) for error in failures)
-    env.reset(seed=2)
-
-
-SCRIPTED = """import "std/academy/academy_empty_goal_close.pitch"
-
-scenario scripted extends academy_empty_goal_close {
-    remove reward scoring
-    reward script "mine.rhai"
-}
-"""
-
-
 def test_script_pays(pitch_file: PitchFile, tmp_path: Path) -> None:
     (tmp_path / "mine.rhai").write_text("fn reward(ctx, now, prev, events) { 0.25 }\n")
     trajectory = play(setpiece.make(pitch_file(SCRIPTED)), 1, steps=5)
     assert [step[1] for step in trajectory[1:]] == [0.25] * (len(trajectory) - 1)
-
-
-def test_failing_script_says_where(pitch_file: PitchFile, tmp_path: Path) -> None:
-    (tmp_path / "mine.rhai").write_text(
-        "fn reward(ctx, now, prev, events) {\n    let x = 0;\n    1 / x\n}\n"
-    )
-    env = setpiece.make(pitch_file(SCRIPTED))
-    env.reset(seed=77)
-    with pytest.raises(setpiece.ScriptError) as caught:
-        env.step(0)
-    error = caught.value
-    assert (error.script, error.line, error.hook, error.seed, error.step) == (
-        "mine.rhai",
-        3,
-        "reward",
-        77,
-        1,
-    )
-    with pytest.raises(gymnasium.error.ResetNeeded):
-        env.step(0)
-    env.reset(seed=78)
-
-
-def test_requirements_that_are_never_met() -> None:
-    text = "scenario s {\n param far = 0.5 in 0..1\n ball at (uniform(0, 0.1), 0)\n team left { CM at (0, 0) }\n"
-    env = setpiece.make(
-        setpiece.compile(text + ' require ball.x > far as "too far"\n end limit 10 steps\n}\n')
-    )
-    with pytest.raises(setpiece.DrawError, match="too far"):
-        env.reset(seed=1)
-
-
-def test_a_reset_that_fails_leaves_no_trace() -> None:
-    env = setpiece.make(CLOSE, seed=3)
-    before = env.reset(seed=1)
-    for params in ({"difficulty": 2}, {"nobody": 1}):
-        with pytest.raises(setpiece.ParameterError):
-            env.reset(seed=9, options={"params": params})
-    again = env.reset(seed=1)
-    assert same(before, again)
-    env.reset(seed=1, options={"episode": 2**64 - 1})
-    env.reset()
-
-
-def test_odd_arguments_are_named() -> None:
-    with pytest.raises(setpiece.ParameterError, match="`rewards` as names"):
-        setpiece.make(CLOSE, rewards=[3])  # type: ignore[list-item]
-    env = setpiece.make(CLOSE)
-    with pytest.raises(setpiece.ParameterError, match="`options` as a mapping"):
-        env.reset(options=3)  # type: ignore[arg-type]
-    with pytest.raises(setpiece.ParameterError, match="`seed`"):
-        env.reset(seed=True)
 
 
 MEASURED = """
@@ -522,16 +357,6 @@ scenario measured extends academy {
     end limit 20 steps
 }
 """
-
-
-@pytest.mark.parametrize("path", [5, None, b"run.pitchr", ["run.pitchr"]])
-def test_what_is_no_path_is_named(path: Any) -> None:
-    env = setpiece.make(CLOSE)
-    env.reset(seed=1)
-    for use in (setpiece.Replay, env.save_replay, setpiece.onnx_policy):
-        with pytest.raises(setpiece.ParameterError, match="expected a path as `path`") as caught:
-            use(path)
-        assert caught.value.name == "path"
 
 
 def test_records_reach_the_last_info() -> None:
@@ -564,159 +389,6 @@ def test_a_scenario_declares_its_own_observation() -> None:
         setpiece.make(CLOSE, observation="vector")
 
 
-def test_two_threads_on_one_environment_are_reported() -> None:
-    env = setpiece.make("11_vs_11_stochastic")
-    env.reset(seed=1)
-    raised: list[Exception] = []
-
-    def play() -> None:
-        for _ in range(2000):
-            try:
-                env.step(19 - 1)
-            except Exception as error:
-                raised.append(error)
-
-    threads = [threading.Thread(target=play) for _ in range(2)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert raised
-    assert {type(error) for error in raised} == {setpiece.InUseError}
-    assert "one for each thread" in str(raised[0])
-    # It still works.
-    env.step(0)
-
-
-def test_an_action_of_the_bots_is_asked_for_by_its_set() -> None:
-    default, v2 = setpiece.make(THREE), setpiece.make(THREE, action_set="v2")
-    assert default.action_space == gymnasium.spaces.Discrete(19)
-    assert v2.action_space == gymnasium.spaces.Discrete(20)
-    assert setpiece.make(setpiece.compile(SEVERAL), action_set="v2").action_space.shape == (4,)
-    assert v2.reset(seed=1)[1]["action_mask"].shape == (20,)
-    assert v2.action_masks()[Action.BUILTIN_AI] == 1
-    assert same(
-        play(default, 1, lambda: 5)[-1][4]["setpiece"], play(v2, 1, lambda: 5)[-1][4]["setpiece"]
-    )
-    with pytest.raises(setpiece.ParameterError, match="did you mean `default`") as caught:
-        setpiece.make(THREE, action_set="defalt")
-    assert caught.value.name == "action_set"
-    default.reset(seed=1)
-    with pytest.raises(setpiece.ActionError, match=r"0\.\.18") as refused:
-        default.step(Action.BUILTIN_AI)
-    assert 'action_set="v2"' in (refused.value.help or "")
-    with pytest.raises(setpiece.ActionError, match=r"0\.\.19") as beyond:
-        play(v2, 1, lambda: 20)
-    assert 'action_set="full"' in (beyond.value.help or "")
-    check_env(setpiece.make(THREE, action_set="v2", bot_action=True))
-
-
-def test_the_bots_action_clears_what_is_held() -> None:
-    env = setpiece.make("academy_empty_goal", action_set="v2", observation="raw")
-    env.reset(seed=1)
-    for action in (Action.RIGHT, Action.SPRINT):
-        held = env.step(action)[0]["sticky_actions"]
-    assert list(np.flatnonzero(held)) == [4, 8]
-    assert not env.step(Action.BUILTIN_AI)[0]["sticky_actions"].any()
-
-
-def test_who_follows_the_bots_choice_scores() -> None:
-    env = setpiece.make("academy_empty_goal", bot_action=True)
-    goals = 0
-    for seed in range(10):
-        _, info = env.reset(seed=seed)
-        over = False
-        while not over:
-            assert isinstance(info["bot_action"], int)
-            assert info["bot_action"] in env.action_space
-            _, _, terminated, truncated, info = env.step(info["bot_action"])
-            over = terminated or truncated
-        goals += info["score"][0]
-    assert goals >= 8
-
-
-def test_asking_the_bot_changes_nothing() -> None:
-    def digest(**options: Any) -> str:
-        return play(setpiece.make("11_vs_11_stochastic", **options), 3, steps=4000)[-1][4][
-            "setpiece"
-        ]["digest"]
-
-    assert digest() == digest(bot_action=True)
-
-
-def test_the_bots_choice_of_several_agents() -> None:
-    env = setpiece.make(setpiece.compile(SEVERAL), bot_action=True)
-    for *_, info in play(env, 1, lambda: [5, 0, 5, 5], steps=20):
-        assert info["bot_action"].dtype == np.int64
-        assert info["bot_action"].shape == (4,)
-        assert info["bot_action"] in env.action_space
-
-
-def test_what_everyone_pressed() -> None:
-    env = setpiece.make(THREE)
-    env.reset(seed=1)
-    assert env.played() == {}
-    env.step(Action.SPRINT)
-    played = env.played()
-    assert len(played) == 6
-    assert all(Action(action) != Action.BUILTIN_AI for action in played.values())
-    assert Action.SPRINT in played.values()
-
-
-NOBODY = """import "std/academy/academy_3_vs_1_with_keeper.pitch"
-
-scenario nobody extends academy_3_vs_1_with_keeper {
-    agents { left: 0 }
-}
-"""
-
-
-@pytest.mark.parametrize("observation", ["simple115v2", "smm", "raw"])
-def test_bots_among_themselves(observation: str) -> None:
-    env = setpiece.make(
-        setpiece.compile(NOBODY), observation=observation, events=True, bot_action=True
-    )
-    assert env.agents == ()
-    trajectory = play(env, 1, lambda: [])
-    for observed, reward, _, _, info in trajectory[1:]:
-        assert env.observation_space.contains(observed)
-        assert reward.shape == info["bot_action"].shape == (0,)
-        assert info["action_mask"].shape == (0, 19)
-    assert trajectory[-1][4]["outcome"]
-    assert len(env.played()) == 6
-    assert same(trajectory, play(env, 1, env.action_space.sample))
-    env.reset(seed=1)
-    with pytest.raises(setpiece.ActionError, match="nobody acts"):
-        env.step(5)
-    assert pickle.loads(pickle.dumps(env)).step([])[4]["score"] == [0, 0]
-
-
-@pytest.mark.parametrize("kind", ["single", "vector", "parallel"])
-def test_what_is_closed_says_so(kind: str) -> None:
-    made: dict[str, Callable[[], Any]] = {
-        "single": lambda: setpiece.make("academy_corner"),
-        "vector": lambda: setpiece.make_vec("academy_corner", 2),
-        "parallel": lambda: setpiece.parallel_env("academy_corner"),
-    }
-    env = made[kind]()
-    env.reset(seed=1)
-    env.close()
-    env.close()
-    with pytest.raises(gymnasium.error.ClosedEnvironmentError, match="closed"):
-        env.reset()
-    if kind != "parallel":
-        with pytest.raises(gymnasium.error.ClosedEnvironmentError, match="closed"):
-            env.step([0, 0] if kind == "vector" else 0)
-
-
-@pytest.mark.parametrize(
-    "maker", [setpiece.make, setpiece.parallel_env, partial(setpiece.make_vec, num_envs=2)]
-)
-def test_parameters_are_a_mapping(maker: Callable[..., Any]) -> None:
-    with pytest.raises(setpiece.ParameterError, match="expected `params` as a mapping"):
-        maker("academy_corner", params=[1])
-
-
 def test_a_copy_goes_over_to_scenarios_that_lack_the_first_ones_parameters() -> None:
     env = setpiece.make("academy_corner", params={"difficulty": 0.9})
     bare = "scenario s extends academy { ball at (0, 0) team left { CM at (0.1, 0) } }"
@@ -726,12 +398,3 @@ def test_a_copy_goes_over_to_scenarios_that_lack_the_first_ones_parameters() -> 
         for again in (copy.clone(), pickle.loads(pickle.dumps(copy))):
             assert again.scenario.name == "s"
             assert again.step(0)[4]["score"] == [0, 0]
-
-
-def test_a_vector_refuses_what_only_single_environments_take() -> None:
-    with pytest.raises(TypeError, match="unexpected keyword argument 'events'"):
-        gymnasium.make_vec(
-            "setpiece/academy_corner-v0", 2, vectorization_mode="vector_entry_point", events=True
-        )
-    with pytest.raises(TypeError, match="unexpected keyword argument 'observations'"):
-        setpiece.FootballEnv("academy_corner", observations="raw")  # type: ignore[call-arg]

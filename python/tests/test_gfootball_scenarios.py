@@ -8,21 +8,17 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import numpy as np
 import pytest
 from conftest import same
+from gfootball_scripts import HEAD, ONE_TEAM, recorded, script_file, starts_as
 
 import setpiece
-from setpiece import CompileError, FileError, ParameterError, SetpieceError
 from setpiece.gfootball import scenarios
 from setpiece.gfootball._import import import_script, main
 from setpiece.gfootball._translation import TranslationError, to_pitch
 from setpiece.gfootball.env import create_environment
-from setpiece.gfootball.env.scenario_builder import all_scenarios, record, script_of
 from setpiece.gfootball.env.scenario_config import FormationEntry, ScenarioConfig
 from setpiece.gfootball.scenarios import PlayerRole
-
-HEAD = "from . import *\n\ndef build_scenario(builder):\n    config = builder.config()\n"
 
 PLAIN = """
     config.game_duration = 60
@@ -36,6 +32,7 @@ PLAIN = """
     builder.AddPlayer(-1.0, 0.0, e_PlayerRole_GK)
     builder.AddPlayer(-0.75, 0.1, e_PlayerRole_CB)
 """
+
 LOOPS = """
     config.game_duration = 40
     builder.SetBallPosition(0.1, 0.1)
@@ -45,6 +42,7 @@ LOOPS = """
         for number, role in enumerate([e_PlayerRole_LB, e_PlayerRole_CB, e_PlayerRole_RB, e_PlayerRole_DM]):
             builder.AddPlayer(-0.1 * number - 0.05, 0.123456 - 0.1 * number, role, lazy)
 """
+
 EVERYTHING = """
     config.game_duration = 25
     config.second_half = 12
@@ -66,6 +64,7 @@ EVERYTHING = """
     builder.AddPlayer(1.0, 0.0, e_PlayerRole_GK, lazy=True)
     builder.AddPlayer(0.0, 0.0, e_PlayerRole_RM)
 """
+
 BALL_TAKES_TURNS = """
     config.game_duration = 30
     if builder.EpisodeNumber() % 2 == 0:
@@ -78,6 +77,7 @@ BALL_TAKES_TURNS = """
     builder.SetTeam(Team.e_Right)
     builder.AddPlayer(-1.0, 0.0, e_PlayerRole_GK, lazy=True)
 """
+
 PLACES_TAKE_TURNS = """
     even = builder.EpisodeNumber() % 2 == 0
     builder.SetBallPosition(0.2, 0.0)
@@ -89,6 +89,7 @@ PLACES_TAKE_TURNS = """
     builder.AddPlayer(-1.0, 0.0, e_PlayerRole_GK)
     builder.AddPlayer(-0.2, 0.1 if even else 0.3, e_PlayerRole_CB)
 """
+
 SIDES_TAKE_TURNS = """
     config.game_duration = 200
     config.second_half = 100
@@ -102,11 +103,7 @@ SIDES_TAKE_TURNS = """
         builder.AddPlayer(ax, ay, e_PlayerRole_RM)
         builder.AddPlayer(bx, by, e_PlayerRole_CF)
 """
-ONE_TEAM = """
-    config.game_duration = 20
-    builder.SetTeam(Team.e_Left)
-    builder.AddPlayer(-1.0, 0.0, e_PlayerRole_GK)
-"""
+
 COMPONENTS = """
     config.game_duration = 20
     config.ball_position[0] = 0.25
@@ -117,6 +114,7 @@ COMPONENTS = """
     builder.SetTeam(Team.e_Right)
     builder.AddPlayer(-0.25, 0.125, e_PlayerRole_CB)
 """
+
 SHAPES = {
     name.lower(): text
     for name, text in {
@@ -134,35 +132,6 @@ SHAPES = {
         **{"COMPONENTS": COMPONENTS},
     }.items()
 }
-
-
-def script_file(folder: Path, text: str, name: str = "mine") -> str:
-    path = folder / f"{name}.py"
-    path.write_text(HEAD + text, encoding="utf-8")
-    return str(path)
-
-
-def recorded(path: str, episode: int) -> ScenarioConfig:
-    from setpiece.gfootball.env.scenario_builder import load_script
-
-    return record(script_of(load_script(path), path), episode)
-
-
-def places(entries: list[FormationEntry], sign: float) -> list[tuple[float, float]]:
-    # Scripts place players on a wider scale than that of observations.
-    return [
-        (sign * entry.position[0] * 55 / 54.4, sign * entry.position[1] * 84.96 / 83.6)
-        for entry in entries
-    ]
-
-
-def starts_as(seen: dict[str, Any], said: ScenarioConfig) -> None:
-    """Whether an observation of the whole match matches the script's settings."""
-    assert np.allclose(seen["left_team"], places(said.left_team, 1.0), atol=1e-4)
-    assert np.allclose(seen["right_team"], places(said.right_team, -1.0), atol=1e-4)
-    assert np.allclose(seen["ball"][:2], said.ball_position[:2], atol=1e-6)
-    assert seen["left_team_roles"].tolist() == [int(entry.role) for entry in said.left_team]
-    assert seen["right_team_roles"].tolist() == [int(entry.role) for entry in said.right_team]
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -353,15 +322,6 @@ def test_an_episode_longer_than_a_limit_has_none() -> None:
     assert setpiece.compile(text).name == "longer"
 
 
-@pytest.mark.parametrize(
-    "call", ["AddPlayer(math.nan, 0, 1)", "AddPlayer(0, 'x', 1)", "SetBallPosition(0, math.inf)"]
-)
-def test_places_are_numbers(call: str, tmp_path: Path) -> None:
-    path = script_file(tmp_path, f"    import math\n    builder.{call}\n", "odd")
-    with pytest.raises(SetpieceError, match=call.partition("(")[0]):
-        create_environment(path)
-
-
 def test_a_fixed_seed_makes_the_same_match(tmp_path: Path) -> None:
     def play(seed: int) -> list[Any]:
         text = (
@@ -422,31 +382,6 @@ def test_a_state_of_the_other_kick_off(tmp_path: Path) -> None:
     assert same(later, [env.step(5) for _ in range(5)])
 
 
-def test_all_scenarios() -> None:
-    assert "academy_corner" in all_scenarios()
-
-
-def test_bad_scripts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(FileError):
-        create_environment(str(tmp_path / "none.py"))
-    empty = tmp_path / "empty.py"
-    empty.write_text("")
-    with pytest.raises(SetpieceError, match="build_scenario"):
-        create_environment(str(empty))
-    with pytest.raises(ParameterError, match="did you mean `offsides`"):
-        create_environment(script_file(tmp_path, "    config.offside = False\n", "typo"))
-    with pytest.raises(ParameterError, match=r"Team\.e_Left"):
-        create_environment(script_file(tmp_path, "    builder.SetTeam(3)\n", "team"))
-    with pytest.raises(ParameterError, match="e_PlayerRole_CM"):
-        create_environment(
-            script_file(tmp_path, "    builder.AddPlayer('a', 0, e_PlayerRole_GK)\n", "player")
-        )
-    with pytest.raises(CompileError):
-        create_environment(script_file(tmp_path, "    builder.SetBallPosition(3, 3)\n", "outside"))
-    assert main(["grf", script_file(tmp_path, "    nonsense\n", "broken")]) == 1
-    assert "NameError" in capsys.readouterr().err
-
-
 def test_the_command(tmp_path: Path) -> None:
     def run(*arguments: str) -> subprocess.CompletedProcess[str]:
         folder = str(Path(setpiece.__file__).parents[1])
@@ -474,282 +409,3 @@ def test_the_command(tmp_path: Path) -> None:
     assert run("import").returncode == 2
     assert run("import", "unity", "x.py").returncode == 2
     assert run("import", "--help").returncode == 0
-
-
-def test_the_level_of_the_example_of_many_agents() -> None:
-    env = create_environment("test_example_multiagent", number_of_left_players_agent_controls=3)
-    assert env.reset().shape == (3, 72, 96, 4)
-    assert env.step([0, 0, 0])[1].shape == (3,)
-
-
-def test_a_state_of_an_episode_with_other_players_to_control(tmp_path: Path) -> None:
-    text = (
-        ONE_TEAM
-        + "    builder.AddPlayer(0, 0, e_PlayerRole_CM, controllable=builder.EpisodeNumber() % 2 == 0)\n"
-    )
-    env = create_environment(
-        script_file(tmp_path, text), number_of_left_players_agent_controls=2, representation="raw"
-    )
-    assert [seen["active"] for seen in env.reset()] == [0, 1]
-    state = env.get_state()
-    later = env.step([5, 5])
-    assert [seen["active"] for seen in env.reset()] == [0, -1]
-    env.set_state(state)
-    assert same(later, env.step([5, 5]))
-
-
-NAMES = {
-    "": (
-        *(
-            "11_vs_11_competition",
-            "11_vs_11_easy_stochastic",
-            "11_vs_11_hard_stochastic",
-            "11_vs_11_kaggle",
-        ),
-        *(
-            "11_vs_11_stochastic",
-            "1_vs_1_easy",
-            "5_vs_5",
-            "academy_3_vs_1_with_keeper",
-            "academy_corner",
-        ),
-        *("academy_counterattack_easy", "academy_counterattack_hard", "academy_empty_goal"),
-        *(
-            "academy_empty_goal_close",
-            "academy_pass_and_shoot_with_keeper",
-            "academy_run_pass_and_shoot_with_keeper",
-        ),
-        *(
-            "academy_run_to_score",
-            "academy_run_to_score_with_keeper",
-            "academy_single_goal_versus_lazy",
-        ),
-        "test_example_multiagent",
-    ),
-    "tests.": (
-        *("11_vs_11_deterministic", "11_vs_11_easy_deterministic", "11_vs_11_hard_deterministic"),
-        *(
-            "11_vs_11_single_goal_deterministic",
-            "11_vs_11_single_goal_stochastic",
-            "11_vs_4_offence_deterministic",
-        ),
-        *("11_vs_4_offence_stochastic", "corner_test", "goal_test", "keeper_test"),
-        *(
-            "kickoff_for_goal_loosing_team_test",
-            "multiagent_wrapper",
-            "offside_test",
-            "penalty",
-            "second_half",
-        ),
-        "symmetric",
-    ),
-}
-"""Every scenario of GRF, by the folder's part of its name."""
-
-
-def test_the_library_has_every_scenario_of_grf_and_those_of_its_suite_for_many_agents() -> None:
-    of_grf = [name for names in NAMES.values() for name in names]
-    of_suite = [entry.entry for entry in setpiece.suite("academy_multi").entries]
-    assert sorted(of_grf + of_suite) == all_scenarios()
-
-
-@pytest.mark.parametrize(
-    "level", [folder + name for folder, names in NAMES.items() for name in names]
-)
-def test_every_scenario_of_grf_plays(level: str) -> None:
-    env = create_environment(
-        level, representation="simple115v2", number_of_right_players_agent_controls=1
-    )
-    again = create_environment(
-        level.removeprefix("tests."), number_of_right_players_agent_controls=1
-    )
-    for _ in range(2):
-        assert env.reset().shape == (2, 115)
-        again.reset()
-        assert np.allclose(env.unwrapped._core.whole["ball"], again.unwrapped._core.whole["ball"])
-        for _ in range(10):
-            if env.step([0, 0])[2]:
-                break
-
-
-GK, CB, CM, RM = (getattr(PlayerRole, f"e_PlayerRole_{role}") for role in ("GK", "CB", "CM", "RM"))
-KEEPER = (-1.0, 0.0, GK)
-STARTS: dict[str, tuple[int, tuple[Any, ...], tuple[Any, ...]]] = {
-    # Steps, then ball, left and right team in even and in odd episodes; each team in its own frame.
-    "test_example_multiagent": (
-        100,
-        *(
-            (
-                (0.62, 0),
-                [KEEPER, (0.6, 0, CM), (0.7, 0.2, CM), (0.7, -0.2, CM)],
-                [(1, 0, GK), (-0.75, 0, CB)],
-            ),
-        )
-        * 2,
-    ),
-    "tests.corner_test": (
-        30,
-        ((-0.9, 0.3), [KEEPER, (-0.85, 0.3, RM), (0, 0, RM)], [KEEPER, (-0.85, 0.3, RM)]),
-        ((0.9, -0.3), [KEEPER, (-0.85, 0.3, RM), (0, 0, RM)], [KEEPER, (-0.85, 0.3, RM)]),
-    ),
-    "tests.goal_test": (
-        65,
-        ((0.5, 0), [(0.5, 0, GK)], [(0.5, 0, GK)]),
-        ((-0.5, 0), [(0.5, 0, GK)], [(0.5, 0, GK)]),
-    ),
-    "tests.keeper_test": (
-        30,
-        ((0.9, 0.3), [KEEPER, (0.85, 0.3, RM), (0, 0, RM)], [KEEPER, (0.85, 0.3, RM)]),
-        ((-0.9, -0.3), [KEEPER, (0.85, 0.3, RM), (0, 0, RM)], [KEEPER, (0.85, 0.3, RM)]),
-    ),
-    "tests.kickoff_for_goal_loosing_team_test": (
-        400,
-        *(((0, 0), [(1, 0, GK), (0.8, 0, RM)], [KEEPER, (0, 0.02, RM)]),) * 2,
-    ),
-    "tests.offside_test": (
-        50,
-        ((0, 0), [(0, 0.4, GK), (0, -0.4, RM)], [(-0.05, 0, GK), (0.8, 0, RM)]),
-        ((0, 0), [(-0.05, 0, GK), (0.8, 0, RM)], [(0, 0.4, GK), (0, -0.4, RM)]),
-    ),
-    "tests.penalty": (30, *(((-0.72, 0), [KEEPER, (-0.69, 0, RM)], [KEEPER, (0.7, 0, RM)]),) * 2),
-    "tests.second_half": (10, *(((0, 0), [KEEPER, (0, 0.02, RM)], [KEEPER, (-0.5, 0, RM)]),) * 2),
-}
-
-
-@pytest.mark.parametrize("level", STARTS)
-def test_a_scenario_of_grfs_tests_starts_as_there(level: str) -> None:
-    steps, *episodes = STARTS[level]
-    env = create_environment(level, representation="raw")
-    for ball, left, right in episodes:
-        env.reset()
-        teams = [[FormationEntry((x, y), role) for x, y, role in team] for team in (left, right)]
-        starts_as(env.unwrapped._core.whole, ScenarioConfig([*ball, 0.0], *teams))
-        assert env.unwrapped._core.whole["steps_left"] == steps + 1
-
-
-def test_the_level_of_a_whole_team_shows_one_player() -> None:
-    env = create_environment("tests.multiagent_wrapper", representation="raw")
-    (seen,) = env.reset()
-    assert seen["active"] == seen["designated"]
-    assert env.unwrapped._config.number_of_left_players() == 11
-
-
-@pytest.mark.parametrize(
-    ("script", "why"),
-    [
-        ("def build_scenario(builder):\n    raise ValueError('hm')\n", "ValueError: hm"),
-        ("def build_scenario(builder)\n", "SyntaxError"),
-        ("import sys\nsys.exit(3)\n", "SystemExit: 3"),
-    ],
-)
-def test_a_script_that_fails_is_named(tmp_path: Path, script: str, why: str) -> None:
-    path = tmp_path / "broken.py"
-    path.write_text(script)
-    with pytest.raises(setpiece.GrfScriptError, match=why) as caught:
-        create_environment(str(path)).reset()
-    assert "broken.py` failed" in str(caught.value)
-    assert main(["grf", str(path)]) == 1
-
-
-@pytest.mark.parametrize(
-    ("name", "script", "line", "why"),
-    [
-        ("unclosed", "from . import *\ndef build_scenario(builder\n", 2, "SyntaxError"),
-        ("raising", "from . import *\nraise ValueError('hm')\n", 2, "ValueError: hm"),
-        ("lacking", "import no_such_package_at_all\n", 1, "ModuleNotFoundError: No module named"),
-        ("leaving", "import sys\n\nsys.exit(3)\n", 3, "SystemExit: 3"),
-        (
-            "deep",
-            HEAD + "    deeper(config)\n\ndef deeper(config):\n    1 / 0\n",
-            8,
-            "ZeroDivisionError",
-        ),
-    ],
-)
-def test_a_script_that_fails_says_where(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, script: str, line: int, why: str
-) -> None:
-    path = tmp_path / f"{name}.py"
-    path.write_text(script)
-    monkeypatch.setattr(scenarios, "__path__", [*scenarios.__path__, str(tmp_path)])
-    for level in (name, str(path)):
-        with pytest.raises(
-            setpiece.GrfScriptError, match=f"failed at line {line}: {why}"
-        ) as caught:
-            create_environment(level)
-        assert Path(caught.value.path) == path
-        assert caught.value.__cause__ is not None
-
-
-BAD_VALUES = {
-    "game_duration = 'x'": "`game_duration` is 'x'; it is an integer",
-    "game_duration = 40.5": "`game_duration` is 40.5; it is an integer",
-    "second_half = None": "`second_half` is None; it is an integer",
-    "left_team_difficulty = None": "`left_team_difficulty` is None; it is a number",
-    "right_team_difficulty = float('nan')": "`right_team_difficulty` is nan; it is a number",
-    "right_team_difficulty = '0.5'": "`right_team_difficulty` is '0.5'; it is a number",
-    "offsides = 'no'": "`offsides` is 'no'; it is True or False",
-    "ball_position = 3": "`ball_position` is 3; it is three numbers",
-    "left_team = [3]": "`left_team` is [3]; it is a list of players",
-    "game_engine_random_seed = 'x'": "`game_engine_random_seed` is 'x'; it is an integer",
-}
-
-
-@pytest.mark.parametrize("statement", BAD_VALUES)
-def test_a_setting_of_another_kind_is_named_with_its_line(
-    statement: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = script_file(tmp_path, f"    config.{statement}\n")
-    why = f"`{path}` at line 5: {BAD_VALUES[statement]}"
-    with pytest.raises(ParameterError) as caught:
-        create_environment(path)
-    assert str(caught.value) == why
-    assert caught.value.name == statement.split(" ")[0]
-    assert main(["grf", path]) == 1
-    assert capsys.readouterr() == ("", why + "\n")
-
-
-@pytest.mark.parametrize(
-    ("statement", "why"),
-    [
-        ("ball_position[0] = 'x'", "it is three numbers"),
-        ("ball_position.clear()", "it is three numbers"),
-        ("right_team.append(None)", "it is a list of players"),
-    ],
-)
-def test_a_list_filled_with_something_else_is_named(
-    statement: str, why: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = script_file(tmp_path, f"    config.{statement}\n")
-    assert main(["grf", path]) == 1
-    printed = capsys.readouterr().err
-    assert printed.startswith(f"`{path}`: `{statement[:8]}")
-    assert why in printed
-
-
-@pytest.mark.parametrize("name", ["position", "role"])
-def test_a_players_place_and_role_are_said_once(
-    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    added = "    builder.AddPlayer(-1, 0, e_PlayerRole_GK)\n    config.left_team[0].lazy = True\n"
-    path = script_file(tmp_path, added + f"    config.left_team[0].{name} = None\n")
-    assert main(["grf", path]) == 1
-    assert capsys.readouterr().err.startswith(
-        f"`{path}` at line 7: a player's `{name}` can only be read\n"
-    )
-    assert "GK at (-1.011, 0) { ai: lazy" in import_script(script_file(tmp_path, added, "lazy_one"))
-
-
-def test_settings_may_be_numbers_of_numpy(tmp_path: Path) -> None:
-    text = """
-    import numpy
-    config.game_duration = numpy.int64(60)
-    config.offsides = numpy.bool_(False)
-    config.end_episode_on_score = 1
-    config.left_team_difficulty = numpy.float32(0.5)
-    config.ball_position = numpy.array([0.62, 0.0, 0.0])
-"""
-    said = recorded(script_file(tmp_path, text), 2)
-    assert (said.game_duration, said.offsides, said.end_episode_on_score) == (60, False, True)
-    assert said.ball_position == [0.62, 0.0, 0.0]
-    assert "difficulty: 0.5" in import_script(script_file(tmp_path, text))

@@ -14,7 +14,9 @@ from setpiece._parameter_space import ParameterSpace
 __all__ = [
     "ACTIONS",
     "ACTION_SETS",
+    "AGENTS",
     "CONTINUOUS",
+    "EPISODES_MAX",
     "KINDS",
     "AgentInfo",
     "Arrays",
@@ -56,6 +58,8 @@ __all__ = [
 __version__: Final[str]
 ACTIONS: Final[tuple[tuple[str, str], ...]]
 ACTION_SETS: Final[dict[str, int]]
+AGENTS: Final[tuple[str, ...]]
+EPISODES_MAX: Final[int]
 CONTINUOUS: Final[tuple[list[float], list[float]]]
 KINDS: Final[tuple[str, ...]]
 
@@ -398,7 +402,7 @@ class Levels:
     def seed(self) -> int | None: ...
     def reseed(self, seed: int) -> None: ...
     @property
-    def left(self) -> int: ...
+    def n_unfinished(self) -> int: ...
     def state(self) -> str: ...
     def set_state(self, state: str) -> None: ...
     def stage(self) -> tuple[int, str, float | None] | None: ...

@@ -16,7 +16,7 @@ from setpiece._crowd import Crowd
 from setpiece._env_options import EnvOptions
 from setpiece._errors import ParameterError
 from setpiece._levels import LevelSource, place_of
-from setpiece._native import ACTION_SETS
+from setpiece._native import ACTION_SETS, AGENTS, EPISODES_MAX
 from setpiece._opponents import SIDES, Opponent, Table, is_onnx, is_word, policy_of
 from setpiece._optional import need
 from setpiece._options import (
@@ -30,12 +30,6 @@ from setpiece._options import (
 from setpiece._source import Source, load
 from setpiece._turn import one_thread
 from setpiece._words import check_word
-
-AGENTS = ("random", "idle", "run_and_shoot", "bot")
-"""The agents of the command."""
-
-EPISODES_MAX = 1_000_000
-"""The most episodes of an entry."""
 
 ENVS = 64
 """So many episodes are played at once."""
@@ -245,7 +239,7 @@ class Suite:
         self, at: int, name: str, policy: Opponent, options: EnvOptions, threads: int | None
     ) -> _native.SuiteRow:
         levels = self._native.levels(at)
-        n = min(ENVS, levels.left)
+        n = min(ENVS, levels.n_unfinished)
         batch = _native.Batch(
             self._native.scenario(at),
             n,
@@ -264,7 +258,7 @@ class Suite:
         nobody = np.zeros((n, 0), np.int64)
         with one_thread:
             batch.reset(arrays, [True] * n, none, none, False)
-        while levels.left:
+        while levels.n_unfinished:
             actions = crowd.actions(nobody, arrays.observations, batch.look)
             with one_thread:
                 batch.step(arrays, actions)

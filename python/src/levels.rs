@@ -145,9 +145,9 @@ impl Levels {
 
     /// How many episodes of a suite's entry have not ended yet.
     #[getter]
-    fn left(&self) -> usize {
+    fn n_unfinished(&self) -> usize {
         let SourceKind::Planned(levels) = &self.kind else { return 0 };
-        lock(&**levels).n_left()
+        lock(&**levels).n_unfinished()
     }
 
     /// The place and the name of a curriculum's stage, and the value that it adapts.

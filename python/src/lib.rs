@@ -31,6 +31,8 @@ mod _native {
     use pyo3::types::IntoPyDict;
     use setpiece::engine::control::continuous;
     use setpiece::scenario::Action;
+    use setpiece::scenario::plan::EPISODES_MAX;
+    use setpiece::scenario::vocabulary::AGENTS;
     use std::ffi::OsString;
 
     #[pymodule_export]
@@ -68,6 +70,8 @@ mod _native {
             Action::ALL.iter().map(|action| (action.name(), action.doc())).collect();
         module.add("ACTIONS", pyo3::types::PyTuple::new(module.py(), actions)?)?;
         let sets = ActionSet::NAMED.map(|(name, set)| (name, set.masked().len()));
+        module.add("AGENTS", pyo3::types::PyTuple::new(module.py(), AGENTS)?)?;
+        module.add("EPISODES_MAX", EPISODES_MAX)?;
         module.add("ACTION_SETS", sets.into_py_dict(module.py())?)?;
         module.add("CONTINUOUS", (continuous::LOW.to_vec(), continuous::HIGH.to_vec()))?;
         let kinds: Vec<&str> = continuous::KINDS.iter().map(|kind| kind.name()).collect();

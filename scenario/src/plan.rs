@@ -6,6 +6,9 @@
 use crate::{Bindings, Scenario};
 use std::sync::Arc;
 
+/// An entry of a suite and a check play this many episodes at most.
+pub const EPISODES_MAX: u64 = 1_000_000;
+
 /// Everything that a file says about many episodes.
 #[derive(Clone, Debug, Default)]
 pub struct Plans {

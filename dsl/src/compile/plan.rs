@@ -16,15 +16,13 @@ use crate::lower::value::{LiteralFrame, LocalName, Repr, Scope};
 use crate::lower::{Lower, World};
 use crate::problem::facts::Plans as Facts;
 use crate::problem::{Guess, Problem};
-use setpiece_scenario::plan::{self, Plans};
+use setpiece_scenario::plan::{self, EPISODES_MAX, Plans};
 use setpiece_scenario::vocabulary::AGENTS;
 use setpiece_scenario::{Bindings, Scenario};
 use std::sync::Arc;
 
 /// Suites of a file may have this many entries together, every `each` written out.
 const ENTRIES_MAX: usize = 4_096;
-/// An entry may have this many episodes.
-const EPISODES_MAX: u64 = 1_000_000;
 /// The greatest seed: the greatest whole number that every format keeps exactly.
 const SEED_MAX: u64 = (1 << 53) - 1;
 

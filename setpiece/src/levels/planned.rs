@@ -12,7 +12,7 @@ pub struct PlannedLevels {
     numbering: Numbering,
     /// By the index of the episode.
     ended: Vec<Option<EpisodeSummary>>,
-    n_left: usize,
+    n_unfinished: usize,
     terms: Vec<String>,
 }
 
@@ -23,7 +23,7 @@ impl PlannedLevels {
         PlannedLevels {
             numbering: Numbering::of(Some(plan.seed)),
             plan,
-            n_left: ended.len(),
+            n_unfinished: ended.len(),
             ended,
             terms: Vec::new(),
         }
@@ -36,8 +36,8 @@ impl PlannedLevels {
     }
 
     /// How many episodes have not ended yet.
-    pub fn n_left(&self) -> usize {
-        self.n_left
+    pub fn n_unfinished(&self) -> usize {
+        self.n_unfinished
     }
 }
 
@@ -64,7 +64,7 @@ impl LevelSource for PlannedLevels {
         if let Some(place) = place
             && place.replace(episode.clone()).is_none()
         {
-            self.n_left -= 1;
+            self.n_unfinished -= 1;
         }
     }
 

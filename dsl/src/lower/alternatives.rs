@@ -1,7 +1,9 @@
 //! One of several things that are no numbers: `choice(press, hold)`, `if C then f else g`.
 
 use super::Lower;
-use crate::ast::{Expr, ExprKind, Span};
+use crate::ast::{Arg, Expr, ExprKind, Span};
+use crate::problem::Problem;
+use crate::problem::facts::Calls;
 use setpiece_scenario::vocabulary::{Function, Team};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 
@@ -42,6 +44,15 @@ impl<'w> Lower<'_, 'w> {
                 }
             }
             ExprKind::Call { name, args } if name.node == Function::Choice.name() => {
+                let number = |expr: &Expr| matches!(expr.kind, ExprKind::Number { .. });
+                let swapped = |arg: &&Arg| arg.key.as_ref().is_some_and(number);
+                if let Some(arg) = args.iter().find(swapped)
+                    && let Some(weight) = &arg.key
+                {
+                    let [value, weight] = [&arg.value, weight].map(|one| self.world.text(one.span));
+                    self.report(Problem::new(arg.span, Calls::WeightFirst { value, weight }));
+                    return;
+                }
                 let Some(index) = self.pick(args, expr.span, &mut |_, _| {}) else { return };
                 for (nth, arg) in args.iter().enumerate() {
                     let nth = self.code.constant(nth as f64);

@@ -33,7 +33,11 @@ impl<'w> Lower<'_, 'w> {
         let (at, linear) = match args {
             [at] if plain => (&at.value, false),
             [at, how] if plain && is_linear(&how.value) => (&at.value, true),
-            [_, how] if plain && matches!(how.value.kind, ExprKind::Name(_)) => {
+            [at, how]
+                if plain
+                    && !is_linear(&at.value)
+                    && matches!(how.value.kind, ExprKind::Name(_)) =>
+            {
                 let (name, word) = (item.name.node.clone(), self.world.text(how.value.span));
                 return self.fail(Problem::new(how.value.span, Tables::HowWord { name, word }));
             }

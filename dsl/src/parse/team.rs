@@ -2,20 +2,59 @@
 
 use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
-use crate::ast::{Expr, Facing, Place, PlaceKind, PlayerStmt, Spanned, TeamStmt, TeamStmtKind};
+use crate::ast::{
+    Expr, ExprKind, Facing, Field, FieldValue, Place, PlaceKind, PlayerStmt, Spanned, TeamStmt,
+    TeamStmtKind,
+};
+use crate::check::options::TEAM;
 use crate::problem::Problem;
 use crate::problem::facts::Players;
 use crate::source::Span;
 use setpiece_grammar::Rule;
-use setpiece_scenario::vocabulary::Role;
+use setpiece_scenario::vocabulary::{Role, Unit};
 
 impl Reader<'_> {
     /// The statements between a team's or formation's braces.
     pub(super) fn team_body(&mut self, node: CstNode<'_>) -> Vec<TeamStmt> {
-        self.list(node, Context::Team, Self::team_stmt, |span, _| TeamStmt {
+        let mut body = self.list(node, Context::Team, Self::team_stmt, |span, _| TeamStmt {
             span,
             kind: TeamStmtKind::Broken,
-        })
+        });
+        self.find_named_shares(&mut body);
+        body
+    }
+
+    /// `b: 30% CF` reads as an option and a player, and is meant to be one player.
+    fn find_named_shares(&mut self, body: &mut [TeamStmt]) {
+        for index in 1..body.len() {
+            let Some([option, next]) = body.get_mut(index - 1..=index) else { continue };
+            let (TeamStmtKind::Field(Field { key, value }), TeamStmtKind::Player(player)) =
+                (&option.kind, &next.kind)
+            else {
+                continue;
+            };
+            let share = match value {
+                FieldValue::Expr(Expr { kind: ExprKind::Number { unit, .. }, span })
+                    if *unit == Some(Unit::Percent) =>
+                {
+                    self.text.get(span.start as usize..span.end as usize).unwrap_or_default()
+                }
+                FieldValue::Expr(Expr { kind: ExprKind::Name(word), .. }) if word == "maybe" => {
+                    "50%"
+                }
+                _ => continue,
+            };
+            let between = self.text.get(option.span.end as usize..next.span.start as usize);
+            let is_option = TEAM.contains(&key.node.as_str());
+            if is_option || player.name.is_some() || between.is_none_or(|it| it.contains('\n')) {
+                continue;
+            }
+            let form = format!("maybe {share} {}: {}", key.node, player.role.node);
+            let (span, text) = (option.span.to(player.role.span), key.node.clone());
+            self.push(Problem::new(span, Players::NameBeforeShare { name: text, form }));
+            self.lost.insert(key.node.clone());
+            option.kind = TeamStmtKind::Broken;
+        }
     }
 
     fn team_stmt(&mut self, node: CstNode<'_>, span: Span, _doc: String) -> TeamStmt {

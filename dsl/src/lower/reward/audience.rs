@@ -42,7 +42,10 @@ impl<'w> Lower<'_, 'w> {
                 self.report(Problem::new(who.span, Rewards::NoReceiver { word }));
                 return None;
             }
-            ExprKind::Name(name) if is_view(name) && self.scope.find(name).is_none() => {
+            ExprKind::Name(name)
+                if (is_view(name) || is_everyone(name) && !self.world.declares(name))
+                    && self.scope.find(name).is_none() =>
+            {
                 let name = name.clone();
                 self.report(Problem::new(who.span, Rewards::ReceiverOfView { name, word }));
                 return None;
@@ -121,6 +124,11 @@ impl<'w> Lower<'_, 'w> {
             self.report(Problem::new(who.span, Rewards::PaysNobody { team }));
         }
     }
+}
+
+/// Whether a word of other languages stands for every agent.
+fn is_everyone(name: &str) -> bool {
+    matches!(name, "all" | "everyone" | "everybody" | "anyone")
 }
 
 /// Whether a name is read from the view of each agent.

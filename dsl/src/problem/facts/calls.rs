@@ -58,6 +58,10 @@ facts! {
                 Some(least) => format!("write `{least}`"),
                 None => "count players first: `count(p in us where …)`".to_owned(),
             }),
+        /// `choice(0.3: press)`.
+        WeightFirst { value: String, weight: String } = Code::WrongArguments =>
+            say("a weight stands behind its value", "the other way round")
+                .help(format!("write `{value}: {weight}`")),
         /// `count` and its like without one set of players.
         OneSet { function: &'static str, signature: String } = Code::WrongArguments =>
             say(format!("`{function}` goes through one set of players"), "").help(format!("`{signature}`")),

@@ -36,6 +36,10 @@ facts! {
                 } else {
                     format!("write `{most}..{least}`")
                 }),
+        /// `b: 30% CF`; `form`: how it is written.
+        NameBeforeShare { name: String, form: String } = Code::Syntax =>
+            say(format!("the name `{name}` stands before a share"), "a name stands before its role")
+                .help(format!("write `{form} …`")),
         /// Two keepers.
         TwoKeepers { team: Team, first: Span } = Code::TwoKeepers =>
             say(format!("the {team} team has two keepers"), "the second one")

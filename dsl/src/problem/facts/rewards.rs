@@ -20,7 +20,7 @@ facts! {
         ReceiverOfView { name: String, word: &'static str } = Code::WrongType => {
             let said = say(format!("`{word} {name}` says nothing: every agent is judged for itself"), "");
             match name.as_str() {
-                "us" | "me" | "players" => said.help(format!("leave it out, or name a team or a player: `{word} left`")),
+                "us" | "me" | "players" | "all" | "everyone" | "everybody" | "anyone" => said.help(format!("leave it out, or name a team or a player: `{word} left`")),
                 _ => said.help(format!(
                     "name a team or a player, `{word} left`, or write whose deeds pay: `give 1 on goal by them`"
                 )),

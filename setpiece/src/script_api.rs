@@ -11,8 +11,8 @@ pub struct EngineScripts;
 
 impl ScriptApi for EngineScripts {
     fn check(&self, script: &Source, hook: &str, sight: &ScriptSight<'_>) -> Vec<ScriptProblem> {
-        let ScriptSight { params, named, others } = sight;
-        check_script(&script.text, hook, &ScriptNames { params, named, others })
+        let ScriptSight { params, named, others, terms } = sight;
+        check_script(&script.text, hook, &ScriptNames { params, named, others, terms })
             .into_iter()
             .map(|fault| ScriptProblem {
                 code: match fault.kind {

@@ -32,7 +32,7 @@ pub(super) fn load(
                 for stmt in &scenario.body {
                     match &stmt.kind {
                         ScenarioStmtKind::Reward(used) => match &used.what {
-                            RewardUseKind::Script(script) => named.push(script),
+                            RewardUseKind::Script { script, .. } => named.push(script),
                             RewardUseKind::Inline { body, .. } => of_reward(body, &mut named),
                             RewardUseKind::Named(_) => {}
                         },
@@ -76,7 +76,7 @@ pub(super) fn load(
 fn of_reward<'a>(body: &'a [RewardStmt], named: &mut Vec<&'a ScriptRef>) {
     for stmt in body {
         match &stmt.kind {
-            RewardStmtKind::Give(GiveStmt { value: GiveValue::Script(script), .. }) => {
+            RewardStmtKind::Give(GiveStmt { value: GiveValue::Script { script, .. }, .. }) => {
                 named.push(script);
             }
             RewardStmtKind::On { body, .. } => of_reward(body, named),

@@ -70,13 +70,22 @@ pub(super) fn named_file(world: &World<'_>, path: &Spanned<String>) -> Option<Fi
     }
 }
 
-/// Embeds a script and gives its place in the scenario; `None` after a report. `own` are the names
-/// that its hook finds among the scenario's parameters.
+/// What is asked of a script.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct AskedHook<'a> {
+    /// The hook's name.
+    pub(crate) name: &'static str,
+    /// Names that it finds among the scenario's parameters.
+    pub(crate) own: &'a [&'a str],
+    /// The terms that it returns.
+    pub(crate) terms: &'a [&'a str],
+}
+
+/// Embeds a script and gives its place in the scenario; `None` after a report.
 pub(crate) fn embed<'w>(
     lower: &Lower<'_, 'w>,
     script: &'w ScriptRef,
-    hook: &'static str,
-    own: &[&str],
+    hook: AskedHook<'_>,
 ) -> Option<u32> {
     let world = lower.world;
     let (name, source, text_at) = match &script.source {
@@ -101,7 +110,7 @@ pub(crate) fn embed<'w>(
     // A script reads a parameter by its name, in whatever way.
     let words: Vec<&str> = source.text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
     let named = named_values(lower, &words, script.span);
-    check(lower, script.span, &source, text_at, hook, own, &named);
+    check(lower, script.span, &source, text_at, hook, &named);
     for param in world.params.iter().filter(|param| words.contains(&param.name.node.as_str())) {
         world.mark_used(param.name.span);
     }
@@ -122,19 +131,22 @@ fn check(
     used: Span,
     source: &Source,
     (file, offset): (FileId, u32),
-    hook: &str,
-    own: &[&str],
+    hook: AskedHook<'_>,
     named: &[NamedValue],
 ) {
     let world = lower.world;
     let Some(api) = world.scripts_loaded.api else { return };
     let bound = world.params.iter().filter(|param| param.bound.is_none());
     let sight = ScriptSight {
-        params: bound.map(|param| param.param.name.as_str()).chain(own.iter().copied()).collect(),
+        params: bound
+            .map(|param| param.param.name.as_str())
+            .chain(hook.own.iter().copied())
+            .collect(),
         named: named.iter().map(|named| (named.name.as_str(), named.kind)).collect(),
         others: nameable(lower, used),
+        terms: hook.terms.to_vec(),
     };
-    for found in api.check(source, hook, &sight) {
+    for found in api.check(source, hook.name, &sight) {
         let span = Span {
             file,
             start: offset + found.range.start as u32,

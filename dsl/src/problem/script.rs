@@ -20,6 +20,8 @@ pub struct ScriptSight<'a> {
     pub named: Vec<(&'a str, NamedKind)>,
     /// Every name that it might have meant instead.
     pub others: Vec<&'a str>,
+    /// The keys of the map that a `reward` hook returns; none if it returns a number.
+    pub terms: Vec<&'a str>,
 }
 
 /// A fault of a script.

@@ -49,7 +49,7 @@ fn script_reward(source: &str) -> Scenario {
                 ..Program::default()
             },
             terms: vec!["script".to_owned()],
-            hooks: vec![RewardHook { script: 0, cell: 0, args: Vec::new() }],
+            hooks: vec![RewardHook { script: 0, cell: 0, terms: Vec::new(), args: Vec::new() }],
         },
     }];
     scenario

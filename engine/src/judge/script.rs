@@ -6,7 +6,8 @@
 //! depth and sizes are bounded, and random numbers come only from the episode's seed. `this` is the
 //! script's memory: a map that lives as long as the episode.
 //!
-//! - `fn reward(ctx, now, prev, events)` returns a number, each step, for each agent.
+//! - `fn reward(ctx, now, prev, events)` returns a number, or a map of numbers by the names of its
+//!   terms, each step, for each agent.
 //! - `fn done(ctx, now, prev, events)` returns whether the episode ends: true, or its label.
 //! - `fn act(ctx, me, now)` returns the action of the player it plays, each step.
 
@@ -14,10 +15,12 @@ mod api;
 mod budget;
 mod call;
 mod check;
+mod functions;
 mod hooks;
 mod host;
 mod limits;
 mod place;
+mod terms;
 mod words;
 
 pub use api::{Argument, HookScene, Member, Params, Perspective, Subject, functions, members};
@@ -97,6 +100,15 @@ pub enum Done {
     Yes,
     /// It ends, under this name.
     Labelled(String),
+}
+
+/// What a reward asks of a script's hook.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RewardAsked<'a> {
+    /// The keys of the map that the hook returns; none if it returns a number.
+    pub terms: &'a [String],
+    /// The reward's arguments.
+    pub arguments: &'a [Argument<'a>],
 }
 
 /// The compiled scripts of a scenario.
@@ -219,26 +231,23 @@ impl Scripts {
         })
     }
 
-    /// Calls a script's `reward` hook.
+    /// Calls a script's `reward` hook, which writes into `values`: one number, or one for each of
+    /// its terms.
     ///
     /// # Errors
-    /// [`ScriptError`] if the hook fails or doesn't return a number.
-    pub fn reward(
+    /// [`ScriptError`] if the hook fails, or doesn't return a number, or a map of its terms.
+    pub fn reward_terms(
         &self,
         script: u32,
         scene: &Arc<HookScene>,
         perspective: Perspective,
-        arguments: &[Argument<'_>],
+        asked: RewardAsked<'_>,
         memory: &mut Memory,
-    ) -> Result<f64, ScriptError> {
+        values: &mut [f64],
+    ) -> Result<(), ScriptError> {
+        let RewardAsked { terms, arguments } = asked;
         let value = self.call(script, REWARD, scene, (perspective, arguments), memory)?;
-        match value.as_float() {
-            Ok(number) => Ok(number),
-            Err(_) => value
-                .as_int()
-                .map(|whole| whole as f64)
-                .map_err(|found| self.wrong_type(script, REWARD, "a number", found, scene)),
-        }
+        terms::read(&value, terms, values).map_err(|why| self.failed(script, REWARD, why, scene))
     }
 
     /// Calls a script's `done` hook.
@@ -335,6 +344,11 @@ impl Scripts {
         scene: &HookScene,
     ) -> ScriptError {
         let message = format!("expected {expected}, found {}", api::type_words(found));
+        self.failed(script, hook, message, scene)
+    }
+
+    /// A hook whose result can't be used.
+    fn failed(&self, script: u32, hook: &str, message: String, scene: &HookScene) -> ScriptError {
         match self.list.get(script as usize) {
             Some(compiled) => compiled.error(hook, None, message, scene),
             None => ScriptError {

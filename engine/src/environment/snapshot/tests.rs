@@ -292,7 +292,7 @@ fn scripted(source: &str) -> Scenario {
         init: Program { code: Vec::new(), cells: 1, ..Program::default() },
         step: Program { code: Vec::new(), cells: 1, ..Program::default() },
         terms: Vec::new(),
-        hooks: vec![RewardHook { script: 0, cell: 0, args: Vec::new() }],
+        hooks: vec![RewardHook { script: 0, cell: 0, terms: Vec::new(), args: Vec::new() }],
     };
     scenario.rewards = vec![Reward { name: "own".to_owned(), doc: String::new(), body }];
     scenario

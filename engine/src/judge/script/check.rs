@@ -1,9 +1,10 @@
 //! Checks a script before it runs: its grammar, its hook, the [`names`] it uses.
 
 mod names;
+mod terms;
 
 use super::api::Subject;
-use super::hooks::hook_arguments;
+use super::hooks::{REWARD, hook_arguments};
 use super::place::{definition, offset, word_at};
 use super::{host, words};
 use names::Names;
@@ -47,6 +48,8 @@ pub struct ScriptNames<'a> {
     pub named: &'a [(&'a str, NamedKind)],
     /// Names that it might have meant instead.
     pub others: &'a [&'a str],
+    /// The keys of the map that a `reward` hook returns; none if it returns a number.
+    pub terms: &'a [&'a str],
 }
 
 /// The most problems reported per script, because finding the place of each scans the script from
@@ -77,6 +80,9 @@ pub fn check_script(source: &str, hook: &str, known: &ScriptNames<'_>) -> Vec<Sc
     let mut faults: Vec<ScriptFault> = check_hook(source, hook, &ast).into_iter().collect();
     faults.extend(check_reset(source, &ast));
     faults.extend(check_top_level(source, &ast));
+    if hook == REWARD {
+        terms::check(source, &ast, known.terms, &mut faults);
+    }
     let mut names = Names::of(source, hook, *known, &ast);
     ast.walk(&mut |path: &[ASTNode]| {
         names.visit(path);

@@ -38,6 +38,23 @@ fn scripts(source: &str) -> Scripts {
     Scripts::compile(&scenario).unwrap()
 }
 
+impl Scripts {
+    /// Calls a `reward` hook that returns a number.
+    fn reward(
+        &self,
+        script: u32,
+        scene: &Arc<HookScene>,
+        perspective: Perspective,
+        arguments: &[Argument<'_>],
+        memory: &mut Memory,
+    ) -> Result<f64, ScriptError> {
+        let mut value = [0.0];
+        let asked = RewardAsked { terms: &[], arguments };
+        self.reward_terms(script, scene, perspective, asked, memory, &mut value)?;
+        Ok(value[0])
+    }
+}
+
 fn pay_for(body: &str, us: Team, events: &[Event]) -> Result<f64, ScriptError> {
     let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
     let me = Some(if us == Team::Left { PlayerId(1) } else { PlayerId(12) });
@@ -113,6 +130,39 @@ fn helpers_measure() {
     near(pay("if pressed(now.me, 5.1) && !pressed(now.me, 4) { 1 } else { 0 }"), 1.0);
     near(pay("pow(2, 3) + sqrt(9) + clamp(5.0, 0.0, 1.0) + smoothstep(0.0, 1.0, 0.5)"), 12.5);
     assert!(fail("distance(now.me, prev.ball.owner)").message.contains("found nobody"));
+}
+
+fn pay_terms(body: &str, terms: &[&str]) -> Result<Vec<f64>, String> {
+    let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
+    let terms: Vec<String> = terms.iter().map(|&term| term.to_owned()).collect();
+    let asked = RewardAsked { terms: &terms, arguments: &[] };
+    let perspective = Perspective { us: Team::Left, me: Some(PlayerId(1)), agent: 0 };
+    let mut values = vec![0.0; terms.len().max(1)];
+    let memory = &mut Memory::default();
+    scripts(&source)
+        .reward_terms(0, &scene(&[]), perspective, asked, memory, &mut values)
+        .map(|()| values)
+        .map_err(|error| format!("{}:{} {}", error.line, error.column, error.message))
+}
+
+#[test]
+fn a_map_pays_each_of_its_terms() {
+    let terms = &["goal", "tempo"];
+    assert_eq!(pay_terms("#{tempo: -0.1, goal: 1}", terms), Ok(vec![1.0, -0.1]));
+    assert_eq!(
+        pay_terms("let pay = #{}; pay.goal = 2.5; pay.tempo = 0; pay", terms),
+        Ok(vec![2.5, 0.0])
+    );
+    for (body, message) in [
+        ("#{goal: 1}", "1:4 the map has no term `tempo`"),
+        ("#{goal: 1, tempo: 0, temp: 1}", "1:4 no term is called `temp`; did you mean `tempo`?"),
+        ("#{goal: 1, tempo: \"x\"}", "1:4 term `tempo`: expected a number, found a string"),
+        ("0.5", "1:4 expected a map of `goal`, `tempo`, found a number"),
+    ] {
+        assert_eq!(pay_terms(body, terms), Err(message.to_owned()));
+    }
+    let alone = pay_terms("#{goal: 1}", &[]).unwrap_err();
+    assert!(alone.contains("expected a number, found a map"), "{alone}");
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! the text is treated as large.
 
 use super::super::api::{Subject, members};
+use super::super::functions::{ANONYMOUS, ScriptFunction};
 use super::super::hooks::hook_arguments;
 use rhai::{Expr, FnCallExpr, FnPtr, Position, Stmt, StmtBlock};
 use std::collections::{BTreeMap, BTreeSet};
@@ -108,13 +109,6 @@ const READING: &[&str] = &[
 /// List methods that call a closure with each element.
 const EACH: &[&str] = &["all", "filter", "find", "find_map", "for_each", "map", "some"];
 
-/// A function of a script, with its statements.
-pub(super) struct ScriptFunction {
-    pub(super) name: String,
-    pub(super) params: Vec<String>,
-    pub(super) body: Vec<Stmt>,
-}
-
 /// What is known about a script's variables and functions.
 pub(super) struct Classes<'a> {
     functions: &'a [ScriptFunction],
@@ -146,9 +140,6 @@ pub(super) struct Pointers {
 
 /// After this many rounds, remaining assumptions about variables are dropped.
 const ROUNDS_MAX: usize = 8;
-
-/// Rhai's prefix for the names of closures' functions.
-pub(super) const ANONYMOUS: &str = "anon$";
 
 impl<'a> Classes<'a> {
     pub(super) fn of(functions: &'a [ScriptFunction], pointers: Pointers) -> Classes<'a> {

@@ -9,9 +9,10 @@
 //! Rhai's syntax tree can be read but not written, so the calls are inserted into the text.
 //! [`Edits`] maps places in it back to the author's text.
 
+use super::super::functions::{ANONYMOUS, ScriptFunction, functions};
 use super::super::limits::{COUNTED, WORKED};
 use super::super::words;
-use super::class::{ANONYMOUS, Class, Classes, Link, Pointers, ScriptFunction, closure, links};
+use super::class::{Class, Classes, Link, Pointers, closure, links};
 use super::edits::Edits;
 use super::scan::{closing_bracket, expression_end};
 use super::{CAUGHT_OPERATIONS, CAUGHT_WAITING_OPERATIONS};
@@ -79,35 +80,6 @@ pub(in super::super) fn count_copies(
         Some(place) => Err(place),
         None => Ok(writer.written()),
     }
-}
-
-/// The functions of a script, in text order. Functions that differ only in the type of `this` are
-/// one.
-fn functions(ast: &AST) -> Vec<ScriptFunction> {
-    let mut list: Vec<(Position, ScriptFunction)> = Vec::new();
-    for found in ast.iter_fn_def() {
-        let (name, n_params) = (found.name.as_str(), found.params.len());
-        let begins = found.body.start_position();
-        if let Some(known) =
-            list.iter_mut().find(|(_, known)| known.name == name && known.params.len() == n_params)
-        {
-            known.0 = known.0.min(begins);
-            continue;
-        }
-        let mut alone = ast.clone_functions_only();
-        alone.retain_functions(|_, _, other, others| other == name && others == n_params);
-        let mut body = Vec::new();
-        alone.walk(&mut |path: &[ASTNode]| {
-            if let [ASTNode::Stmt(statement)] = path {
-                body.push((*statement).clone());
-            }
-            true
-        });
-        let params = found.params.iter().map(ToString::to_string).collect();
-        list.push((begins, ScriptFunction { name: name.to_owned(), params, body }));
-    }
-    list.sort_by_key(|(begins, _)| *begins);
-    list.into_iter().map(|(_, function)| function).collect()
 }
 
 /// The starts of a function's bodies.

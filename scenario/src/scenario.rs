@@ -1,6 +1,7 @@
 //! The compiled scenario.
 
 use crate::behavior::{Behavior, ScriptArg};
+use crate::module::ScriptModule;
 use crate::named::NamedValue;
 use crate::params::Param;
 use crate::program::{Program, Reg};
@@ -92,6 +93,16 @@ pub struct Script {
     /// What it may read by name.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub named: Vec<NamedValue>,
+    /// The modules that it imports, and those that they import.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub modules: Vec<ScriptModule>,
+}
+
+impl Script {
+    /// Bytes of its text and its modules.
+    pub fn n_bytes(&self) -> usize {
+        self.source.len() + self.modules.iter().map(|module| module.source.len()).sum::<usize>()
+    }
 }
 
 fn at_the_top() -> (u32, u32) {

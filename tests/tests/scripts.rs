@@ -1,4 +1,4 @@
-//! Scripts from text to pay: several terms.
+//! Scripts from text to pay: several terms, modules.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -9,6 +9,9 @@
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::scenario::file::binary;
 use setpiece::scenario::vocabulary::Action;
+use setpiece::{Error, load};
+use std::fs;
+use std::path::Path;
 use std::sync::Arc;
 
 fn scenario(rewards: &str) -> String {
@@ -101,4 +104,98 @@ fn a_map_without_a_term_ends_the_episode_with_its_name() {
     assert!(step().is_ok() && step().is_ok());
     let error = step().unwrap_err().to_string();
     assert!(error.contains("s.pitch:7:16: `reward` failed: the map has no term `b`"), "{error}");
+}
+
+/// A folder with a scenario whose script imports a module.
+fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    folder
+}
+
+const HOOK: &str = "import \"lib/pay\" as pay;
+fn reward(ctx, now, prev, events) { pay::twice(ctx.params.share) }";
+
+#[test]
+fn a_compiled_scenario_contains_the_modules_of_its_scripts() {
+    let text = scenario(r#"reward script "scripts/hook.rhai""#);
+    let folder = folder(&[
+        ("s.pitch", &text),
+        ("scripts/hook.rhai", HOOK),
+        ("scripts/lib/pay.rhai", "import \"deep\" as deep; fn twice(x) { deep::double(x) }"),
+        ("scripts/lib/deep.rhai", "fn double(x) { 2 * x }"),
+    ]);
+    let loaded = load(folder.path().join("s.pitch")).unwrap_or_else(|error| panic!("{error}"));
+    let mut inputs: Vec<_> =
+        loaded.inputs.iter().map(|path| path.file_name().unwrap().to_owned()).collect();
+    inputs.sort();
+    assert_eq!(inputs, ["deep.rhai", "hook.rhai", "pay.rhai", "s.pitch"]);
+    let file = binary::to_bytes(&loaded.scenario).unwrap();
+    drop(folder);
+    let scenario = Arc::new(binary::from_bytes(&file).unwrap());
+    let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();
+    play(&mut environment, 2);
+    assert_eq!(environment.terms(0), [1.0]);
+}
+
+#[test]
+fn a_changed_module_is_taken_over() {
+    let text = scenario(r#"reward script "hook.rhai""#);
+    let folder = folder(&[
+        ("s.pitch", &text),
+        ("hook.rhai", HOOK),
+        ("lib/pay.rhai", "fn twice(x) { 2 * x }"),
+    ]);
+    let loaded = || load(folder.path().join("s.pitch")).unwrap().scenario;
+    let mut environment = Environment::new(loaded(), EnvironmentOptions::default()).unwrap();
+    play(&mut environment, 1);
+    fs::write(folder.path().join("lib/pay.rhai"), "fn twice(x) { 20 * x }").unwrap();
+    assert_eq!(environment.adopt_scripts(&loaded()), Ok(true));
+    environment.step(&[Action::Idle; 2], &mut Scratch::default()).unwrap();
+    assert_eq!(environment.terms(0), [10.0]);
+}
+
+/// What a scenario in a folder is refused for.
+fn refused(folder: &Path) -> String {
+    match load(folder.join("s.pitch")) {
+        Err(Error::Compile(failure)) => {
+            assert_eq!(failure.problems.len(), 1, "{:#?}", failure.problems);
+            Error::Compile(failure).to_string()
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_module_is_never_read_from_outside_the_scenarios_folder() {
+    let text = scenario(r#"reward script "hook.rhai""#);
+    let outside = folder(&[("pay.rhai", "fn twice(x) { 2 * x }")]);
+    let inside = folder(&[("s.pitch", &text), ("hook.rhai", HOOK)]);
+    std::os::unix::fs::symlink(outside.path(), inside.path().join("lib")).unwrap();
+    let refused = refused(inside.path());
+    assert!(refused.contains("lies outside of the scenario's folder"), "{refused}");
+}
+
+#[test]
+fn the_modules_of_a_script_are_few() {
+    let text = scenario(r#"reward script "hook.rhai""#);
+    let mut files = vec![("s.pitch".to_owned(), text)];
+    let hook = |module: &str| {
+        format!("import \"{module}\" as m;\nfn reward(ctx, now, prev, events) {{ m::f() }}")
+    };
+    files.push(("hook.rhai".to_owned(), hook("m0")));
+    for at in 0..20 {
+        let text = format!("import \"m{}\" as m;\nfn f() {{ m::f() }}", at + 1);
+        files.push((format!("m{at}.rhai"), text));
+    }
+    files.push(("m20.rhai".to_owned(), "fn f() { 1 }".to_owned()));
+    let named: Vec<(&str, &str)> = files.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+    let folder = folder(&named);
+    let refused = refused(folder.path());
+    assert!(refused.contains("more than 16 modules"), "{refused}");
 }

@@ -9,7 +9,7 @@ use crate::problem::facts::{Files, Types};
 use crate::problem::{Problem, ScriptSight};
 use crate::source::{FileId, Source};
 use setpiece_scenario::vocabulary::Type;
-use setpiece_scenario::{NamedValue, Script, ScriptArg};
+use setpiece_scenario::{NamedValue, Script, ScriptArg, ScriptModule};
 
 impl<'w> Lower<'_, 'w> {
     /// The parameters around a script, as its hook sees them; `every` one must be such that it can.
@@ -103,21 +103,36 @@ pub(crate) fn embed<'w>(
             (name, source, (text.span.file, text.span.start))
         }
     };
-    if let Err(why) = world.scripts_loaded.take(&source.text) {
+    let sources = &world.library.sources;
+    let files = world.scripts_loaded.modules(text_at.0, &source.text, sources);
+    let modules: Vec<ScriptModule> = files
+        .iter()
+        .filter_map(|(name, file)| {
+            let source = sources.get(*file)?.text.to_string();
+            Some(ScriptModule { name: name.clone(), source })
+        })
+        .collect();
+    let texts = || {
+        std::iter::once(&*source.text).chain(modules.iter().map(|module| module.source.as_str()))
+    };
+    let n_bytes = texts().map(str::len).sum();
+    if let Err(why) = world.scripts_loaded.take(n_bytes, modules.len()) {
         world.report(Problem::new(script.span, why));
         return None;
     }
     // A script reads a parameter by its name, in whatever way.
-    let words: Vec<&str> = source.text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let words: Vec<&str> =
+        texts().flat_map(|text| text.split(|c: char| !c.is_alphanumeric() && c != '_')).collect();
     let named = named_values(lower, &words, script.span);
-    check(lower, script.span, &source, text_at, hook, &named);
+    let checked = CheckedScript { source: &source, at: text_at, modules: &modules, files: &files };
+    check(lower, script.span, &checked, hook, &named);
     for param in world.params.iter().filter(|param| words.contains(&param.name.node.as_str())) {
         world.mark_used(param.name.span);
     }
     let mut scripts = world.scripts.borrow_mut();
     let at =
         world.library.sources.get(text_at.0).map_or((1, 1), |file| file.line_column(text_at.1));
-    let embedded = Script { name, at, source: source.text.to_string(), named };
+    let embedded = Script { name, at, source: source.text.to_string(), named, modules };
     let known = scripts.iter().position(|script| *script == embedded);
     let index = known.unwrap_or_else(|| {
         scripts.push(embedded);
@@ -126,11 +141,19 @@ pub(crate) fn embed<'w>(
     Some(index as u32)
 }
 
+/// A script with its modules, and where they are in the files.
+struct CheckedScript<'a> {
+    source: &'a Source,
+    /// The file and the byte at which its text begins.
+    at: (FileId, u32),
+    modules: &'a [ScriptModule],
+    files: &'a [(String, FileId)],
+}
+
 fn check(
     lower: &Lower<'_, '_>,
     used: Span,
-    source: &Source,
-    (file, offset): (FileId, u32),
+    script: &CheckedScript<'_>,
     hook: AskedHook<'_>,
     named: &[NamedValue],
 ) {
@@ -146,7 +169,9 @@ fn check(
         others: nameable(lower, used),
         terms: hook.terms.to_vec(),
     };
-    for found in api.check(source, hook.name, &sight) {
+    for found in api.check(script.source, script.modules, hook.name, &sight) {
+        let module = found.module.and_then(|at| script.files.get(at));
+        let (file, offset) = module.map_or(script.at, |(_, file)| (*file, 0));
         let span = Span {
             file,
             start: offset + found.range.start as u32,

@@ -2,7 +2,8 @@
 //!
 //! One Rhai engine serves the process, and each script of a scenario is compiled once; all matches
 //! and threads share both. A hook sees the match through the language's own properties, in the
-//! frame of the judged side. It can do nothing else: no files, no clock, no modules. Operations,
+//! frame of the judged side. It can do nothing else: no files, no clock. Its modules are texts of
+//! the scenario, joined with it. Operations,
 //! depth and sizes are bounded, and random numbers come only from the episode's seed. `this` is the
 //! script's memory: a map that lives as long as the episode.
 //!
@@ -18,24 +19,28 @@ mod check;
 mod functions;
 mod hooks;
 mod host;
+mod imports;
+mod join;
 mod limits;
 mod place;
+mod scan;
 mod terms;
 mod words;
 
 pub use api::{Argument, HookScene, Member, Params, Perspective, Subject, functions, members};
 pub(crate) use api::{EpisodeNames, Shelf};
-pub use check::{ScriptFault, ScriptFaultKind, ScriptNames, check_script};
+pub use check::{ScriptFault, ScriptFaultKind, ScriptNames, check_script, script_imports};
 
 use api::{NamedList, NamedProgram, ShownState, events_of};
 use budget::Edits;
 use call::CompiledScript;
 use hooks::{DONE, RESET, REWARD};
+use join::{Joined, UNFOLLOWED};
 use place::hook_position;
 use rhai::{Array, Dynamic, EvalAltResult, FuncArgs};
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Type};
-use setpiece_scenario::{Param, Scenario};
+use setpiece_scenario::{Param, Scenario, Script};
 use std::sync::Arc;
 
 /// A hook that failed. It ends the episode, not the process.
@@ -118,6 +123,9 @@ pub struct Scripts {
     params: Arc<[Param]>,
 }
 
+/// A line and column of a module, or of the script itself.
+type AuthorPlace = (Option<usize>, (usize, usize));
+
 #[derive(Debug)]
 struct Compiled {
     name: String,
@@ -125,8 +133,12 @@ struct Compiled {
     at: (u32, u32),
     source: String,
     code: CompiledScript,
-    /// Maps places in the code back to the source.
+    /// Maps places in the code back to the joined text.
     edits: Edits,
+    /// The text with its modules.
+    joined: Joined,
+    /// What the modules are called in messages.
+    modules: Vec<String>,
     uses_me: bool,
     /// Whether a hook reads the step's events.
     reads_events: bool,
@@ -137,10 +149,6 @@ struct Compiled {
     memory_bytes: usize,
 }
 
-/// Why places in a script can't be mapped: Rhai stores lines and columns in two bytes, and has its
-/// own line ends.
-const UNFOLLOWED: &str = "the text can't be followed here: it has a lone carriage return, or more than 65535 lines or columns";
-
 impl Scripts {
     /// Compiles a scenario's scripts.
     ///
@@ -148,22 +156,24 @@ impl Scripts {
     /// The first script that isn't valid Rhai.
     pub fn compile(scenario: &Scenario) -> Result<Scripts, ScriptLoadError> {
         let memory_bytes = host::MEMORIES_BYTES_MAX / (PLAYERS_MAX * scenario.scripts.len().max(1));
-        let compile = |script: &setpiece_scenario::Script| {
-            let failed = |(line, column), message| ScriptLoadError {
-                script: script.name.clone(),
+        let compile = |script: &Script| {
+            let modules = module_names(script);
+            let failed = |(module, (line, column)): AuthorPlace, message| ScriptLoadError {
+                script: module.and_then(|at| modules.get(at)).unwrap_or(&script.name).clone(),
                 line,
                 column,
                 message,
             };
+            let joined = Joined::of(&script.source, &script.modules)
+                .map_err(|fault| failed((fault.module, fault.place), fault.message))?;
             let unread = |error: rhai::ParseError| {
-                failed(
-                    words::line_column(error.position()).unwrap_or((1, 1)),
-                    words::parse_message(&error),
-                )
+                let place = words::line_column(error.position()).unwrap_or((1, 1));
+                failed(joined.original(place), words::parse_message(&error))
             };
-            let ast = host::read(&script.source).map_err(unread)?;
-            let (counted, edits) = budget::count_copies(&script.source, &ast)
-                .map_err(|place| failed(place, UNFOLLOWED.to_owned()))?;
+            let ast = joined.parse().map_err(unread)?;
+            let (counted, edits) = budget::count_copies(&joined.text, &ast)
+                .map_err(|place| failed(joined.original(place), UNFOLLOWED.to_owned()))?;
+            let code = host::engine().compile(counted).map_err(unread)?;
             let resets = ast
                 .iter_functions()
                 .any(|function| function.name == RESET && function.params.len() == 1);
@@ -176,8 +186,10 @@ impl Scripts {
                 source: script.source.clone(),
                 uses_me: check::mentions_me(&ast),
                 reads_events: [REWARD, DONE].iter().any(|hook| check::mentions_events(&ast, hook)),
-                code: CompiledScript::of(host::engine().compile(counted).map_err(unread)?),
+                code: CompiledScript::of(code),
                 edits,
+                joined,
+                modules,
             })
         };
         Ok(Scripts {
@@ -365,6 +377,14 @@ impl Scripts {
     }
 }
 
+/// What a script's modules are called in messages: paths beside the script's.
+fn module_names(script: &Script) -> Vec<String> {
+    let is_file = script.at == (1, 1);
+    let folder = script.name.rfind('/').filter(|_| is_file).map_or(0, |slash| slash + 1);
+    let folder = script.name.get(..folder).unwrap_or_default();
+    script.modules.iter().map(|module| format!("{folder}{}", module.name)).collect()
+}
+
 impl Compiled {
     /// Calls the `reset` hook before the first hook of an episode.
     fn begin(&self, now: &ShownState, memory: &mut Memory) -> Result<(), ScriptError> {
@@ -398,22 +418,28 @@ impl Compiled {
 
     fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &HookScene) -> ScriptError {
         let (position, message) = words::explain(error);
-        self.error(hook, position.map(|place| self.edits.original(place)), message, scene)
+        let original = |place| self.joined.original(self.edits.original(place));
+        self.error(hook, position.map(original), message, scene)
     }
 
     fn error(
         &self,
         hook: &str,
-        position: Option<(usize, usize)>,
+        position: Option<AuthorPlace>,
         message: String,
         scene: &HookScene,
     ) -> ScriptError {
-        let (line, column) = position.unwrap_or_else(|| hook_position(&self.source, hook));
-        let (first_line, first_column) = (self.at.0.max(1) as usize, self.at.1.max(1) as usize);
+        let (module, (line, column)) =
+            position.unwrap_or_else(|| (None, hook_position(&self.source, hook)));
+        let script = module.and_then(|at| self.modules.get(at));
+        let (first_line, first_column) = match script {
+            Some(_) => (1, 1),
+            None => (self.at.0.max(1) as usize, self.at.1.max(1) as usize),
+        };
         let column = if line == 1 { column + first_column - 1 } else { column };
         let line = line + first_line - 1;
         ScriptError {
-            script: self.name.clone(),
+            script: script.unwrap_or(&self.name).clone(),
             line,
             column,
             hook: hook.to_owned(),

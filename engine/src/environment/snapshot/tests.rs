@@ -287,6 +287,7 @@ fn scripted(source: &str) -> Scenario {
         at: (1, 1),
         source: source.to_owned(),
         named: Vec::new(),
+        modules: Vec::new(),
     });
     let body = RewardBody {
         init: Program { code: Vec::new(), cells: 1, ..Program::default() },

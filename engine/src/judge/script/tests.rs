@@ -34,6 +34,7 @@ fn scripts(source: &str) -> Scripts {
         at: (1, 1),
         source: source.to_owned(),
         named: Vec::new(),
+        modules: Vec::new(),
     });
     Scripts::compile(&scenario).unwrap()
 }
@@ -270,6 +271,7 @@ fn the_sandbox_holds() {
     for text in ["eval(\"1\")", "import \"x\" as y;", "print(1)", "debug(1)", "2.0 ** 3.0"] {
         let faults = check_script(
             &format!("fn reward(ctx, now, prev, events) {{ {text} }}"),
+            &[],
             "reward",
             &ScriptNames::default(),
         );
@@ -419,6 +421,7 @@ fn memory_is_bounded_and_a_failure_names_the_files_line() {
         at: (9, 22),
         source,
         named: Vec::new(),
+        modules: Vec::new(),
     });
     let scripts = Scripts::compile(&scenario).unwrap();
     let failed =
@@ -447,7 +450,7 @@ fn faults(body: &str) -> Vec<(ScriptFaultKind, String, Option<String>)> {
     let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
     let of = |fault: ScriptFault| (fault.kind, source[fault.range].to_owned(), fault.help);
     let known = ScriptNames { params: &["pace"], ..ScriptNames::default() };
-    check_script(&source, "reward", &known).into_iter().map(of).collect()
+    check_script(&source, &[], "reward", &known).into_iter().map(of).collect()
 }
 
 #[test]
@@ -512,7 +515,7 @@ fn arguments_words_and_changes_are_checked() {
         []
     );
     let of = |source: &str, hook: &str| -> Vec<String> {
-        check_script(source, hook, &ScriptNames::default())
+        check_script(source, &[], hook, &ScriptNames::default())
             .into_iter()
             .map(|fault| fault.message)
             .collect()
@@ -525,19 +528,26 @@ fn arguments_words_and_changes_are_checked() {
 
 #[test]
 fn hooks_are_checked() {
-    let missing =
-        check_script("fn rewards(ctx, now, prev, events) { 0 }", "reward", &ScriptNames::default());
+    let missing = check_script(
+        "fn rewards(ctx, now, prev, events) { 0 }",
+        &[],
+        "reward",
+        &ScriptNames::default(),
+    );
     assert_eq!((missing.len(), missing[0].kind), (1, ScriptFaultKind::Hook));
     assert_eq!(missing[0].help.as_deref(), Some("write `fn reward(ctx, now, prev, events) { … }`"));
     let source = "\n fn reward(now) { 0 }";
-    let few = check_script(source, "reward", &ScriptNames::default());
+    let few = check_script(source, &[], "reward", &ScriptNames::default());
     assert_eq!((few[0].kind, &source[few[0].range.clone()]), (ScriptFaultKind::Hook, "reward"));
     assert_eq!(few[0].message, "`reward` takes 4 arguments, found 1");
     let source = "fn reward(ctx, now, prev, events) {\n    1 + \n}";
-    let broken = check_script(source, "reward", &ScriptNames::default());
+    let broken = check_script(source, &[], "reward", &ScriptNames::default());
     assert_eq!(broken[0].kind, ScriptFaultKind::Syntax);
     assert_eq!(&source[broken[0].range.clone()], "}");
-    assert_eq!(check_script("", "reward", &ScriptNames::default())[0].kind, ScriptFaultKind::Hook);
+    assert_eq!(
+        check_script("", &[], "reward", &ScriptNames::default())[0].kind,
+        ScriptFaultKind::Hook
+    );
 }
 
 #[test]
@@ -547,3 +557,4 @@ fn only_scripts_that_ask_run_for_each_agent() {
 }
 
 mod budget;
+mod modules;

@@ -11,10 +11,10 @@
 
 use super::super::functions::{ANONYMOUS, ScriptFunction, functions};
 use super::super::limits::{COUNTED, WORKED};
+use super::super::scan::{closing_bracket, expression_end};
 use super::super::words;
 use super::class::{Class, Classes, Link, Pointers, closure, links};
-use super::edits::Edits;
-use super::scan::{closing_bracket, expression_end};
+use super::edits::{Edits, inserted};
 use super::{CAUGHT_OPERATIONS, CAUGHT_WAITING_OPERATIONS};
 use rhai::{AST, ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
 use std::collections::BTreeSet;
@@ -550,23 +550,6 @@ impl CopyWriter<'_> {
     /// first.
     fn written(mut self) -> (String, Edits) {
         self.insertions.sort_by_key(|(at, end, _)| (*at, at != end, usize::MAX - end));
-        let mut text = String::with_capacity(self.source.len() + 32 * self.insertions.len());
-        let mut edits = Edits::default();
-        let (mut copied, mut line, mut column) = (0, 1, 1);
-        for (at, _, words) in &self.insertions {
-            let between = self.source.get(copied..*at).unwrap_or_default();
-            line += between.matches('\n').count();
-            column = match between.rsplit_once('\n') {
-                Some((_, rest)) => 1 + rest.chars().count(),
-                None => column + between.chars().count(),
-            };
-            text.push_str(between);
-            copied = *at;
-            edits.write((line, column), words.len());
-            text.push_str(words);
-            column += words.len();
-        }
-        text.push_str(self.source.get(copied..).unwrap_or_default());
-        (text, edits)
+        inserted(self.source, self.insertions.iter().map(|(at, _, words)| (*at, words.as_str())))
     }
 }

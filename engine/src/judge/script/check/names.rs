@@ -6,9 +6,10 @@
 
 use super::super::api::{Subject, function, functions, members};
 use super::super::hooks::{DONE, hook_arguments};
+use super::super::imports::WRITTEN;
 use super::super::place::word_at;
 use super::{ScriptFault, ScriptFaultKind, ScriptNames, position_offset, suggest};
-use rhai::{AST, ASTFlags, ASTNode, Expr, FnCallExpr, Position, Stmt};
+use rhai::{AST, ASTFlags, ASTNode, Expr, FnCallExpr, Namespace, Position, Stmt};
 use setpiece_scenario::NamedKind;
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Type};
 use std::collections::BTreeMap;
@@ -19,6 +20,9 @@ const ME: &str = "me";
 /// What can be read by name.
 const NAMED_HELP: &str = "a script reads constants, regions and tables of its file; in a scenario also its players, `let`s, constants and regions";
 
+/// The names of a module's functions with their numbers of arguments; none if it isn't known.
+pub(super) type SharedFunctions = Option<Vec<(String, usize)>>;
+
 /// What is known about a script's names.
 pub(super) struct Names<'a> {
     source: &'a str,
@@ -28,6 +32,8 @@ pub(super) struct Names<'a> {
     keys: Vec<String>,
     /// Names and numbers of arguments.
     own_functions: Vec<(String, usize)>,
+    /// What is imported under which name.
+    aliases: BTreeMap<String, SharedFunctions>,
     hook: &'a str,
     known: ScriptNames<'a>,
     pub(super) faults: Vec<ScriptFault>,
@@ -39,6 +45,7 @@ impl<'a> Names<'a> {
         hook: &'a str,
         known: ScriptNames<'a>,
         ast: &AST,
+        aliases: BTreeMap<String, SharedFunctions>,
     ) -> Names<'a> {
         let mut names = Names {
             source,
@@ -48,6 +55,7 @@ impl<'a> Names<'a> {
                 .iter_functions()
                 .map(|f| (f.name.to_owned(), f.params.len()))
                 .collect(),
+            aliases,
             hook,
             known,
             faults: Vec::new(),
@@ -141,6 +149,9 @@ impl<'a> Names<'a> {
         };
         match expr {
             Expr::FnCall(call, position) => self.check_call(call, false, *position),
+            Expr::Variable(variable, _, position) if !variable.2.is_empty() => {
+                self.check_constant(&variable.2, &variable.1, *position);
+            }
             Expr::MethodCall(call, position) => self.check_call(call, true, *position),
             Expr::Dot(..) | Expr::Index(..) => {
                 let parent = path.len().checked_sub(2).and_then(|parent| path.get(parent));
@@ -166,6 +177,10 @@ impl<'a> Names<'a> {
 
     /// Checks the name of a call and its number of arguments.
     fn check_call(&mut self, call: &FnCallExpr, method: bool, position: Position) {
+        if !call.namespace.is_empty() {
+            self.check_qualified(call);
+            return;
+        }
         let name = call.name.as_str();
         let word = name.chars().all(|c| c.is_alphanumeric() || c == '_');
         if call.op_token.is_some() || !word || self.variables.contains_key(name) {
@@ -197,6 +212,39 @@ impl<'a> Names<'a> {
             let own = self.own_functions.iter().map(|own| own.0.as_str());
             let help = suggest(name, functions().map(|known: &str| known).chain(own));
             self.push(position, format!("unknown function `{name}`"), help);
+        }
+    }
+
+    /// Checks a call of a module's function.
+    fn check_qualified(&mut self, call: &FnCallExpr) {
+        let (alias, name) = (call.namespace.root(), call.name.as_str());
+        let position = call.namespace.position();
+        if call.namespace.path.len() > 1 {
+            let help = Some(WRITTEN.to_owned());
+            self.push(position, "a module's own imports can't be reached".to_owned(), help);
+            return;
+        }
+        // A module that can't be found or read has been reported.
+        let Some(Some(functions)) = self.aliases.get(alias) else { return };
+        let mut takes: Vec<usize> =
+            functions.iter().filter(|own| own.0 == name).map(|own| own.1).collect();
+        takes.sort_unstable();
+        let shown = format!("{alias}::{name}");
+        if takes.is_empty() {
+            let help = suggest(name, functions.iter().map(|own| own.0.as_str()));
+            self.push(position, format!("unknown function `{shown}`"), help);
+        } else if !takes.contains(&call.args.len()) {
+            let help = Some(format!("it is defined with {}", spelled(&takes)));
+            self.push(position, arity(&shown, &takes, call.args.len()), help);
+        }
+    }
+
+    /// Reports what a module doesn't have: values.
+    fn check_constant(&mut self, namespace: &Namespace, name: &str, position: Position) {
+        let alias = namespace.root();
+        if self.aliases.contains_key(alias) {
+            let help = format!("write `fn {name}() {{ … }}` in it, and `{alias}::{name}()` here");
+            self.push(position, "a module has only functions".to_owned(), Some(help));
         }
     }
 
@@ -281,7 +329,8 @@ impl<'a> Names<'a> {
 
     fn push(&mut self, position: Position, message: String, help: Option<String>) {
         let range = word_at(self.source, position_offset(self.source, position));
-        self.faults.push(ScriptFault { kind: ScriptFaultKind::Name, range, message, help });
+        let kind = ScriptFaultKind::Name;
+        self.faults.push(ScriptFault { kind, module: None, range, message, help });
     }
 
     /// The subject of an expression, as far as the text shows it. Names that it can't have are

@@ -31,7 +31,13 @@ pub(super) fn check(source: &str, ast: &AST, terms: &[&str], faults: &mut Vec<Sc
     }
     last_value(hook.body.last(), &mut returned);
     let mut fault = |range: Range<usize>, message: String, help: Option<String>| {
-        faults.push(ScriptFault { kind: ScriptFaultKind::Hook, range, message, help });
+        faults.push(ScriptFault {
+            kind: ScriptFaultKind::Hook,
+            module: None,
+            range,
+            message,
+            help,
+        });
     };
     for expr in &returned {
         let start = position_offset(source, expr.position());

@@ -248,3 +248,16 @@ def test_a_module_of_a_script_is_watched(tmp_path: Path) -> None:
     save(tmp_path / "lib.rhai", "fn pay() { #{step: 4, side: 0.5} }")
     assert wait_for_reload(env, env.last_reload).state == "applied"
     assert env.step(0)[4]["reward_terms"]["hook/step"] == 4.0
+
+
+def test_what_a_script_prints_is_logged(
+    pitch_file: Callable[[str], Path], caplog: pytest.LogCaptureFixture
+) -> None:
+    env = setpiece.make(pitch_file(scripted('print(this.n); debug("x"); 1.0')))
+    env.reset(seed=1)
+    with caplog.at_level("DEBUG", logger="setpiece.script"):
+        env.step(0)
+    printed = [record for record in caplog.records if record.name == "setpiece.script"]
+    assert [record.levelname for record in printed] == ["INFO", "DEBUG"]
+    assert printed[0].getMessage().endswith(": 1")
+    assert printed[1].getMessage().endswith(': "x"')

@@ -15,6 +15,7 @@
 mod api;
 mod budget;
 mod call;
+mod chain;
 mod check;
 mod functions;
 mod hooks;
@@ -23,6 +24,7 @@ mod imports;
 mod join;
 mod limits;
 mod place;
+mod print;
 mod scan;
 mod terms;
 mod words;
@@ -37,6 +39,7 @@ use call::CompiledScript;
 use hooks::{DONE, RESET, REWARD};
 use join::{Joined, UNFOLLOWED};
 use place::hook_position;
+use print::Printed;
 use rhai::{Array, Dynamic, EvalAltResult, FuncArgs};
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Type};
@@ -145,6 +148,8 @@ struct Compiled {
     /// Whether it has a `reset` hook.
     resets: bool,
     named: NamedList,
+    /// How much it has printed.
+    printed: Printed,
     /// Its share of the memory of an episode, one for each of the players and scripts.
     memory_bytes: usize,
 }
@@ -180,6 +185,7 @@ impl Scripts {
             Ok(Compiled {
                 resets,
                 memory_bytes,
+                printed: Printed::default(),
                 named: NamedProgram::list(scenario, &script.named),
                 name: script.name.clone(),
                 at: script.at,
@@ -402,7 +408,12 @@ impl Compiled {
         memory: &mut Memory,
         scene: &HookScene,
     ) -> Result<Dynamic, ScriptError> {
+        self.printed.begin();
         let value = self.code.call(hook, arguments, &mut memory.this);
+        self.printed.end(|place| {
+            let (script, line, column) = self.place(hook, place.map(|place| self.original(place)));
+            format!("{script}:{line}:{column}")
+        });
         let ended = budget::end(&mut memory.this);
         let called = value.map_err(|error| self.fault(hook, error, scene)).and_then(|value| {
             ended
@@ -418,8 +429,25 @@ impl Compiled {
 
     fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &HookScene) -> ScriptError {
         let (position, message) = words::explain(error);
-        let original = |place| self.joined.original(self.edits.original(place));
-        self.error(hook, position.map(original), message, scene)
+        self.error(hook, position.map(|place| self.original(place)), message, scene)
+    }
+
+    /// The author's place of a place in the code.
+    fn original(&self, place: (usize, usize)) -> AuthorPlace {
+        self.joined.original(self.edits.original(place))
+    }
+
+    /// The name, line and column under which a place is reported; the hook's if there is none.
+    fn place(&self, hook: &str, position: Option<AuthorPlace>) -> (&str, usize, usize) {
+        let (module, (line, column)) =
+            position.unwrap_or_else(|| (None, hook_position(&self.source, hook)));
+        let script = module.and_then(|at| self.modules.get(at));
+        let (first_line, first_column) = match script {
+            Some(_) => (1, 1),
+            None => (self.at.0.max(1) as usize, self.at.1.max(1) as usize),
+        };
+        let column = if line == 1 { column + first_column - 1 } else { column };
+        (script.unwrap_or(&self.name), line + first_line - 1, column)
     }
 
     fn error(
@@ -429,17 +457,9 @@ impl Compiled {
         message: String,
         scene: &HookScene,
     ) -> ScriptError {
-        let (module, (line, column)) =
-            position.unwrap_or_else(|| (None, hook_position(&self.source, hook)));
-        let script = module.and_then(|at| self.modules.get(at));
-        let (first_line, first_column) = match script {
-            Some(_) => (1, 1),
-            None => (self.at.0.max(1) as usize, self.at.1.max(1) as usize),
-        };
-        let column = if line == 1 { column + first_column - 1 } else { column };
-        let line = line + first_line - 1;
+        let (script, line, column) = self.place(hook, position);
         ScriptError {
-            script: script.unwrap_or(&self.name).clone(),
+            script: script.to_owned(),
             line,
             column,
             hook: hook.to_owned(),

@@ -157,10 +157,7 @@ fn check_text(
         help: Some(WRITTEN.to_owned()),
     }));
     let mut names = Names::of(source, hook, known, ast, aliases);
-    ast.walk(&mut |path: &[ASTNode]| {
-        names.visit(path);
-        names.faults.len() < FAULTS_MAX
-    });
+    names.check();
     faults.append(&mut names.faults);
     faults.sort_by_key(|fault| fault.range.start);
     faults.dedup();

@@ -4,7 +4,7 @@ use super::api::to_number;
 use super::limits::{
     ARRAY_MAX, CALL_LEVELS_MAX, DISABLED, EXPRESSION_DEPTH_MAX, IMPORT, MAP_MAX, PREFIX, STRING_MAX,
 };
-use super::{api, budget};
+use super::{api, budget, print};
 use rhai::packages::{
     ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage,
     BasicStringPackage, LogicPackage, MoreStringPackage, Package,
@@ -79,6 +79,7 @@ fn build(disabled: &[&str]) -> Engine {
     register_maths(&mut engine);
     api::register(&mut engine);
     api::register_named(&mut engine);
+    print::register(&mut engine);
     for word in disabled {
         engine.disable_symbol(*word);
     }
@@ -130,7 +131,7 @@ fn register_maths(engine: &mut Engine) {
         .register_fn("exp", |x: i64| libm::exp(x as f64))
         .register_fn("sqrt", |x: i64| libm::sqrt(x as f64));
     // Integers are accepted too; Rhai tries the general form last.
-    engine.register_fn("clamp", clamp);
+    engine.register_fn("clamp", clamp::<f64>).register_fn("clamp", clamp::<i64>);
     engine.register_fn(
         "clamp",
         |x: Dynamic, low: Dynamic, high: Dynamic| -> Result<f64, Box<EvalAltResult>> {
@@ -146,7 +147,8 @@ fn register_maths(engine: &mut Engine) {
     );
 }
 
-fn clamp(x: f64, low: f64, high: f64) -> f64 {
+/// Limits a number; whole numbers stay whole.
+fn clamp<T: PartialOrd>(x: T, low: T, high: T) -> T {
     if x < low {
         low
     } else if x > high {

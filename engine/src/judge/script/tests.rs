@@ -169,6 +169,7 @@ fn a_map_pays_each_of_its_terms() {
 #[test]
 fn whole_numbers_serve_where_numbers_do() {
     near(pay("clamp(7, 0, 5) + clamp(now.ball.x, 0, 1) + clamp(0.5, 0.0, 1)"), 6.0);
+    assert_eq!(pay("[1, 2, 3][clamp(9, 0, 1)] + 7 / clamp(2, 0, 5)"), 5.0);
     near(pay("smoothstep(0, 1, now.ball.x) + smoothstep(0, 10, 5)"), 1.0);
     near(pay("distance(now.point(1, 0), now.point(0.5, 0))"), 27.2);
     assert!(fail("clamp(now.ball, 0, 1)").message.contains("expected a number, found a ball"));
@@ -268,7 +269,7 @@ fn the_sandbox_holds() {
         .reward(0, &scene(&[]), perspective, &[], &mut Memory::default())
         .unwrap_err();
     assert!(error.message.contains("deeper"), "{error}");
-    for text in ["eval(\"1\")", "import \"x\" as y;", "print(1)", "debug(1)", "2.0 ** 3.0"] {
+    for text in ["eval(\"1\")", "import \"x\" as y;", "export", "2.0 ** 3.0"] {
         let faults = check_script(
             &format!("fn reward(ctx, now, prev, events) {{ {text} }}"),
             &[],
@@ -558,3 +559,4 @@ fn only_scripts_that_ask_run_for_each_agent() {
 
 mod budget;
 mod modules;
+mod printing;

@@ -9,11 +9,12 @@
 //! Rhai's syntax tree can be read but not written, so the calls are inserted into the text.
 //! [`Edits`] maps places in it back to the author's text.
 
+use super::super::chain::{Link, closure, links};
 use super::super::functions::{ANONYMOUS, ScriptFunction, functions};
 use super::super::limits::{COUNTED, WORKED};
 use super::super::scan::{closing_bracket, expression_end};
 use super::super::words;
-use super::class::{Class, Classes, Link, Pointers, closure, links};
+use super::class::{Class, Classes, Pointers};
 use super::edits::{Edits, inserted};
 use super::{CAUGHT_OPERATIONS, CAUGHT_WAITING_OPERATIONS};
 use rhai::{AST, ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
@@ -249,7 +250,7 @@ impl CopyWriter<'_> {
     /// are few.
     fn stored(&mut self, place: &Expr, operator: Position, value: &Expr) {
         self.value(value);
-        let spelled = links(place).1.iter().all(|step| matches!(step, Link::Property(_)));
+        let spelled = links(place).1.iter().all(|step| matches!(step, Link::Property(..)));
         let least = if spelled { Class::Squad } else { Class::Text };
         let counted = matches!(value, Expr::Variable(..) | Expr::ThisPtr(_))
             && self.class(value) >= Class::Squad;
@@ -414,7 +415,7 @@ impl CopyWriter<'_> {
                 }
                 for step in steps {
                     match step {
-                        Link::Property(_) => {}
+                        Link::Property(..) => {}
                         Link::Index(index, _) => self.value(index),
                         Link::Method(call, name) => {
                             if call.name == CURRY {
@@ -533,7 +534,7 @@ impl CopyWriter<'_> {
                 let mut nodes = self.nodes(root);
                 for step in &steps {
                     nodes += match step {
-                        Link::Property(_) => 1,
+                        Link::Property(..) => 1,
                         Link::Method(call, _) => all(&call.args),
                         Link::Index(index, _) if class == Class::Short => self.nodes(index),
                         Link::Index(index, _) => INDEX_NODES + self.nodes(index),

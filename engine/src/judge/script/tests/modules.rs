@@ -75,6 +75,26 @@ fn failures_in_modules_name_their_place() {
 }
 
 #[test]
+fn failures_in_closures_name_their_line() {
+    for (body, line, column) in [
+        ("let x = 1;\n[1, 2].filter(|p|\n  p.nothing > 1).len()", 4, 5),
+        ("now.us.players.map(|p|\n  p.x.nothing.more)[0]", 3, 0),
+        ("now.us.players.map(|p|\n  p.x + \"a\".len() - ())[0]", 3, 0),
+        ("now.us.players.map(|p|\n  { let a = [1];\n a[5] })[0]", 4, 0),
+        ("now.us.players.some(|p|\n  clamp(p, 0, 1) > 1)", 3, 0),
+        ("let f = |x|\n  x.nothing;\nf.call(1)", 3, 0),
+        ("now.us.players.filter(|p|\n  throw \"x\").len()", 3, 0),
+        ("let n = 2; now.us.players.filter(|p| [1].some(|q|\n  q.nothing + n)).len()", 3, 0),
+        ("now.us.players.filter(|p|\n  p.length > 1.0).len()", 3, 5),
+        ("[3, 1].reduce(|a, b|\n  b.nothing + a)", 3, 0),
+    ] {
+        let failed = fail(body);
+        assert_eq!(failed.line, line, "{body}: {failed}");
+        assert!(column == 0 || failed.column == column, "{body}: {failed}");
+    }
+}
+
+#[test]
 fn modules_reach_me_and_events() {
     let script = format!("import \"lib\" as lib;\n{HOOK} lib::f(now) }}");
     assert!(compiled(&script, &[("lib.rhai", "fn f(now) { now.me.x }")]).unwrap().uses_me(0));

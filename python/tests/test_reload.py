@@ -234,7 +234,9 @@ def test_a_module_of_a_script_is_watched(tmp_path: Path) -> None:
     hook = 'import "lib" as lib;\nfn reward(ctx, now, prev, events) { lib::pay() }'
     (tmp_path / "hook.rhai").write_text(hook, encoding="utf-8")
     save(tmp_path / "lib.rhai", "fn pay() { 1 }")
-    text = SHOT.replace("LIMIT", "50").replace("end limit", 'reward script "hook.rhai"\n    end limit')
+    text = SHOT.replace("LIMIT", "50").replace(
+        "end limit", 'reward script "hook.rhai"\n    end limit'
+    )
     path = tmp_path / "s.pitch"
     path.write_text(text, encoding="utf-8")
     env = setpiece.make(path, watch=True)

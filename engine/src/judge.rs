@@ -25,7 +25,9 @@ pub use endings::{EndingJudge, Outcome};
 pub use machine::Machine;
 pub use records::{RecordJudge, Recorded};
 pub use rewards::RewardJudge;
-pub use script::{ScriptError, ScriptFault, ScriptFaultKind, ScriptNames, check_script};
+pub use script::{
+    ScriptError, ScriptFault, ScriptFaultKind, ScriptNames, check_script, script_imports,
+};
 pub use view::{MatchView, Sight, ViewMemory};
 
 use crate::in_place::clone_in_place;

@@ -16,7 +16,7 @@ fuzz_target!(init: setpiece_fuzz::seed::write("script"), |data: &[u8]| {
     let Ok(text) = std::str::from_utf8(data) else { return };
     for hook in HOOKS {
         let known = ScriptNames { params: &["pace"], ..ScriptNames::default() };
-        for fault in check_script(text, hook, &known) {
+        for fault in check_script(text, &[], hook, &known) {
             assert!(text.get(fault.range.clone()).is_some(), "{fault:?} points outside the script");
         }
     }

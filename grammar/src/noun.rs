@@ -275,7 +275,7 @@ pub const fn noun(rule: Rule) -> &'static str {
         Rule::reward_use | Rule::reward_item => "`reward`",
         Rule::inline_reward => "a reward",
         Rule::audience => "`for`",
-        Rule::label => "`as`",
+        Rule::label | Rule::labels | Rule::naming => "`as`",
         Rule::script => "`script`",
         Rule::field => "an option, for example `ai: bot`",
         Rule::formation => "`formation`",

@@ -224,11 +224,13 @@ module.exports = grammar({
         seq($.script, optional($._audience)),
         seq(field("name", $.identifier), $._body),
         seq($.reference, optional(seq($._audience, optional($._body)))),
-      ), optional($.label),
+      ), optional($._naming),
       optional(seq("*", $._expression)),
     ),
     _audience: ($) => seq("for", $._expression),
     label: ($) => seq("as", $.string),
+    labels: ($) => seq("as", "[", $.string, repeat(seq(",", $.string)), optional(","), "]"),
+    _naming: ($) => choice($.label, $.labels),
     script: ($) => seq("script", choice($.string, seq("rhai", $.raw_string))),
     fields: ($) => block($.field),
     field: ($) => seq(field("key", $._key), ":", choice($.fields, $.script, $._value)),
@@ -275,12 +277,12 @@ module.exports = grammar({
     // `on` and `when` behind a `give` may begin a block of their own, which its brace decides.
     give: ($) => seq(
       "give", choice($.script, $._expression), optional(seq("to", $._expression)),
-      optional(seq("per", "second")), optional("once"), optional($.label),
+      optional(seq("per", "second")), optional("once"), optional($._naming),
       optional(choice(
         seq("on", $._events, optional(seq("when", $._expression))),
         seq("when", $._expression, optional(seq("on", $._events))),
       )),
-      optional($.label),
+      optional($._naming),
     ),
     on_block: ($) => seq("on", $._events, optional(seq("when", $._expression)), $._body),
     when_block: ($) => prec.right(seq(

@@ -1,5 +1,6 @@
 """The command `setpiece`, as `python -m setpiece` and as the script that the wheel installs."""
 
+import logging
 import signal
 import sys
 
@@ -24,6 +25,10 @@ def main() -> int:
         from setpiece._replay_command import main as replay_main
 
         return replay_main(sys.argv[2:])
+    # What scripts print is the command's to show.
+    printed = logging.getLogger("setpiece.script")
+    printed.addHandler(logging.StreamHandler())
+    printed.setLevel(logging.DEBUG)
     return run_command(sys.argv[1:])
 
 

@@ -10,6 +10,7 @@ mod info;
 mod level;
 mod levels;
 mod live;
+mod log;
 mod observation;
 mod options;
 mod params;
@@ -66,6 +67,7 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        crate::log::install();
         let actions: Vec<(&str, &str)> =
             Action::ALL.iter().map(|action| (action.name(), action.doc())).collect();
         module.add("ACTIONS", pyo3::types::PyTuple::new(module.py(), actions)?)?;

@@ -228,3 +228,38 @@ def test_a_watching_environment_holds_neither_threads_nor_files(tmp_path: Path) 
     assert held() == before
     env.close()
     assert held() == before
+
+
+def test_a_module_of_a_script_is_watched(tmp_path: Path) -> None:
+    hook = 'import "lib" as lib;\nfn reward(ctx, now, prev, events) { lib::pay() }'
+    (tmp_path / "hook.rhai").write_text(hook, encoding="utf-8")
+    save(tmp_path / "lib.rhai", "fn pay() { 1 }")
+    text = SHOT.replace("LIMIT", "50").replace(
+        "end limit", 'reward script "hook.rhai"\n    end limit'
+    )
+    path = tmp_path / "s.pitch"
+    path.write_text(text, encoding="utf-8")
+    env = setpiece.make(path, watch=True)
+    env.reset(seed=1)
+    assert env.step(0)[4]["reward_terms"]["hook/script"] == 1.0
+    save(tmp_path / "lib.rhai", "fn pay() { #{step: 3, side: 0.5} }")
+    save(path, text.replace('"hook.rhai"', '"hook.rhai" as ["step", "side"]'))
+    assert wait_for_reload(env, None).state == "applied"
+    terms = env.step(0)[4]["reward_terms"]
+    assert (terms["hook/step"], terms["hook/side"]) == (3.0, 0.5)
+    save(tmp_path / "lib.rhai", "fn pay() { #{step: 4, side: 0.5} }")
+    assert wait_for_reload(env, env.last_reload).state == "applied"
+    assert env.step(0)[4]["reward_terms"]["hook/step"] == 4.0
+
+
+def test_what_a_script_prints_is_logged(
+    pitch_file: Callable[[str], Path], caplog: pytest.LogCaptureFixture
+) -> None:
+    env = setpiece.make(pitch_file(scripted('print(this.n); debug("x"); 1.0')))
+    env.reset(seed=1)
+    with caplog.at_level("DEBUG", logger="setpiece.script"):
+        env.step(0)
+    printed = [record for record in caplog.records if record.name == "setpiece.script"]
+    assert [record.levelname for record in printed] == ["INFO", "DEBUG"]
+    assert printed[0].getMessage().endswith(": 1")
+    assert printed[1].getMessage().endswith(': "x"')

@@ -6,10 +6,11 @@
 //! an agent. The compiler reports an excess at its place in the text; a file is rejected.
 
 use crate::behavior::Node;
+use crate::module::MODULES_MAX;
 use crate::named::NamedValue;
 use crate::pitch::PLAYERS_MAX;
 use crate::program::{Distribution, Instr, Over, Program};
-use crate::scenario::{Ai, Reward, Scenario};
+use crate::scenario::{Ai, Reward, Scenario, Script};
 use crate::vocabulary::Team;
 
 /// The most events of one step.
@@ -37,8 +38,8 @@ const KEPT_MAX: u64 = 1_000_000;
 pub const SERIES_MAX: u64 = 1_000;
 /// The most bytes of all scripts.
 pub const SCRIPTS_MAX_BYTES: u64 = 1 << 20;
-/// The most bytes of a script. The time that Rhai takes to read one grows with the square of its
-/// length.
+/// The most bytes of a script and its modules. The time that Rhai takes to read a text grows with
+/// the square of its length.
 pub const SCRIPT_MAX_BYTES: usize = 32 << 10;
 /// Longest name of a scenario, bytes, because files are named after it.
 pub const NAME_MAX_BYTES: usize = 128;
@@ -104,12 +105,15 @@ pub fn check(scenario: &Scenario) -> Result<(), Excess> {
     for (what, n, most) in parts {
         Total::count(what, Part::Scenario, n as u64).within(most, "leave some of them out")?;
     }
-    let bytes = scenario.scripts.iter().map(|script| script.source.len() as u64).sum();
+    let bytes = scenario.scripts.iter().map(|script| script.n_bytes() as u64).sum();
     Total::count("bytes of scripts", Part::Scenario, bytes)
         .within(SCRIPTS_MAX_BYTES, "make the scripts shorter")?;
-    let longest = scenario.scripts.iter().map(|script| script.source.len()).max();
+    let longest = scenario.scripts.iter().map(Script::n_bytes).max();
     Total::count("bytes in one script", Part::Scenario, longest.unwrap_or_default() as u64)
         .within(SCRIPT_MAX_BYTES as u64, "divide the script")?;
+    let modules = scenario.scripts.iter().map(|script| script.modules.len()).max();
+    Total::count("modules of one script", Part::Scenario, modules.unwrap_or_default() as u64)
+        .within(MODULES_MAX as u64, "join some of them")?;
 
     let (mut code, mut cells, mut terms) =
         (Total::new("instructions"), Total::new("memory cells"), Total::new("terms of rewards"));

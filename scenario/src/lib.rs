@@ -11,7 +11,8 @@ pub mod behavior;
 pub mod bounds;
 pub mod container;
 pub mod file;
-pub mod named;
+pub mod module;
+mod named;
 pub mod operators;
 pub mod params;
 pub mod pitch;
@@ -26,6 +27,7 @@ pub mod vocabulary;
 
 pub use behavior::{Act, Behavior, Do, Node, ScriptArg, Then, Watch};
 pub use file::{FORMAT_VERSION, FormatError};
+pub use module::{MODULES_MAX, ScriptModule, module_name};
 pub use named::{NamedKind, NamedValue};
 pub use params::{Bindings, Param, ParamError};
 pub use program::{

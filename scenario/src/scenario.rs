@@ -1,6 +1,7 @@
 //! The compiled scenario.
 
 use crate::behavior::{Behavior, ScriptArg};
+use crate::module::ScriptModule;
 use crate::named::NamedValue;
 use crate::params::Param;
 use crate::program::{Program, Reg};
@@ -92,6 +93,16 @@ pub struct Script {
     /// What it may read by name.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub named: Vec<NamedValue>,
+    /// The modules that it imports, and those that they import.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub modules: Vec<ScriptModule>,
+}
+
+impl Script {
+    /// Bytes of its text and its modules.
+    pub fn n_bytes(&self) -> usize {
+        self.source.len() + self.modules.iter().map(|module| module.source.len()).sum::<usize>()
+    }
 }
 
 fn at_the_top() -> (u32, u32) {
@@ -390,18 +401,29 @@ pub struct RewardBody {
     pub hooks: Vec<RewardHook>,
 }
 
-/// A script's `reward` hook: called before the reward's step, which finds its result in a cell.
+/// A script's `reward` hook: called before the reward's step, which finds its result in cells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RewardHook {
     /// The script.
     pub script: u32,
-    /// The cell for its result.
+    /// The cell for its result; the first of them if it has several terms.
     pub cell: u32,
+    /// The keys of the map that the hook returns, each with a cell of its own, in their order. A
+    /// hook without them returns a number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub terms: Vec<String>,
     /// The reward's arguments, which are fixed for an episode; `ctx.params` has them in addition to
     /// the scenario's parameters.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub args: Vec<ScriptArg>,
+}
+
+impl RewardHook {
+    /// The cells of its result.
+    pub fn cells(&self) -> std::ops::Range<u32> {
+        self.cell..self.cell.saturating_add(self.terms.len().max(1) as u32)
+    }
 }
 
 /// When an episode ends: one program, and its conditions in order.

@@ -65,7 +65,7 @@ pub fn verify(scenario: &Scenario) -> Result<(), String> {
         let fixed = step.fixed();
         for hook in hooks {
             below("script", hook.script, n_scripts)?;
-            below("cell", hook.cell, step.cells as usize)?;
+            below("cell", hook.cells().end - 1, step.cells as usize)?;
             for reg in hook.args.iter().flat_map(|arg| &arg.regs) {
                 visible(step, *reg)?;
                 if !fixed[reg.index()] {

@@ -9,6 +9,7 @@ mod doc;
 mod explain;
 mod fmt;
 mod live;
+mod log;
 mod out;
 mod play;
 mod playing;
@@ -198,6 +199,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Runs a command.
 fn run(args: Args) -> u8 {
+    log::install();
     let out = Out::new(args.color, args.allow_outside);
     let result = match args.command {
         Command::List => list(&out),

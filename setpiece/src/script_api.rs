@@ -3,16 +3,28 @@
 
 use setpiece_dsl::problem::{Code, ScriptApi, ScriptProblem, ScriptSight};
 use setpiece_dsl::source::Source;
-use setpiece_engine::judge::{ScriptFaultKind, ScriptNames, check_script};
+use setpiece_engine::judge::{ScriptFaultKind, ScriptNames, check_script, script_imports};
+use setpiece_scenario::ScriptModule;
+use std::ops::Range;
 
 /// The engine's implementation of [`ScriptApi`].
 #[derive(Clone, Copy, Debug)]
 pub struct EngineScripts;
 
 impl ScriptApi for EngineScripts {
-    fn check(&self, script: &Source, hook: &str, sight: &ScriptSight<'_>) -> Vec<ScriptProblem> {
-        let ScriptSight { params, named, others } = sight;
-        check_script(&script.text, hook, &ScriptNames { params, named, others })
+    fn imports(&self, text: &str) -> Vec<(String, Range<usize>)> {
+        script_imports(text)
+    }
+
+    fn check(
+        &self,
+        script: &Source,
+        modules: &[ScriptModule],
+        hook: &str,
+        sight: &ScriptSight<'_>,
+    ) -> Vec<ScriptProblem> {
+        let ScriptSight { params, named, others, terms } = sight;
+        check_script(&script.text, modules, hook, &ScriptNames { params, named, others, terms })
             .into_iter()
             .map(|fault| ScriptProblem {
                 code: match fault.kind {
@@ -20,6 +32,7 @@ impl ScriptApi for EngineScripts {
                     ScriptFaultKind::Hook => Code::ScriptHook,
                     ScriptFaultKind::Name => Code::ScriptName,
                 },
+                module: fault.module,
                 range: fault.range,
                 message: fault.message,
                 help: fault.help,

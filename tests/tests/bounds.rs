@@ -75,14 +75,25 @@ fn memory_is_bounded_over_all_parts() {
     assert!(report.contains("terms of rewards"), "{report}");
     let report = refused(|scenario| {
         let source = " ".repeat(SCRIPT_MAX_BYTES);
-        let script = Script { name: "s".to_owned(), at: (1, 1), source, named: Vec::new() };
+        let script = Script {
+            name: "s".to_owned(),
+            at: (1, 1),
+            source,
+            named: Vec::new(),
+            modules: Vec::new(),
+        };
         scenario.scripts = vec![script; SCRIPTS_MAX_BYTES as usize / SCRIPT_MAX_BYTES + 1];
     });
     assert!(report.contains("bytes of scripts"), "{report}");
     let report = refused(|scenario| {
         let source = " ".repeat(SCRIPT_MAX_BYTES + 1);
-        scenario.scripts =
-            vec![Script { name: "s".to_owned(), at: (1, 1), source, named: Vec::new() }];
+        scenario.scripts = vec![Script {
+            name: "s".to_owned(),
+            at: (1, 1),
+            source,
+            named: Vec::new(),
+            modules: Vec::new(),
+        }];
     });
     assert!(report.contains("bytes in one script"), "{report}");
     let report = refused(|scenario| {

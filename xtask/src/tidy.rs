@@ -53,6 +53,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "arrayvec",
             "glam",
             "libm",
+            "log",
             "postcard",
             "rand_core",
             "rand_pcg",
@@ -72,6 +73,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "setpiece",
             "setpiece-engine",
             "setpiece-scenario",
+            "log",
             "numpy",
             "pyo3",
             "serde_json",
@@ -128,9 +130,10 @@ const MAY_SAY: &[(&str, &str)] = &[
     // What the engine says of scripts.
     ("dsl/src/problem/facts/files.rs", "message: String"),
     ("dsl/src/problem/facts/files.rs", "help: "),
-    // Rhai's machine, and what a call has left and shares: every call begins with its own.
+    // Rhai's machine, and what a call has left, shares and prints: every call begins with its own.
     ("engine/src/judge/script/call.rs", "thread_local!"),
     ("engine/src/judge/script/budget.rs", "thread_local!"),
+    ("engine/src/judge/script/print.rs", "thread_local!"),
 ];
 
 /// The rooms of the compiler (a file of `dsl/src` and its folder), from the ground up, and the

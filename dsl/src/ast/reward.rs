@@ -42,7 +42,12 @@ pub enum RewardUseKind {
         body: Vec<RewardStmt>,
     },
     /// A script.
-    Script(ScriptRef),
+    Script {
+        /// Which.
+        script: ScriptRef,
+        /// `as ["…", "…"]`: what the keys of its map are.
+        terms: Option<TermList>,
+    },
 }
 
 /// A statement of a reward.
@@ -98,7 +103,12 @@ pub enum GiveValue {
     /// As an expression says.
     Expr(Expr),
     /// As a script's `reward` hook says.
-    Script(ScriptRef),
+    Script {
+        /// Which.
+        script: ScriptRef,
+        /// `as ["…", "…"]`: what the keys of its map are.
+        terms: Option<TermList>,
+    },
 }
 
 /// `give VALUE [to WHO] [per second] [once] [on EVENTS] [when C] [as "label"]`
@@ -119,6 +129,9 @@ pub struct GiveStmt {
     /// `as "…"`
     pub label: Option<Spanned<String>>,
 }
+
+/// The names of a script's terms, in brackets; at least one.
+pub type TermList = Spanned<Vec<Spanned<String>>>;
 
 /// `end …`
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,11 @@
-//! Finds and loads every script and table that the files name.
+//! Finds and loads every script, module and table that the files name.
 
 use crate::ast::{
     BehaviorBody, BehaviorStmt, BehaviorStmtKind, DoStmt, DoWhat, EndCondition, EndStmt,
     FieldValue, GiveStmt, GiveValue, ItemKind, RewardStmt, RewardStmtKind, RewardUseKind,
     ScenarioStmtKind, ScriptRef, ScriptSource, TableItem, TableRows, TeamStmt, TeamStmtKind,
 };
-use crate::lower::loaded_scripts::LoadedScripts;
+use crate::lower::loaded_scripts::{ImportingText, LoadedScripts};
 use crate::problem::Problem;
 use crate::problem::facts::Files;
 use crate::resolve::Library;
@@ -32,7 +32,7 @@ pub(super) fn load(
                 for stmt in &scenario.body {
                     match &stmt.kind {
                         ScenarioStmtKind::Reward(used) => match &used.what {
-                            RewardUseKind::Script(script) => named.push(script),
+                            RewardUseKind::Script { script, .. } => named.push(script),
                             RewardUseKind::Inline { body, .. } => of_reward(body, &mut named),
                             RewardUseKind::Named(_) => {}
                         },
@@ -48,12 +48,13 @@ pub(super) fn load(
             _ => {}
         }
     }
-    let of_script = |script: &'_ ScriptRef| match &script.source {
+    let named: Vec<ScriptSource> = named.into_iter().map(|script| script.source.clone()).collect();
+    let of_script = |script: &'_ ScriptSource| match script {
         ScriptSource::File(path) => Some(path.clone()),
         ScriptSource::Inline(_) => None,
     };
     let files: Vec<_> =
-        named.into_iter().filter_map(of_script).chain(tables.into_iter().cloned()).collect();
+        named.iter().filter_map(of_script).chain(tables.into_iter().cloned()).collect();
     for path in &files {
         if let Some(limit) = scripts.limit() {
             problems.push(Problem::new(path.span, Files::TooManyScripts { limit }));
@@ -71,12 +72,32 @@ pub(super) fn load(
         });
         library.inputs.extend(awaited);
     }
+    for script in &named {
+        let text = match script {
+            ScriptSource::Inline(text) => Some(ImportingText {
+                file: text.span.file,
+                start: text.span.start,
+                text: text.node.as_str().into(),
+            }),
+            ScriptSource::File(path) => {
+                let file = scripts.find(path.span.file, &path.node);
+                let file = file.and_then(|found| found.as_ref().ok()).copied();
+                file.and_then(|file| {
+                    let text = library.sources.get(file)?.text.clone();
+                    Some(ImportingText { file, start: 0, text })
+                })
+            }
+        };
+        if let Some(text) = text {
+            scripts.load_modules(&text, library, loader, problems);
+        }
+    }
 }
 
 fn of_reward<'a>(body: &'a [RewardStmt], named: &mut Vec<&'a ScriptRef>) {
     for stmt in body {
         match &stmt.kind {
-            RewardStmtKind::Give(GiveStmt { value: GiveValue::Script(script), .. }) => {
+            RewardStmtKind::Give(GiveStmt { value: GiveValue::Script { script, .. }, .. }) => {
                 named.push(script);
             }
             RewardStmtKind::On { body, .. } => of_reward(body, named),

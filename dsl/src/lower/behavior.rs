@@ -14,6 +14,7 @@ use super::{Lower, ProgramStage};
 use crate::ast::{Arg, BehaviorBody, BehaviorItem, Ident, Item, ItemKind, ScriptRef, Span};
 use crate::check::types::Ty;
 use crate::lower::known::{BehaviorUse, Draw, Scripted};
+use crate::lower::script::{AskedHook, embed};
 use crate::problem::facts::{Assigned, Behaviors, Names};
 use crate::problem::{Guess, Problem};
 use crate::source::FileId;
@@ -234,7 +235,8 @@ impl<'c, 'w> BehaviorWriter<'c, 'w> {
 
     fn script(&mut self, script: &'w ScriptRef, args: Vec<setpiece_scenario::ScriptArg>) {
         let own: Vec<&str> = args.iter().map(|arg| arg.name.as_str()).collect();
-        if let Some(script) = super::script::embed(&self.lower, script, "act", &own) {
+        let asked = AskedHook { name: "act", own: &own, terms: &[] };
+        if let Some(script) = embed(&self.lower, script, asked) {
             let act = Act::Script { script, args };
             self.nodes.push(Node::Do(Do { act, sprint: false, until: None, seconds: None }));
         }

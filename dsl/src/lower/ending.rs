@@ -1,9 +1,10 @@
 //! Endings: one program, and its conditions in order.
 
+use super::script::{AskedHook, embed};
 use super::step_world::StepWorld;
 use super::substitute::lower_substitute;
 use super::value::{LiteralFrame, Scope};
-use super::{Lower, ProgramStage, script};
+use super::{Lower, ProgramStage};
 use crate::ast::{EndCondition, FnItem, ItemKind, Span};
 use crate::problem::facts::{Kind, Names, Rewards};
 use crate::problem::{Guess, Problem, nearest};
@@ -120,7 +121,8 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
     match (ending.condition, ending.label) {
         (Some(EndCondition::Expr(condition)), _) => lowered.when = Some(lower.condition(condition)),
         (Some(EndCondition::Script(source)), _) => {
-            lowered.script = Some(script::embed(lower, source, "done", &[])?);
+            let asked = AskedHook { name: "done", ..AskedHook::default() };
+            lowered.script = Some(embed(lower, source, asked)?);
         }
         (None, Some(reference)) => {
             let found = lower.world.library.find(reference.name.span.file, &reference.name.node);

@@ -9,7 +9,7 @@ use super::value::{LiteralFrame, Scope};
 use super::{Lower, ProgramStage, World};
 use crate::ast::{
     Arg, Expr, ExprKind, ItemKind, ParamDecl, Ref, RewardItem, RewardStmt, RewardUse,
-    RewardUseKind, ScriptRef, Span,
+    RewardUseKind, ScriptRef, Span, Spanned,
 };
 use crate::problem::facts::{Chance, Kind, Names, Rewards};
 use crate::problem::{Guess, Problem};
@@ -19,7 +19,7 @@ use setpiece_scenario::{Program, Reg, Reward, RewardBody};
 use state::{check_names, states};
 use writer::RewardWriter;
 
-/// The label of a script's one term.
+/// The label of a script's one term, which has no name of its own.
 const SCRIPT_TERM: &str = "script";
 
 /// A reward as it is written.
@@ -103,7 +103,10 @@ pub(crate) fn lower_use<'w>(
         check_weight(world, weight, name);
     }
     match &used.what {
-        RewardUseKind::Script(script) => Some(lower_script(step, name, script, used)),
+        RewardUseKind::Script { script, terms } => {
+            let labels = terms.as_ref().map(|terms| terms.node.as_slice()).unwrap_or_default();
+            Some(lower_script(step, name, (script, labels), used))
+        }
         RewardUseKind::Inline { .. } | RewardUseKind::Named(_) => {
             let (written, doc) = written(world, used, span)?;
             Some(lower_written(step, name, doc, &written, Some(used)))
@@ -119,7 +122,7 @@ pub(super) fn written<'w>(
     span: Span,
 ) -> Option<(WrittenReward<'w>, String)> {
     let reference = match &used.what {
-        RewardUseKind::Script(_) => return None,
+        RewardUseKind::Script { .. } => return None,
         RewardUseKind::Inline { body, .. } => {
             return Some((WrittenReward::inline(body, span), String::new()));
         }
@@ -165,11 +168,11 @@ fn check_weight<'w>(world: &World<'w>, weight: &'w Expr, name: &str) {
     }
 }
 
-/// A reward that is a script: one term, `script`.
+/// A reward that is a script: its terms, or one, `script`.
 fn lower_script<'w>(
     step: &StepWorld<'_, 'w>,
     name: &str,
-    script: &'w ScriptRef,
+    (script, labels): (&'w ScriptRef, &[Spanned<String>]),
     used: &'w RewardUse,
 ) -> Reward {
     let mut lower =
@@ -177,10 +180,14 @@ fn lower_script<'w>(
     let us = lower.code.us();
     lower.team = Some(us);
     let payment = lower.payment(Some(used));
-    let hooks = RewardWriter::script_alone(&mut lower, script, payment);
+    let hooks = RewardWriter::script_alone(&mut lower, script, labels, payment);
     let (step, _) = lower.code.finish(&[]);
     let init = Program { code: Vec::new(), cells: step.cells, ..Program::default() };
-    let body = RewardBody { init, step, terms: vec![SCRIPT_TERM.to_owned()], hooks };
+    let mut terms: Vec<String> = labels.iter().map(|label| label.node.clone()).collect();
+    if terms.is_empty() {
+        terms.push(SCRIPT_TERM.to_owned());
+    }
+    let body = RewardBody { init, step, terms, hooks };
     Reward { name: name.to_owned(), doc: String::new(), body }
 }
 

@@ -9,7 +9,7 @@ use crate::problem::facts::{Files, Types};
 use crate::problem::{Problem, ScriptSight};
 use crate::source::{FileId, Source};
 use setpiece_scenario::vocabulary::Type;
-use setpiece_scenario::{NamedValue, Script, ScriptArg};
+use setpiece_scenario::{NamedValue, Script, ScriptArg, ScriptModule};
 
 impl<'w> Lower<'_, 'w> {
     /// The parameters around a script, as its hook sees them; `every` one must be such that it can.
@@ -70,13 +70,22 @@ pub(super) fn named_file(world: &World<'_>, path: &Spanned<String>) -> Option<Fi
     }
 }
 
-/// Embeds a script and gives its place in the scenario; `None` after a report. `own` are the names
-/// that its hook finds among the scenario's parameters.
+/// What is asked of a script.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct AskedHook<'a> {
+    /// The hook's name.
+    pub(crate) name: &'static str,
+    /// Names that it finds among the scenario's parameters.
+    pub(crate) own: &'a [&'a str],
+    /// The terms that it returns.
+    pub(crate) terms: &'a [&'a str],
+}
+
+/// Embeds a script and gives its place in the scenario; `None` after a report.
 pub(crate) fn embed<'w>(
     lower: &Lower<'_, 'w>,
     script: &'w ScriptRef,
-    hook: &'static str,
-    own: &[&str],
+    hook: AskedHook<'_>,
 ) -> Option<u32> {
     let world = lower.world;
     let (name, source, text_at) = match &script.source {
@@ -94,21 +103,36 @@ pub(crate) fn embed<'w>(
             (name, source, (text.span.file, text.span.start))
         }
     };
-    if let Err(why) = world.scripts_loaded.take(&source.text) {
+    let sources = &world.library.sources;
+    let files = world.scripts_loaded.modules(text_at.0, &source.text, sources);
+    let modules: Vec<ScriptModule> = files
+        .iter()
+        .filter_map(|(name, file)| {
+            let source = sources.get(*file)?.text.to_string();
+            Some(ScriptModule { name: name.clone(), source })
+        })
+        .collect();
+    let texts = || {
+        std::iter::once(&*source.text).chain(modules.iter().map(|module| module.source.as_str()))
+    };
+    let n_bytes = texts().map(str::len).sum();
+    if let Err(why) = world.scripts_loaded.take(n_bytes, modules.len()) {
         world.report(Problem::new(script.span, why));
         return None;
     }
     // A script reads a parameter by its name, in whatever way.
-    let words: Vec<&str> = source.text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let words: Vec<&str> =
+        texts().flat_map(|text| text.split(|c: char| !c.is_alphanumeric() && c != '_')).collect();
     let named = named_values(lower, &words, script.span);
-    check(lower, script.span, &source, text_at, hook, own, &named);
+    let checked = CheckedScript { source: &source, at: text_at, modules: &modules, files: &files };
+    check(lower, script.span, &checked, hook, &named);
     for param in world.params.iter().filter(|param| words.contains(&param.name.node.as_str())) {
         world.mark_used(param.name.span);
     }
     let mut scripts = world.scripts.borrow_mut();
     let at =
         world.library.sources.get(text_at.0).map_or((1, 1), |file| file.line_column(text_at.1));
-    let embedded = Script { name, at, source: source.text.to_string(), named };
+    let embedded = Script { name, at, source: source.text.to_string(), named, modules };
     let known = scripts.iter().position(|script| *script == embedded);
     let index = known.unwrap_or_else(|| {
         scripts.push(embedded);
@@ -117,24 +141,37 @@ pub(crate) fn embed<'w>(
     Some(index as u32)
 }
 
+/// A script with its modules, and where they are in the files.
+struct CheckedScript<'a> {
+    source: &'a Source,
+    /// The file and the byte at which its text begins.
+    at: (FileId, u32),
+    modules: &'a [ScriptModule],
+    files: &'a [(String, FileId)],
+}
+
 fn check(
     lower: &Lower<'_, '_>,
     used: Span,
-    source: &Source,
-    (file, offset): (FileId, u32),
-    hook: &str,
-    own: &[&str],
+    script: &CheckedScript<'_>,
+    hook: AskedHook<'_>,
     named: &[NamedValue],
 ) {
     let world = lower.world;
     let Some(api) = world.scripts_loaded.api else { return };
     let bound = world.params.iter().filter(|param| param.bound.is_none());
     let sight = ScriptSight {
-        params: bound.map(|param| param.param.name.as_str()).chain(own.iter().copied()).collect(),
+        params: bound
+            .map(|param| param.param.name.as_str())
+            .chain(hook.own.iter().copied())
+            .collect(),
         named: named.iter().map(|named| (named.name.as_str(), named.kind)).collect(),
         others: nameable(lower, used),
+        terms: hook.terms.to_vec(),
     };
-    for found in api.check(source, hook, &sight) {
+    for found in api.check(script.source, script.modules, hook.name, &sight) {
+        let module = found.module.and_then(|at| script.files.get(at));
+        let (file, offset) = module.map_or(script.at, |(_, file)| (*file, 0));
         let span = Span {
             file,
             start: offset + found.range.start as u32,

@@ -2,9 +2,9 @@
 
 use super::reader::{CstNode, CstNodes, Reader};
 use super::recover::Context;
-use crate::ast::{Expr, GiveStmt, GiveValue, RewardStmt, RewardStmtKind};
+use crate::ast::{Expr, GiveStmt, GiveValue, RewardStmt, RewardStmtKind, Spanned, TermList};
 use crate::problem::Problem;
-use crate::problem::facts::Syntax;
+use crate::problem::facts::{Names, Rewards, Syntax};
 use crate::source::Span;
 use setpiece_grammar::Rule;
 
@@ -38,10 +38,15 @@ impl Reader<'_> {
                 .get(give.span.end as usize..block.span.start as usize)
                 .unwrap_or_default();
             // A label ends its `give`.
-            let RewardStmtKind::Give(GiveStmt { on, when, label, .. }) = &give.kind else {
+            let RewardStmtKind::Give(GiveStmt { value, on, when, label, .. }) = &give.kind else {
                 continue;
             };
-            let ended = label.as_ref().is_some_and(|label| label.span.end == give.span.end);
+            let named = label.as_ref().map(|label| label.span);
+            let named = named.or(match value {
+                GiveValue::Script { terms: Some(terms), .. } => Some(terms.span),
+                _ => None,
+            });
+            let ended = named.is_some_and(|named| named.end == give.span.end);
             if !(ended && (!on.is_empty() || when.is_some())) && !between.contains(['\n', ';']) {
                 let moved = (!self.when_begins_a_line(block)).then_some(head);
                 let fact = Syntax::BlockAfterGive { give: give.span, moved };
@@ -150,25 +155,22 @@ impl Reader<'_> {
         nodes.eat(Rule::kw_give);
         let value = nodes.next()?;
         let value = if value.as_rule() == Rule::script {
-            GiveValue::Script(self.script(value)?)
+            GiveValue::Script { script: self.script(value)?, terms: None }
         } else {
             GiveValue::Expr(self.expr(value))
         };
         let to = self.clause(&mut nodes, Rule::give_to);
         let per_second = nodes.eat(Rule::per_second);
         let once = nodes.want(Rule::kw_once).map(|once| self.span(&once));
-        let mut give = GiveStmt {
-            value,
-            to,
-            per_second,
-            once,
-            on: Vec::new(),
-            when: None,
-            label: self.label(&mut nodes),
-        };
+        let mut give =
+            GiveStmt { value, to, per_second, once, on: Vec::new(), when: None, label: None };
         while let Some(rule) = nodes.peek() {
             match rule {
                 Rule::label => give.label = self.label(&mut nodes),
+                Rule::labels => match (self.terms(&mut nodes), &mut give.value) {
+                    (named, GiveValue::Script { terms, .. }) => *terms = named,
+                    (named, GiveValue::Expr(_)) => self.refuse_terms(named),
+                },
                 Rule::give_on => {
                     let events = nodes.next().and_then(|on| CstNodes::of(on).seek(Rule::events));
                     give.on = events.map(|events| self.events(events)).unwrap_or_default();
@@ -181,6 +183,34 @@ impl Reader<'_> {
             }
         }
         Some(give)
+    }
+
+    /// Reports several terms of what isn't a script.
+    pub(super) fn refuse_terms(&mut self, terms: Option<TermList>) {
+        if let Some(terms) = terms {
+            self.push(Problem::new(terms.span, Rewards::TermsOfNoScript));
+        }
+    }
+
+    /// `as ["x", "y"]`
+    pub(super) fn terms(&mut self, nodes: &mut CstNodes<'_>) -> Option<TermList> {
+        let node = nodes.want(Rule::labels)?;
+        let span = self.span(&node);
+        let words = CstNodes::of(node).filter(|word| word.as_rule() == Rule::string);
+        let words: Vec<Spanned<String>> = words.map(|word| self.string(&word)).collect();
+        let span = words.first().map_or(span, |first| Span { start: first.span.start, ..span });
+        let mut terms: Vec<Spanned<String>> = Vec::new();
+        for word in words {
+            if word.node.trim().is_empty() {
+                self.push(Problem::new(word.span, Rewards::EmptyLabel));
+            } else if let Some(first) = terms.iter().find(|other| other.node == word.node) {
+                let (what, first) = (format!("the term `{}`", word.node), first.span);
+                self.push(Problem::new(word.span, Names::GivenTwice { what, first }));
+            } else {
+                terms.push(word);
+            }
+        }
+        Some(Spanned { node: terms, span })
     }
 }
 

@@ -187,8 +187,8 @@ impl Reader<'_> {
     fn reward_use(&mut self, nodes: &mut CstNodes<'_>) -> Option<ScenarioStmtKind> {
         let node = nodes.next()?;
         let mut audience = None;
-        let what = match node.as_rule() {
-            Rule::script => RewardUseKind::Script(self.script(node)?),
+        let mut what = match node.as_rule() {
+            Rule::script => RewardUseKind::Script { script: self.script(node)?, terms: None },
             Rule::reference => RewardUseKind::Named(self.reference(node)?),
             _ => {
                 let mut inner = CstNodes::of(node);
@@ -200,6 +200,10 @@ impl Reader<'_> {
         };
         let audience = audience.or_else(|| self.clause(nodes, Rule::audience));
         let label = self.label(nodes);
+        match (self.terms(nodes), &mut what) {
+            (named, RewardUseKind::Script { terms, .. }) => *terms = named,
+            (named, _) => self.refuse_terms(named),
+        }
         let weight =
             nodes.want(Rule::weight).and_then(|weight| CstNodes::of(weight).seek(Rule::factor));
         Some(ScenarioStmtKind::Reward(RewardUse {

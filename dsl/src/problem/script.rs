@@ -2,13 +2,23 @@
 
 use super::Code;
 use crate::source::Source;
-use setpiece_scenario::NamedKind;
+use setpiece_scenario::{NamedKind, ScriptModule};
+use std::ops::Range;
 
 /// Checks scripts against the engine's hook API, which the compiler does not know.
 pub trait ScriptApi {
+    /// The paths of the modules that a script or module imports, and their byte ranges in it.
+    fn imports(&self, text: &str) -> Vec<(String, Range<usize>)>;
+
     /// Says everything that is wrong with a script that must have the hook `hook` (`reward`, `done`
-    /// or `act`).
-    fn check(&self, script: &Source, hook: &str, sight: &ScriptSight<'_>) -> Vec<ScriptProblem>;
+    /// or `act`), and with its modules.
+    fn check(
+        &self,
+        script: &Source,
+        modules: &[ScriptModule],
+        hook: &str,
+        sight: &ScriptSight<'_>,
+    ) -> Vec<ScriptProblem>;
 }
 
 /// The names that a script may read.
@@ -20,6 +30,8 @@ pub struct ScriptSight<'a> {
     pub named: Vec<(&'a str, NamedKind)>,
     /// Every name that it might have meant instead.
     pub others: Vec<&'a str>,
+    /// The keys of the map that a `reward` hook returns; none if it returns a number.
+    pub terms: Vec<&'a str>,
 }
 
 /// A fault of a script.
@@ -27,8 +39,10 @@ pub struct ScriptSight<'a> {
 pub struct ScriptProblem {
     /// Which code.
     pub code: Code,
-    /// Byte range in the script's text.
-    pub range: std::ops::Range<usize>,
+    /// In which of its modules; none if in the script itself.
+    pub module: Option<usize>,
+    /// Byte range in the text.
+    pub range: Range<usize>,
     /// One clause.
     pub message: String,
     /// What to write instead.

@@ -485,7 +485,7 @@ impl<'a> Adding<'a, '_> {
             let what = match &reward.what {
                 RewardUseKind::Named(named) => named.name.node.as_str(),
                 RewardUseKind::Inline { name, .. } => name.node.as_str(),
-                RewardUseKind::Script(_) => "script …",
+                RewardUseKind::Script { .. } => "script …",
             };
             self.problems.push(Problem::new(
                 stmt.span,
@@ -544,7 +544,7 @@ pub(crate) fn reward_name(reward: &RewardUse) -> String {
         (Some(label), _) => label.node.clone(),
         (None, RewardUseKind::Named(named)) => named.bare().to_owned(),
         (None, RewardUseKind::Inline { name, .. }) => name.node.clone(),
-        (None, RewardUseKind::Script(script)) => match &script.source {
+        (None, RewardUseKind::Script { script, .. }) => match &script.source {
             crate::ast::ScriptSource::File(path) => {
                 let stem = path.node.rsplit('/').next().unwrap_or_default();
                 stem.strip_suffix(".rhai").unwrap_or(stem).to_owned()

@@ -32,6 +32,7 @@ fn script_reward(source: &str) -> Scenario {
         at: (1, 1),
         source: source.to_owned(),
         named: Vec::new(),
+        modules: Vec::new(),
     });
     scenario.rewards = vec![Reward {
         name: "own".to_owned(),
@@ -49,7 +50,7 @@ fn script_reward(source: &str) -> Scenario {
                 ..Program::default()
             },
             terms: vec!["script".to_owned()],
-            hooks: vec![RewardHook { script: 0, cell: 0, args: Vec::new() }],
+            hooks: vec![RewardHook { script: 0, cell: 0, terms: Vec::new(), args: Vec::new() }],
         },
     }];
     scenario
@@ -204,6 +205,7 @@ fn a_done_hook_ends_with_its_label() {
         at: (1, 1),
         source: source.to_owned(),
         named: Vec::new(),
+        modules: Vec::new(),
     });
     let (verdict, label) = (Some(Verdict::Failure), "script".to_owned());
     scenario.endings.list.push(Ending { verdict, label, when: None, script: Some(0) });

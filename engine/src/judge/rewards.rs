@@ -9,7 +9,9 @@ mod lanes;
 
 use crate::in_place::clone_in_place;
 use crate::judge::machine::Input;
-use crate::judge::script::{Argument, HookScene, Memory, Perspective, ScriptError, Scripts, Shelf};
+use crate::judge::script::{
+    Argument, HookScene, Memory, Perspective, RewardAsked, ScriptError, Scripts, Shelf,
+};
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 use arrayvec::ArrayVec;
@@ -58,12 +60,14 @@ clone_in_place! {
 struct HookState {
     /// Whether it has one instance per team instead of one per agent.
     shared: bool,
+    /// What it returned last, one number for each of its terms.
+    values: Vec<f64>,
     /// One entry per instance.
     memories: Vec<Memory>,
 }
 
 clone_in_place! {
-    HookState { shared, memories }
+    HookState { shared, values, memories }
 }
 
 /// An agent as the judge sees it.
@@ -85,7 +89,8 @@ impl RewardJudge {
         for reward in rewards.iter() {
             let first_term = names.len();
             names.extend(reward.term_names());
-            let hook = |hook: &RewardHook| HookState::new(!scripts.uses_me(hook.script), n_agents);
+            let hook =
+                |hook: &RewardHook| HookState::new(hook, !scripts.uses_me(hook.script), n_agents);
             states.push(RewardState {
                 first_term,
                 n_terms: names.len() - first_term,
@@ -112,7 +117,7 @@ impl RewardJudge {
             for (state, hook) in state.hooks.iter_mut().zip(&reward.body.hooks) {
                 let shared = !scripts.uses_me(hook.script);
                 if shared != state.shared {
-                    *state = HookState::new(shared, self.n_agents);
+                    *state = HookState::new(hook, shared, self.n_agents);
                 }
             }
         }
@@ -287,9 +292,10 @@ impl RewardJudge {
 }
 
 impl HookState {
-    fn new(shared: bool, n_agents: usize) -> HookState {
+    fn new(hook: &RewardHook, shared: bool, n_agents: usize) -> HookState {
         let n_memories = if shared { Team::ALL.len() } else { n_agents };
-        HookState { shared, memories: vec![Memory::default(); n_memories] }
+        let values = vec![0.0; hook.cells().len()];
+        HookState { shared, values, memories: vec![Memory::default(); n_memories] }
     }
 
     /// Calls a script for a team's agents: for each, or for the first on behalf of all.
@@ -309,16 +315,25 @@ impl HookState {
                 Argument { name: &arg.name, ty: arg.ty, values: [value(0), value(1)] }
             })
             .collect();
-        let mut value = 0.0;
         for (lane, judged) in side.iter().enumerate() {
             if lane == 0 || !self.shared {
                 let perspective =
                     Perspective { us: judged.team, me: judged.me, agent: judged.agent };
                 let instance = if self.shared { judged.team.index() } else { judged.agent };
                 let Some(memory) = self.memories.get_mut(instance) else { continue };
-                value = scripts.reward(hook.script, scene, perspective, &arguments, memory)?;
+                let asked = RewardAsked { terms: &hook.terms, arguments: &arguments };
+                scripts.reward_terms(
+                    hook.script,
+                    scene,
+                    perspective,
+                    asked,
+                    memory,
+                    &mut self.values,
+                )?;
             }
-            lanes.remember(hook.cell, lane, value);
+            for (cell, &value) in hook.cells().zip(&self.values) {
+                lanes.remember(cell, lane, value);
+            }
         }
         Ok(())
     }

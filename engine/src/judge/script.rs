@@ -2,37 +2,48 @@
 //!
 //! One Rhai engine serves the process, and each script of a scenario is compiled once; all matches
 //! and threads share both. A hook sees the match through the language's own properties, in the
-//! frame of the judged side. It can do nothing else: no files, no clock, no modules. Operations,
+//! frame of the judged side. It can do nothing else: no files, no clock. Its modules are texts of
+//! the scenario, joined with it. Operations,
 //! depth and sizes are bounded, and random numbers come only from the episode's seed. `this` is the
 //! script's memory: a map that lives as long as the episode.
 //!
-//! - `fn reward(ctx, now, prev, events)` returns a number, each step, for each agent.
+//! - `fn reward(ctx, now, prev, events)` returns a number, or a map of numbers by the names of its
+//!   terms, each step, for each agent.
 //! - `fn done(ctx, now, prev, events)` returns whether the episode ends: true, or its label.
 //! - `fn act(ctx, me, now)` returns the action of the player it plays, each step.
 
 mod api;
 mod budget;
 mod call;
+mod chain;
 mod check;
+mod functions;
 mod hooks;
 mod host;
+mod imports;
+mod join;
 mod limits;
 mod place;
+mod print;
+mod scan;
+mod terms;
 mod words;
 
 pub use api::{Argument, HookScene, Member, Params, Perspective, Subject, functions, members};
 pub(crate) use api::{EpisodeNames, Shelf};
-pub use check::{ScriptFault, ScriptFaultKind, ScriptNames, check_script};
+pub use check::{ScriptFault, ScriptFaultKind, ScriptNames, check_script, script_imports};
 
 use api::{NamedList, NamedProgram, ShownState, events_of};
 use budget::Edits;
 use call::CompiledScript;
 use hooks::{DONE, RESET, REWARD};
+use join::{Joined, UNFOLLOWED};
 use place::hook_position;
+use print::Printed;
 use rhai::{Array, Dynamic, EvalAltResult, FuncArgs};
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, Type};
-use setpiece_scenario::{Param, Scenario};
+use setpiece_scenario::{Param, Scenario, Script};
 use std::sync::Arc;
 
 /// A hook that failed. It ends the episode, not the process.
@@ -99,12 +110,24 @@ pub enum Done {
     Labelled(String),
 }
 
+/// What a reward asks of a script's hook.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RewardAsked<'a> {
+    /// The keys of the map that the hook returns; none if it returns a number.
+    pub terms: &'a [String],
+    /// The reward's arguments.
+    pub arguments: &'a [Argument<'a>],
+}
+
 /// The compiled scripts of a scenario.
 #[derive(Clone, Debug)]
 pub struct Scripts {
     list: Arc<[Compiled]>,
     params: Arc<[Param]>,
 }
+
+/// A line and column of a module, or of the script itself.
+type AuthorPlace = (Option<usize>, (usize, usize));
 
 #[derive(Debug)]
 struct Compiled {
@@ -113,21 +136,23 @@ struct Compiled {
     at: (u32, u32),
     source: String,
     code: CompiledScript,
-    /// Maps places in the code back to the source.
+    /// Maps places in the code back to the joined text.
     edits: Edits,
+    /// The text with its modules.
+    joined: Joined,
+    /// What the modules are called in messages.
+    modules: Vec<String>,
     uses_me: bool,
     /// Whether a hook reads the step's events.
     reads_events: bool,
     /// Whether it has a `reset` hook.
     resets: bool,
     named: NamedList,
+    /// How much it has printed.
+    printed: Printed,
     /// Its share of the memory of an episode, one for each of the players and scripts.
     memory_bytes: usize,
 }
-
-/// Why places in a script can't be mapped: Rhai stores lines and columns in two bytes, and has its
-/// own line ends.
-const UNFOLLOWED: &str = "the text can't be followed here: it has a lone carriage return, or more than 65535 lines or columns";
 
 impl Scripts {
     /// Compiles a scenario's scripts.
@@ -136,36 +161,41 @@ impl Scripts {
     /// The first script that isn't valid Rhai.
     pub fn compile(scenario: &Scenario) -> Result<Scripts, ScriptLoadError> {
         let memory_bytes = host::MEMORIES_BYTES_MAX / (PLAYERS_MAX * scenario.scripts.len().max(1));
-        let compile = |script: &setpiece_scenario::Script| {
-            let failed = |(line, column), message| ScriptLoadError {
-                script: script.name.clone(),
+        let compile = |script: &Script| {
+            let modules = module_names(script);
+            let failed = |(module, (line, column)): AuthorPlace, message| ScriptLoadError {
+                script: module.and_then(|at| modules.get(at)).unwrap_or(&script.name).clone(),
                 line,
                 column,
                 message,
             };
+            let joined = Joined::of(&script.source, &script.modules)
+                .map_err(|fault| failed((fault.module, fault.place), fault.message))?;
             let unread = |error: rhai::ParseError| {
-                failed(
-                    words::line_column(error.position()).unwrap_or((1, 1)),
-                    words::parse_message(&error),
-                )
+                let place = words::line_column(error.position()).unwrap_or((1, 1));
+                failed(joined.original(place), words::parse_message(&error))
             };
-            let ast = host::read(&script.source).map_err(unread)?;
-            let (counted, edits) = budget::count_copies(&script.source, &ast)
-                .map_err(|place| failed(place, UNFOLLOWED.to_owned()))?;
+            let ast = joined.parse().map_err(unread)?;
+            let (counted, edits) = budget::count_copies(&joined.text, &ast)
+                .map_err(|place| failed(joined.original(place), UNFOLLOWED.to_owned()))?;
+            let code = host::engine().compile(counted).map_err(unread)?;
             let resets = ast
                 .iter_functions()
                 .any(|function| function.name == RESET && function.params.len() == 1);
             Ok(Compiled {
                 resets,
                 memory_bytes,
+                printed: Printed::default(),
                 named: NamedProgram::list(scenario, &script.named),
                 name: script.name.clone(),
                 at: script.at,
                 source: script.source.clone(),
                 uses_me: check::mentions_me(&ast),
                 reads_events: [REWARD, DONE].iter().any(|hook| check::mentions_events(&ast, hook)),
-                code: CompiledScript::of(host::engine().compile(counted).map_err(unread)?),
+                code: CompiledScript::of(code),
                 edits,
+                joined,
+                modules,
             })
         };
         Ok(Scripts {
@@ -219,26 +249,23 @@ impl Scripts {
         })
     }
 
-    /// Calls a script's `reward` hook.
+    /// Calls a script's `reward` hook, which writes into `values`: one number, or one for each of
+    /// its terms.
     ///
     /// # Errors
-    /// [`ScriptError`] if the hook fails or doesn't return a number.
-    pub fn reward(
+    /// [`ScriptError`] if the hook fails, or doesn't return a number, or a map of its terms.
+    pub fn reward_terms(
         &self,
         script: u32,
         scene: &Arc<HookScene>,
         perspective: Perspective,
-        arguments: &[Argument<'_>],
+        asked: RewardAsked<'_>,
         memory: &mut Memory,
-    ) -> Result<f64, ScriptError> {
+        values: &mut [f64],
+    ) -> Result<(), ScriptError> {
+        let RewardAsked { terms, arguments } = asked;
         let value = self.call(script, REWARD, scene, (perspective, arguments), memory)?;
-        match value.as_float() {
-            Ok(number) => Ok(number),
-            Err(_) => value
-                .as_int()
-                .map(|whole| whole as f64)
-                .map_err(|found| self.wrong_type(script, REWARD, "a number", found, scene)),
-        }
+        terms::read(&value, terms, values).map_err(|why| self.failed(script, REWARD, why, scene))
     }
 
     /// Calls a script's `done` hook.
@@ -335,6 +362,11 @@ impl Scripts {
         scene: &HookScene,
     ) -> ScriptError {
         let message = format!("expected {expected}, found {}", api::type_words(found));
+        self.failed(script, hook, message, scene)
+    }
+
+    /// A hook whose result can't be used.
+    fn failed(&self, script: u32, hook: &str, message: String, scene: &HookScene) -> ScriptError {
         match self.list.get(script as usize) {
             Some(compiled) => compiled.error(hook, None, message, scene),
             None => ScriptError {
@@ -349,6 +381,14 @@ impl Scripts {
             },
         }
     }
+}
+
+/// What a script's modules are called in messages: paths beside the script's.
+fn module_names(script: &Script) -> Vec<String> {
+    let is_file = script.at == (1, 1);
+    let folder = script.name.rfind('/').filter(|_| is_file).map_or(0, |slash| slash + 1);
+    let folder = script.name.get(..folder).unwrap_or_default();
+    script.modules.iter().map(|module| format!("{folder}{}", module.name)).collect()
 }
 
 impl Compiled {
@@ -368,7 +408,12 @@ impl Compiled {
         memory: &mut Memory,
         scene: &HookScene,
     ) -> Result<Dynamic, ScriptError> {
+        self.printed.begin();
         let value = self.code.call(hook, arguments, &mut memory.this);
+        self.printed.end(|place| {
+            let (script, line, column) = self.place(hook, place.map(|place| self.original(place)));
+            format!("{script}:{line}:{column}")
+        });
         let ended = budget::end(&mut memory.this);
         let called = value.map_err(|error| self.fault(hook, error, scene)).and_then(|value| {
             ended
@@ -384,22 +429,37 @@ impl Compiled {
 
     fn fault(&self, hook: &str, error: Box<EvalAltResult>, scene: &HookScene) -> ScriptError {
         let (position, message) = words::explain(error);
-        self.error(hook, position.map(|place| self.edits.original(place)), message, scene)
+        self.error(hook, position.map(|place| self.original(place)), message, scene)
+    }
+
+    /// The author's place of a place in the code.
+    fn original(&self, place: (usize, usize)) -> AuthorPlace {
+        self.joined.original(self.edits.original(place))
+    }
+
+    /// The name, line and column under which a place is reported; the hook's if there is none.
+    fn place(&self, hook: &str, position: Option<AuthorPlace>) -> (&str, usize, usize) {
+        let (module, (line, column)) =
+            position.unwrap_or_else(|| (None, hook_position(&self.source, hook)));
+        let script = module.and_then(|at| self.modules.get(at));
+        let (first_line, first_column) = match script {
+            Some(_) => (1, 1),
+            None => (self.at.0.max(1) as usize, self.at.1.max(1) as usize),
+        };
+        let column = if line == 1 { column + first_column - 1 } else { column };
+        (script.unwrap_or(&self.name), line + first_line - 1, column)
     }
 
     fn error(
         &self,
         hook: &str,
-        position: Option<(usize, usize)>,
+        position: Option<AuthorPlace>,
         message: String,
         scene: &HookScene,
     ) -> ScriptError {
-        let (line, column) = position.unwrap_or_else(|| hook_position(&self.source, hook));
-        let (first_line, first_column) = (self.at.0.max(1) as usize, self.at.1.max(1) as usize);
-        let column = if line == 1 { column + first_column - 1 } else { column };
-        let line = line + first_line - 1;
+        let (script, line, column) = self.place(hook, position);
         ScriptError {
-            script: self.name.clone(),
+            script: script.to_owned(),
             line,
             column,
             hook: hook.to_owned(),

@@ -12,6 +12,7 @@
 (type) @type
 (callee) @function.call
 (label) @label
+(labels) @label
 
 (scenario name: (_) @type.definition)
 (reward name: (_) @function)

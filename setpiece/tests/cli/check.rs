@@ -45,6 +45,31 @@ fn three_mistakes_get_three_located_reports() {
 }
 
 #[test]
+fn what_a_script_prints_is_shown_with_its_place() {
+    let folder = folder();
+    write(
+        folder.path(),
+        "loud.rhai",
+        "import \"lib\" as lib;\nfn reward(ctx, now, prev, events) {\n    if ctx.step == 1 { print(`step ${ctx.step}`); }\n    lib::pay(ctx.step)\n}",
+    );
+    write(
+        folder.path(),
+        "lib.rhai",
+        "fn pay(step) { if step == 2 { debug(\"two\"); }\n#{a: 1, b: -0.5} }",
+    );
+    let text =
+        CLOSE.replace("ball at", "reward script \"loud.rhai\" as [\"a\", \"b\"]\n    ball at");
+    let path = write(folder.path(), "loud.pitch", text);
+    let output = setpiece(&["run", &path, "--episodes", "1"]);
+    let (shown, printed) = (self::text(&output.stdout), self::text(&output.stderr));
+    assert!(output.status.success(), "{printed}");
+    for line in ["loud.rhai:3:24: step 1", "lib.rhai:1:31: \"two\""] {
+        assert!(printed.lines().any(|found| found == line), "{printed}");
+    }
+    assert!(shown.contains("loud/a") && shown.contains("loud/b"), "{shown}");
+}
+
+#[test]
 fn a_bad_script_is_an_error_and_never_a_hang() {
     let folder = folder();
     let scenario = |script: &str| {

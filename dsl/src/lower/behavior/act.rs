@@ -3,6 +3,7 @@
 use super::BehaviorWriter;
 use crate::ast::{Arg, BehaviorItem, DoStmt, DoWhat, Expr, Ident, ItemKind, Span};
 use crate::check::types::Ty;
+use crate::lower::script::{AskedHook, embed};
 use crate::problem::facts::{Behaviors, Kind, Names};
 use crate::problem::{Guess, Problem, signature};
 use setpiece_scenario::pitch::{LONGEST_S, STEPS_PER_S};
@@ -15,7 +16,8 @@ impl<'w> BehaviorWriter<'_, 'w> {
             DoWhat::Named { name, args, span } => (name, args.as_slice(), *span),
             DoWhat::Script(script) => {
                 self.refuse_sprint(stmt, "a script");
-                let index = crate::lower::script::embed(&self.lower, script, "act", &[]);
+                let asked = AskedHook { name: "act", ..AskedHook::default() };
+                let index = embed(&self.lower, script, asked);
                 let (until, seconds) = self.clauses(stmt);
                 if let Some(script) = index {
                     let act = Act::Script { script, args: Vec::new() };

@@ -145,7 +145,7 @@ impl<'w> Lower<'_, 'w> {
         });
         let Some(scope) = scope else {
             // Where there is no such reward, that has been reported.
-            if matches!(used.what, RewardUseKind::Script(_)) {
+            if matches!(used.what, RewardUseKind::Script { .. }) {
                 self.report(Problem::new(
                     member.span,
                     Names::ScriptHasNoStates { reward: name.to_owned() },

@@ -3,10 +3,10 @@
 
 use crate::ast::{
     Binding as Let, EventExpr, Expr, GiveStmt, GiveValue, Ident, ParamDecl, RewardStmt,
-    RewardStmtKind, ScriptRef,
+    RewardStmtKind, ScriptRef, Spanned,
 };
 use crate::check::types::Ty;
-use crate::lower::script::embed;
+use crate::lower::script::{AskedHook, embed};
 use crate::lower::value::LocalName;
 use crate::lower::{Lower, param};
 use crate::problem::facts::{Assigned, Names, Never, Rewards, Scopes};
@@ -91,16 +91,18 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         WrittenProgram { terms: writer.terms, hooks: writer.hooks }
     }
 
-    /// Writes a reward that is a script: it pays into the first term.
+    /// Writes a reward that is a script: it pays into its terms, from the first on.
     pub(super) fn script_alone(
         lower: &'l mut Lower<'c, 'w>,
         script: &'w ScriptRef,
+        labels: &[Spanned<String>],
         payment: Payment,
     ) -> Vec<RewardHook> {
         let mut writer = RewardWriter::new(lower, Some(payment), Vec::new());
-        let value = writer.script(script);
-        let value = writer.weighted(value);
-        writer.lower.code.give(0, value, payment.audience);
+        for (term, value) in (0..).zip(writer.script(script, labels)) {
+            let value = writer.weighted(value);
+            writer.lower.code.give(term, value, payment.audience);
+        }
         writer.hooks
     }
 
@@ -207,22 +209,27 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
     }
 
     fn give(&mut self, give: &'w GiveStmt) {
-        if give.label.is_none() {
+        let listed = match &give.value {
+            GiveValue::Script { terms, .. } => terms.as_ref(),
+            GiveValue::Expr(_) => None,
+        };
+        if give.label.is_none() && listed.is_none() {
             self.unlabelled += 1;
         }
         if let Some(label) = give.label.as_ref().filter(|label| label.node.trim().is_empty()) {
             self.lower.report(Problem::new(label.span, Rewards::EmptyLabel));
         }
-        let label = give
-            .label
-            .as_ref()
-            .map_or_else(|| self.unlabelled.to_string(), |label| label.node.clone());
-        let term = self.term(label);
+        let terms: Vec<u32> = match (listed, &give.label) {
+            (Some(terms), _) => terms.node.iter().map(|term| self.term(&term.node)).collect(),
+            (None, Some(label)) => vec![self.term(&label.node)],
+            (None, None) => vec![self.term(&self.unlabelled.to_string())],
+        };
+        let terms = terms.as_slice();
         if give.on.is_empty() {
             let when = give.when.as_ref().map(|when| self.lower.condition(when));
             match when {
-                Some(when) => self.guarded(when, |writer| writer.pay_to(give, term)),
-                None => self.pay_to(give, term),
+                Some(when) => self.guarded(when, |writer| writer.pay_to(give, terms)),
+                None => self.pay_to(give, terms),
             }
             return;
         }
@@ -231,21 +238,21 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         for event in &give.on {
             self.on_event(event, give.when.as_ref(), |writer| {
                 writer.for_receiver(give, |writer| {
-                    let value = writer.amount(give);
+                    let values = writer.amounts(give);
                     match paid {
-                        Some(cell) => writer.pay_once(term, value, cell),
-                        None => writer.lower.code.give(term, value, writer.guard),
+                        Some(cell) => writer.pay_once(terms, &values, cell),
+                        None => writer.pay_all(terms, &values, writer.guard),
                     }
                 });
             });
         }
     }
 
-    fn term(&mut self, label: String) -> u32 {
+    fn term(&mut self, label: &str) -> u32 {
         let next = self.terms.len() as u32;
-        let place = *self.places.entry(label.clone()).or_insert(next);
+        let place = *self.places.entry(label.to_owned()).or_insert(next);
         if place == next {
-            self.terms.push(label);
+            self.terms.push(label.to_owned());
         }
         place
     }
@@ -258,28 +265,35 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         }
     }
 
-    fn pay_to(&mut self, give: &'w GiveStmt, term: u32) {
-        self.for_receiver(give, |writer| writer.pay(give, term));
+    fn pay_to(&mut self, give: &'w GiveStmt, terms: &[u32]) {
+        self.for_receiver(give, |writer| writer.pay(give, terms));
     }
 
-    fn pay(&mut self, give: &'w GiveStmt, term: u32) {
-        let value = self.amount(give);
+    fn pay(&mut self, give: &'w GiveStmt, terms: &[u32]) {
+        let values = self.amounts(give);
         match give.once {
             Some(_) if self.lower.code.in_loop() => {
                 let cell = self.lower.code.new_cell();
-                self.pay_once(term, value, cell);
+                self.pay_once(terms, &values, cell);
             }
             Some(_) => {
                 let guard = self.guard.unwrap_or_else(|| self.lower.code.bool(true));
                 let first = self.lower.code.once(guard);
-                self.lower.code.give(term, value, Some(first));
+                self.pay_all(terms, &values, Some(first));
             }
-            None => self.lower.code.give(term, value, self.guard),
+            None => self.pay_all(terms, &values, self.guard),
+        }
+    }
+
+    /// Pays each value into its term.
+    fn pay_all(&mut self, terms: &[u32], values: &[Reg], guard: Option<Reg>) {
+        for (&term, &value) in terms.iter().zip(values) {
+            self.lower.code.give(term, value, guard);
         }
     }
 
     /// Pays at the first match, which may be one of several in a step.
-    fn pay_once(&mut self, term: u32, value: Reg, cell: u32) {
+    fn pay_once(&mut self, terms: &[u32], values: &[Reg], cell: u32) {
         let code = &mut self.lower.code;
         let paid = code.cell(cell);
         let open = code.unary(UnaryOp::Not, paid);
@@ -287,26 +301,34 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
             Some(guard) => code.binary(BinaryOp::And, guard, open),
             None => open,
         };
-        code.give(term, value, Some(guard));
+        self.pay_all(terms, values, Some(guard));
+        let code = &mut self.lower.code;
         let one = code.constant(1.0);
         code.assign(cell, one, Some(guard));
     }
 
-    fn amount(&mut self, give: &'w GiveStmt) -> Reg {
-        let mut reg = match &give.value {
-            GiveValue::Script(script) => self.script(script),
+    /// What is paid: one value for each of its terms.
+    fn amounts(&mut self, give: &'w GiveStmt) -> Vec<Reg> {
+        let mut values = match &give.value {
+            GiveValue::Script { script, terms } => {
+                let labels = terms.as_ref().map(|terms| terms.node.as_slice());
+                self.script(script, labels.unwrap_or_default())
+            }
             GiveValue::Expr(value) => {
                 let reg = self.lower.want_reg(value, Ty::Number);
                 self.check_payable(reg, value);
                 self.check_pays(reg, value);
-                reg
+                vec![reg]
             }
         };
-        if give.per_second {
-            let step = self.lower.code.constant(STEP_S);
-            reg = self.lower.code.binary(BinaryOp::Mul, reg, step);
+        for value in &mut values {
+            if give.per_second {
+                let step = self.lower.code.constant(STEP_S);
+                *value = self.lower.code.binary(BinaryOp::Mul, *value, step);
+            }
+            *value = self.weighted(*value);
         }
-        self.weighted(reg)
+        values
     }
 
     fn weighted(&mut self, value: Reg) -> Reg {
@@ -316,20 +338,29 @@ impl<'l, 'c, 'w> RewardWriter<'l, 'c, 'w> {
         }
     }
 
-    /// The value of a script: its hook is called before the step, once however often it is named.
-    pub(super) fn script(&mut self, script: &'w ScriptRef) -> Reg {
+    /// The values of a script, one for each label, or one without: its hook is called before the
+    /// step, once however often it is named.
+    fn script(&mut self, script: &'w ScriptRef, labels: &[Spanned<String>]) -> Vec<Reg> {
         let args = self.lower.script_args(self.params.iter().copied(), false);
         let own: Vec<&str> = args.iter().map(|arg| arg.name.as_str()).collect();
-        let Some(index) = embed(self.lower, script, "reward", &own) else {
-            return self.lower.code.unknown();
+        let terms: Vec<&str> = labels.iter().map(|label| label.node.as_str()).collect();
+        let asked = AskedHook { name: "reward", own: &own, terms: &terms };
+        let Some(index) = embed(self.lower, script, asked) else {
+            return (0..labels.len().max(1)).map(|_| self.lower.code.unknown()).collect();
         };
-        let known = self.hooks.iter().find(|hook| hook.script == index).map(|hook| hook.cell);
-        let cell = known.unwrap_or_else(|| {
+        let known = self.hooks.iter().find(|hook| hook.script == index && hook.terms == terms);
+        let cells = if let Some(hook) = known {
+            hook.cells()
+        } else {
             let cell = self.lower.code.new_cell();
-            self.hooks.push(RewardHook { script: index, cell, args });
-            cell
-        });
-        self.lower.code.cell_before(cell)
+            terms.iter().skip(1).for_each(|_| _ = self.lower.code.new_cell());
+            let terms = terms.iter().map(|&term| term.to_owned()).collect();
+            let hook = RewardHook { script: index, cell, terms, args };
+            let cells = hook.cells();
+            self.hooks.push(hook);
+            cells
+        };
+        cells.map(|cell| self.lower.code.cell_before(cell)).collect()
     }
 
     /// Warns of a payment that never happens, in a reward that stands in its scenario: another's

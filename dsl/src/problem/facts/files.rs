@@ -28,9 +28,15 @@ facts! {
         TooManyScripts { limit: ScriptLimit } = Code::TooMuch =>
             say(limit.words(), "one too many").help("join some of the scripts: a file may hold several hooks"),
         /// A script that is longer than one may be.
-        LongScript { most: usize } = Code::TooMuch =>
-            say(format!("this script is larger than {} KiB", most >> 10), "too long")
-                .help("divide it: each hook may have a file of its own"),
+        LongScript { most: usize, has_modules: bool } = Code::TooMuch => {
+            let whole = if *has_modules { " with its modules" } else { "" };
+            say(format!("this script{whole} is larger than {} KiB", most >> 10), "too long")
+                .help("divide it: each hook may have a file of its own")
+        },
+        /// What can't be the path of a module.
+        NotAModule { path: String } = Code::FileMissing =>
+            say(format!("`{path}` can't be a module"), "imported here")
+                .help("a module lies beside the script or in a folder below: `import \"lib\" as lib;` reads `lib.rhai`"),
         /// What the engine says of a script, in its words.
         Script { code: Code, message: String, help: Option<String> } = *code => {
             let said = say(message.as_str(), "");
@@ -75,6 +81,8 @@ pub(crate) enum ScriptLimit {
     Files(usize),
     /// Bytes of all, each as often as it is used.
     Bytes(usize),
+    /// Modules of one script.
+    Modules(usize),
 }
 
 impl ScriptLimit {
@@ -84,6 +92,7 @@ impl ScriptLimit {
             ScriptLimit::Bytes(most) => {
                 format!("the scripts are larger than {} MiB together", most >> 20)
             }
+            ScriptLimit::Modules(most) => format!("a script has more than {most} modules"),
         }
     }
 }

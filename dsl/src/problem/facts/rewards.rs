@@ -40,6 +40,10 @@ facts! {
         EmptyLabel = Code::OutOfRange =>
             say("a label has at least one letter", "")
                 .help("say in a word what is paid: `give 1 on goal by us as \"goal\"`"),
+        /// Several terms of what isn't a script.
+        TermsOfNoScript = Code::WrongScope =>
+            say("only a script has several terms", "")
+                .help("write one `give` for each term: `give 1 on goal by us as \"goal\"`"),
         /// A scenario without an ending.
         NeverEnds { scenario: String } = Code::NoEnding =>
             say(format!("an episode of `{scenario}` never ends"), "").help("write, for example, `end limit 400 steps`"),

@@ -287,12 +287,13 @@ fn scripted(source: &str) -> Scenario {
         at: (1, 1),
         source: source.to_owned(),
         named: Vec::new(),
+        modules: Vec::new(),
     });
     let body = RewardBody {
         init: Program { code: Vec::new(), cells: 1, ..Program::default() },
         step: Program { code: Vec::new(), cells: 1, ..Program::default() },
         terms: Vec::new(),
-        hooks: vec![RewardHook { script: 0, cell: 0, args: Vec::new() }],
+        hooks: vec![RewardHook { script: 0, cell: 0, terms: Vec::new(), args: Vec::new() }],
     };
     scenario.rewards = vec![Reward { name: "own".to_owned(), doc: String::new(), body }];
     scenario

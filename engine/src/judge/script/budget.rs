@@ -10,11 +10,10 @@ mod class;
 mod copies;
 mod edits;
 mod natives;
-mod scan;
 mod size;
 
 pub(super) use copies::count_copies;
-pub(super) use edits::Edits;
+pub(super) use edits::{Edits, inserted};
 pub(super) use natives::register as register_natives;
 pub(super) use size::bytes_of;
 

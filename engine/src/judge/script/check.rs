@@ -1,14 +1,18 @@
 //! Checks a script before it runs: its grammar, its hook, the [`names`] it uses.
 
 mod names;
+mod terms;
 
 use super::api::Subject;
-use super::hooks::hook_arguments;
+use super::hooks::{REWARD, hook_arguments};
+use super::imports::{WRITTEN, imports};
+use super::limits::IMPORT;
 use super::place::{definition, offset, word_at};
 use super::{host, words};
-use names::Names;
-use rhai::{AST, ASTNode, Expr, Position, Stmt};
-use setpiece_scenario::NamedKind;
+use names::{Names, SharedFunctions};
+use rhai::{AST, ASTNode, Expr, ParseError, ParseErrorType, Position, Stmt};
+use setpiece_scenario::{NamedKind, ScriptModule, module_name};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Least similarity of a suggestion.
@@ -30,7 +34,9 @@ pub enum ScriptFaultKind {
 pub struct ScriptFault {
     /// What kind.
     pub kind: ScriptFaultKind,
-    /// The place, in bytes of the script.
+    /// In which module; none if in the script itself.
+    pub module: Option<usize>,
+    /// The place, in bytes of the text.
     pub range: Range<usize>,
     /// What is wrong, in one clause.
     pub message: String,
@@ -47,6 +53,8 @@ pub struct ScriptNames<'a> {
     pub named: &'a [(&'a str, NamedKind)],
     /// Names that it might have meant instead.
     pub others: &'a [&'a str],
+    /// The keys of the map that a `reward` hook returns; none if it returns a number.
+    pub terms: &'a [&'a str],
 }
 
 /// The most problems reported per script, because finding the place of each scans the script from
@@ -54,34 +62,102 @@ pub struct ScriptNames<'a> {
 const FAULTS_MAX: usize = 100;
 
 /// Checks a script that is used as `hook` (`reward`, `done`, `act` or `reset`) and may read these
-/// names.
+/// names, and its modules.
 ///
-/// Problems are in text order. A script that isn't valid Rhai has only one.
-pub fn check_script(source: &str, hook: &str, known: &ScriptNames<'_>) -> Vec<ScriptFault> {
-    let ast = match host::read(source) {
-        Ok(ast) => ast,
-        Err(error) => {
-            let start = position_offset(source, error.position());
-            let (kind, help) = match error.err_type() {
-                rhai::ParseErrorType::VariableUndefined(name) => {
-                    let arguments =
-                        hook_arguments(hook).unwrap_or_default().iter().map(|(name, _)| *name);
-                    (ScriptFaultKind::Name, suggest(name, arguments.chain(["this"])))
-                }
-                _ => (ScriptFaultKind::Syntax, None),
-            };
-            let message = words::parse_message(&error);
-            return vec![ScriptFault { kind, range: word_at(source, start), message, help }];
+/// Problems are in text order, the script's first. A text that isn't valid Rhai has only one.
+pub fn check_script(
+    source: &str,
+    modules: &[ScriptModule],
+    hook: &str,
+    known: &ScriptNames<'_>,
+) -> Vec<ScriptFault> {
+    let asts: Vec<_> = modules.iter().map(|module| host::read(&module.source)).collect();
+    let shared: Vec<SharedFunctions> =
+        asts.iter().map(|ast| ast.as_ref().ok().map(shared)).collect();
+    let aliases = |importer: &str, source: &str, ast: &AST| {
+        let named = imports(source, ast).0.into_iter().map(|import| {
+            let wanted = module_name(importer, &import.path);
+            let at = modules.iter().position(|module| Some(&module.name) == wanted.as_ref());
+            (import.alias, at.and_then(|at| shared.get(at).cloned().flatten()))
+        });
+        named.collect()
+    };
+    let mut faults = match host::read(source) {
+        Err(error) => vec![unread(source, hook, &error)],
+        Ok(ast) => {
+            let mut faults: Vec<ScriptFault> = check_hook(source, hook, &ast).into_iter().collect();
+            faults.extend(check_reset(source, &ast));
+            if hook == REWARD {
+                terms::check(source, &ast, known.terms, &mut faults);
+            }
+            check_text(source, hook, *known, &ast, aliases("", source, &ast), faults)
         }
     };
-    let mut faults: Vec<ScriptFault> = check_hook(source, hook, &ast).into_iter().collect();
-    faults.extend(check_reset(source, &ast));
-    faults.extend(check_top_level(source, &ast));
-    let mut names = Names::of(source, hook, *known, &ast);
-    ast.walk(&mut |path: &[ASTNode]| {
-        names.visit(path);
-        names.faults.len() < FAULTS_MAX
-    });
+    for (at, (module, ast)) in modules.iter().zip(&asts).enumerate() {
+        let source = module.source.as_str();
+        let own = match ast {
+            Err(error) => vec![unread(source, hook, error)],
+            Ok(ast) => {
+                let aliases = aliases(&module.name, source, ast);
+                check_text(source, hook, *known, ast, aliases, Vec::new())
+            }
+        };
+        faults.extend(own.into_iter().map(|fault| ScriptFault { module: Some(at), ..fault }));
+    }
+    faults.truncate(FAULTS_MAX);
+    faults
+}
+
+/// The paths of the modules that a script or module imports, and their places; none of a text that
+/// can't be read.
+pub fn script_imports(source: &str) -> Vec<(String, Range<usize>)> {
+    if !source.contains(IMPORT) {
+        return Vec::new();
+    }
+    let Ok(ast) = host::read(source) else { return Vec::new() };
+    imports(source, &ast).0.into_iter().map(|import| (import.path, import.range)).collect()
+}
+
+/// The functions that a module has for those that import it.
+fn shared(ast: &AST) -> Vec<(String, usize)> {
+    let public = ast.iter_functions().filter(|own| own.access.is_public());
+    public.map(|own| (own.name.to_owned(), own.params.len())).collect()
+}
+
+/// Why a text can't be read.
+fn unread(source: &str, hook: &str, error: &ParseError) -> ScriptFault {
+    let start = position_offset(source, error.position());
+    let (kind, help) = match error.err_type() {
+        ParseErrorType::VariableUndefined(name) => {
+            let arguments = hook_arguments(hook).unwrap_or_default().iter().map(|(name, _)| *name);
+            (ScriptFaultKind::Name, suggest(name, arguments.chain(["this"])))
+        }
+        ParseErrorType::ModuleUndefined(_) => (ScriptFaultKind::Name, Some(WRITTEN.to_owned())),
+        _ => (ScriptFaultKind::Syntax, None),
+    };
+    let message = words::parse_message(error);
+    ScriptFault { kind, module: None, range: word_at(source, start), message, help }
+}
+
+/// Checks what scripts and modules have in common; adds to what was found in the text.
+fn check_text(
+    source: &str,
+    hook: &str,
+    known: ScriptNames<'_>,
+    ast: &AST,
+    aliases: BTreeMap<String, SharedFunctions>,
+    mut faults: Vec<ScriptFault>,
+) -> Vec<ScriptFault> {
+    faults.extend(check_top_level(source, ast));
+    faults.extend(imports(source, ast).1.into_iter().map(|fault| ScriptFault {
+        kind: ScriptFaultKind::Syntax,
+        module: None,
+        range: fault.range,
+        message: fault.message.to_owned(),
+        help: Some(WRITTEN.to_owned()),
+    }));
+    let mut names = Names::of(source, hook, known, ast, aliases);
+    names.check();
     faults.append(&mut names.faults);
     faults.sort_by_key(|fault| fault.range.start);
     faults.dedup();
@@ -123,12 +199,14 @@ fn check_hook(source: &str, hook: &str, ast: &AST) -> Option<ScriptFault> {
     Some(match defined.first() {
         None => ScriptFault {
             kind,
+            module: None,
             range: 0..source.lines().next().map_or(0, str::len),
             message: format!("the script has no function `{hook}`"),
             help,
         },
         Some(found) => ScriptFault {
             kind,
+            module: None,
             range: definition(source, hook).unwrap_or(0..0),
             message: format!("`{hook}` takes {} arguments, found {found}", arguments.len()),
             help,
@@ -147,9 +225,10 @@ fn check_reset(source: &str, ast: &AST) -> Option<ScriptFault> {
 /// Reports statements outside functions, because nothing runs them.
 fn check_top_level(source: &str, ast: &AST) -> Option<ScriptFault> {
     let statement =
-        ast.statements().iter().find(|statement| !matches!(statement, Stmt::Noop(_)))?;
+        ast.statements().iter().find(|of| !matches!(of, Stmt::Noop(_) | Stmt::Import(..)))?;
     Some(ScriptFault {
         kind: ScriptFaultKind::Hook,
+        module: None,
         range: word_at(source, position_offset(source, statement.position())),
         message: "statements outside functions never run".to_owned(),
         help: Some(

@@ -2,9 +2,9 @@
 
 use super::api::to_number;
 use super::limits::{
-    ARRAY_MAX, CALL_LEVELS_MAX, DISABLED, EXPRESSION_DEPTH_MAX, MAP_MAX, RESERVED, STRING_MAX,
+    ARRAY_MAX, CALL_LEVELS_MAX, DISABLED, EXPRESSION_DEPTH_MAX, IMPORT, MAP_MAX, PREFIX, STRING_MAX,
 };
-use super::{api, budget};
+use super::{api, budget, print};
 use rhai::packages::{
     ArithmeticPackage, BasicArrayPackage, BasicIteratorPackage, BasicMapPackage, BasicMathPackage,
     BasicStringPackage, LogicPackage, MoreStringPackage, Package,
@@ -27,7 +27,7 @@ const FUNCTIONS_MAX: usize = 256;
 pub(super) fn engine() -> &'static Engine {
     static ENGINE: OnceLock<Engine> = OnceLock::new();
     ENGINE.get_or_init(|| {
-        let mut engine = build();
+        let mut engine = build(DISABLED);
         budget::register(&mut engine);
         budget::register_natives(&mut engine, &plain_engine());
         engine
@@ -38,7 +38,8 @@ pub(super) fn engine() -> &'static Engine {
 fn reader() -> &'static Engine {
     static READER: OnceLock<Engine> = OnceLock::new();
     READER.get_or_init(|| {
-        let mut engine = build();
+        let disabled: Vec<&str> = DISABLED.iter().copied().filter(|word| *word != IMPORT).collect();
+        let mut engine = build(&disabled);
         engine.set_optimization_level(OptimizationLevel::None);
         engine
     })
@@ -51,11 +52,17 @@ pub(super) fn plain_engine() -> Engine {
     engine
 }
 
-/// Parses a script.
+/// Parses a text, whatever its functions are called.
+pub(super) fn parse(text: &str) -> Result<AST, ParseError> {
+    reader().compile(text)
+}
+
+/// Parses a script or module of an author, which may import modules.
 pub(super) fn read(source: &str) -> Result<AST, ParseError> {
-    let ast = reader().compile(source)?;
-    // A function with a reserved name would be called instead of the one that counts.
-    let reserved = ast.iter_fn_def().find(|own| RESERVED.contains(&own.name.as_str()));
+    let ast = parse(source)?;
+    // A function with a reserved name would be called instead of the one that counts, or of a
+    // module's.
+    let reserved = ast.iter_fn_def().find(|own| own.name.starts_with(PREFIX));
     let refused = reserved
         .map(|own| (ParseErrorType::Reserved(own.name.to_string()), own.body.start_position()));
     refused.map_or(Ok(ast), |(why, position)| Err(ParseError(Box::new(why), position)))
@@ -67,12 +74,13 @@ rhai::def_package! {
         MoreStringPackage, BasicIteratorPackage, BasicArrayPackage, BasicMapPackage {}
 }
 
-fn build() -> Engine {
+fn build(disabled: &[&str]) -> Engine {
     let mut engine = plain_engine();
     register_maths(&mut engine);
     api::register(&mut engine);
     api::register_named(&mut engine);
-    for word in DISABLED {
+    print::register(&mut engine);
+    for word in disabled {
         engine.disable_symbol(*word);
     }
     engine.set_strict_variables(true);
@@ -123,7 +131,7 @@ fn register_maths(engine: &mut Engine) {
         .register_fn("exp", |x: i64| libm::exp(x as f64))
         .register_fn("sqrt", |x: i64| libm::sqrt(x as f64));
     // Integers are accepted too; Rhai tries the general form last.
-    engine.register_fn("clamp", clamp);
+    engine.register_fn("clamp", clamp::<f64>).register_fn("clamp", clamp::<i64>);
     engine.register_fn(
         "clamp",
         |x: Dynamic, low: Dynamic, high: Dynamic| -> Result<f64, Box<EvalAltResult>> {
@@ -139,7 +147,8 @@ fn register_maths(engine: &mut Engine) {
     );
 }
 
-fn clamp(x: f64, low: f64, high: f64) -> f64 {
+/// Limits a number; whole numbers stay whole.
+fn clamp<T: PartialOrd>(x: T, low: T, high: T) -> T {
     if x < low {
         low
     } else if x > high {

@@ -11,8 +11,10 @@ pub(super) const ARRAY_MAX: usize = 4_096;
 /// Entries of a map.
 pub(super) const MAP_MAX: usize = 512;
 
+/// The keyword that imports a module. Only authors' texts have it; what runs is one text.
+pub(super) const IMPORT: &str = "import";
 /// Keywords that would give access to the outside, or to more than the limits allow.
-pub(super) const DISABLED: &[&str] = &["eval", "import", "export", "print", "debug", "**", "**="];
+pub(super) const DISABLED: &[&str] = &["eval", IMPORT, "export", "**", "**="];
 
 /// The most operations of one call of a hook: a few milliseconds.
 pub(super) const OPERATIONS_MAX: u64 = 200_000;
@@ -25,8 +27,9 @@ pub(super) const BYTES_PER_OPERATION: usize = 256;
 /// The functions that `budget` inserts: one counts the size of a value, one counts operations.
 pub(super) const COUNTED: &str = "setpiece_counted";
 pub(super) const WORKED: &str = "setpiece_worked";
-/// What scripts can't name.
-pub(super) const RESERVED: &[&str] = &[COUNTED, WORKED];
+/// What the names of these functions and of modules' functions begin with. Scripts can't define
+/// such names.
+pub(super) const PREFIX: &str = "setpiece_";
 
 /// Why a call ends, even if the script tries to catch the error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! Places in a script's text: Rhai counts lines and characters, reports count bytes.
 
+use super::scan::definitions;
 use std::ops::Range;
 
 /// The byte at a line and column, both from 1; the end of the text if there is none.
@@ -28,25 +29,19 @@ pub(super) fn word_at(source: &str, start: usize) -> Range<usize> {
 
 /// The place of a function's name, if the text defines it.
 pub(super) fn definition(source: &str, name: &str) -> Option<Range<usize>> {
-    let mut from = 0;
-    while let Some(found) = source.get(from..).and_then(|rest| rest.find("fn ")) {
-        let after = from + found + 3;
-        let rest = source.get(after..).unwrap_or_default();
-        let start = after + rest.len() - rest.trim_start().len();
-        let word = word_at(source, start);
-        if source.get(word.clone()) == Some(name) {
-            return Some(word);
-        }
-        from = after;
-    }
-    None
+    definitions(source).into_iter().find(|word| source.get(word.clone()) == Some(name))
 }
 
 /// Line and column, from 1, of a hook's definition; the beginning if it has none.
 pub(super) fn hook_position(source: &str, hook: &str) -> (usize, usize) {
     let start = definition(source, hook).map_or(0, |range| range.start);
-    let before = source.get(..start).unwrap_or_default();
-    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+    place_of(source, start)
+}
+
+/// Line and column, from 1, of a byte.
+pub(super) fn place_of(source: &str, at: usize) -> (usize, usize) {
+    let before = source.get(..at).unwrap_or_default();
+    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
     (
         before.matches('\n').count() + 1,
         before.get(line_start..).unwrap_or_default().chars().count() + 1,

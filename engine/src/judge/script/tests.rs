@@ -34,8 +34,26 @@ fn scripts(source: &str) -> Scripts {
         at: (1, 1),
         source: source.to_owned(),
         named: Vec::new(),
+        modules: Vec::new(),
     });
     Scripts::compile(&scenario).unwrap()
+}
+
+impl Scripts {
+    /// Calls a `reward` hook that returns a number.
+    fn reward(
+        &self,
+        script: u32,
+        scene: &Arc<HookScene>,
+        perspective: Perspective,
+        arguments: &[Argument<'_>],
+        memory: &mut Memory,
+    ) -> Result<f64, ScriptError> {
+        let mut value = [0.0];
+        let asked = RewardAsked { terms: &[], arguments };
+        self.reward_terms(script, scene, perspective, asked, memory, &mut value)?;
+        Ok(value[0])
+    }
 }
 
 fn pay_for(body: &str, us: Team, events: &[Event]) -> Result<f64, ScriptError> {
@@ -115,9 +133,43 @@ fn helpers_measure() {
     assert!(fail("distance(now.me, prev.ball.owner)").message.contains("found nobody"));
 }
 
+fn pay_terms(body: &str, terms: &[&str]) -> Result<Vec<f64>, String> {
+    let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
+    let terms: Vec<String> = terms.iter().map(|&term| term.to_owned()).collect();
+    let asked = RewardAsked { terms: &terms, arguments: &[] };
+    let perspective = Perspective { us: Team::Left, me: Some(PlayerId(1)), agent: 0 };
+    let mut values = vec![0.0; terms.len().max(1)];
+    let memory = &mut Memory::default();
+    scripts(&source)
+        .reward_terms(0, &scene(&[]), perspective, asked, memory, &mut values)
+        .map(|()| values)
+        .map_err(|error| format!("{}:{} {}", error.line, error.column, error.message))
+}
+
+#[test]
+fn a_map_pays_each_of_its_terms() {
+    let terms = &["goal", "tempo"];
+    assert_eq!(pay_terms("#{tempo: -0.1, goal: 1}", terms), Ok(vec![1.0, -0.1]));
+    assert_eq!(
+        pay_terms("let pay = #{}; pay.goal = 2.5; pay.tempo = 0; pay", terms),
+        Ok(vec![2.5, 0.0])
+    );
+    for (body, message) in [
+        ("#{goal: 1}", "1:4 the map has no term `tempo`"),
+        ("#{goal: 1, tempo: 0, temp: 1}", "1:4 no term is called `temp`; did you mean `tempo`?"),
+        ("#{goal: 1, tempo: \"x\"}", "1:4 term `tempo`: expected a number, found a string"),
+        ("0.5", "1:4 expected a map of `goal`, `tempo`, found a number"),
+    ] {
+        assert_eq!(pay_terms(body, terms), Err(message.to_owned()));
+    }
+    let alone = pay_terms("#{goal: 1}", &[]).unwrap_err();
+    assert!(alone.contains("expected a number, found a map"), "{alone}");
+}
+
 #[test]
 fn whole_numbers_serve_where_numbers_do() {
     near(pay("clamp(7, 0, 5) + clamp(now.ball.x, 0, 1) + clamp(0.5, 0.0, 1)"), 6.0);
+    assert_eq!(pay("[1, 2, 3][clamp(9, 0, 1)] + 7 / clamp(2, 0, 5)"), 5.0);
     near(pay("smoothstep(0, 1, now.ball.x) + smoothstep(0, 10, 5)"), 1.0);
     near(pay("distance(now.point(1, 0), now.point(0.5, 0))"), 27.2);
     assert!(fail("clamp(now.ball, 0, 1)").message.contains("expected a number, found a ball"));
@@ -217,9 +269,10 @@ fn the_sandbox_holds() {
         .reward(0, &scene(&[]), perspective, &[], &mut Memory::default())
         .unwrap_err();
     assert!(error.message.contains("deeper"), "{error}");
-    for text in ["eval(\"1\")", "import \"x\" as y;", "print(1)", "debug(1)", "2.0 ** 3.0"] {
+    for text in ["eval(\"1\")", "import \"x\" as y;", "export", "2.0 ** 3.0"] {
         let faults = check_script(
             &format!("fn reward(ctx, now, prev, events) {{ {text} }}"),
+            &[],
             "reward",
             &ScriptNames::default(),
         );
@@ -369,6 +422,7 @@ fn memory_is_bounded_and_a_failure_names_the_files_line() {
         at: (9, 22),
         source,
         named: Vec::new(),
+        modules: Vec::new(),
     });
     let scripts = Scripts::compile(&scenario).unwrap();
     let failed =
@@ -397,7 +451,7 @@ fn faults(body: &str) -> Vec<(ScriptFaultKind, String, Option<String>)> {
     let source = format!("fn reward(ctx, now, prev, events) {{\n{body}\n}}");
     let of = |fault: ScriptFault| (fault.kind, source[fault.range].to_owned(), fault.help);
     let known = ScriptNames { params: &["pace"], ..ScriptNames::default() };
-    check_script(&source, "reward", &known).into_iter().map(of).collect()
+    check_script(&source, &[], "reward", &known).into_iter().map(of).collect()
 }
 
 #[test]
@@ -462,7 +516,7 @@ fn arguments_words_and_changes_are_checked() {
         []
     );
     let of = |source: &str, hook: &str| -> Vec<String> {
-        check_script(source, hook, &ScriptNames::default())
+        check_script(source, &[], hook, &ScriptNames::default())
             .into_iter()
             .map(|fault| fault.message)
             .collect()
@@ -475,19 +529,26 @@ fn arguments_words_and_changes_are_checked() {
 
 #[test]
 fn hooks_are_checked() {
-    let missing =
-        check_script("fn rewards(ctx, now, prev, events) { 0 }", "reward", &ScriptNames::default());
+    let missing = check_script(
+        "fn rewards(ctx, now, prev, events) { 0 }",
+        &[],
+        "reward",
+        &ScriptNames::default(),
+    );
     assert_eq!((missing.len(), missing[0].kind), (1, ScriptFaultKind::Hook));
     assert_eq!(missing[0].help.as_deref(), Some("write `fn reward(ctx, now, prev, events) { … }`"));
     let source = "\n fn reward(now) { 0 }";
-    let few = check_script(source, "reward", &ScriptNames::default());
+    let few = check_script(source, &[], "reward", &ScriptNames::default());
     assert_eq!((few[0].kind, &source[few[0].range.clone()]), (ScriptFaultKind::Hook, "reward"));
     assert_eq!(few[0].message, "`reward` takes 4 arguments, found 1");
     let source = "fn reward(ctx, now, prev, events) {\n    1 + \n}";
-    let broken = check_script(source, "reward", &ScriptNames::default());
+    let broken = check_script(source, &[], "reward", &ScriptNames::default());
     assert_eq!(broken[0].kind, ScriptFaultKind::Syntax);
     assert_eq!(&source[broken[0].range.clone()], "}");
-    assert_eq!(check_script("", "reward", &ScriptNames::default())[0].kind, ScriptFaultKind::Hook);
+    assert_eq!(
+        check_script("", &[], "reward", &ScriptNames::default())[0].kind,
+        ScriptFaultKind::Hook
+    );
 }
 
 #[test]
@@ -497,3 +558,5 @@ fn only_scripts_that_ask_run_for_each_agent() {
 }
 
 mod budget;
+mod modules;
+mod printing;

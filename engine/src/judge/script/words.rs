@@ -1,7 +1,7 @@
 //! What Rhai's errors say, in plain words, and where they are.
 
 use super::limits::{
-    BYTES_PER_OPERATION, CALL_LEVELS_MAX, DISABLED, OPERATIONS_MAX, Overspent, RESERVED, Why,
+    BYTES_PER_OPERATION, CALL_LEVELS_MAX, DISABLED, OPERATIONS_MAX, Overspent, PREFIX, Why,
 };
 use rhai::{EvalAltResult, ParseError, ParseErrorType, Position};
 
@@ -81,10 +81,11 @@ pub(super) fn parse_message(error: &ParseError) -> String {
     match error.err_type() {
         ParseErrorType::VariableUndefined(name) => format!("unknown variable `{name}`"),
         ParseErrorType::Reserved(word)
-            if DISABLED.iter().chain(RESERVED).any(|known| known == word) =>
+            if DISABLED.contains(&word.as_str()) || word.starts_with(PREFIX) =>
         {
             format!("`{word}` is not available in a script")
         }
+        ParseErrorType::ModuleUndefined(name) => format!("no module is imported as `{name}`"),
         other => lower_first(&other.to_string()),
     }
 }

@@ -47,6 +47,8 @@ const OWN: &[Function] = &[
     own("linear", &[2], "table.linear(place): linear between the centres of the table's cells"),
     own("clamp", &[3], "clamp(x, low, high): x limited to low..high"),
     own("smoothstep", &[3], "smoothstep(low, high, x): 0 below low, 1 above high, smooth between"),
+    own("print", &[1], "print(x): writes a value into the log"),
+    own("debug", &[1], "debug(x): writes a value into the log, as code shows it"),
     own("pow", &[2], "pow(x, y): x to the power y"),
 ];
 

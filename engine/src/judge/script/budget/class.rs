@@ -4,8 +4,10 @@
 //! the text is treated as large.
 
 use super::super::api::{Subject, members};
+use super::super::chain::{Link, closure, links};
+use super::super::functions::{ANONYMOUS, ScriptFunction};
 use super::super::hooks::hook_arguments;
-use rhai::{Expr, FnCallExpr, FnPtr, Position, Stmt, StmtBlock};
+use rhai::{Expr, FnCallExpr, Stmt, StmtBlock};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How large a value can be.
@@ -108,13 +110,6 @@ const READING: &[&str] = &[
 /// List methods that call a closure with each element.
 const EACH: &[&str] = &["all", "filter", "find", "find_map", "for_each", "map", "some"];
 
-/// A function of a script, with its statements.
-pub(super) struct ScriptFunction {
-    pub(super) name: String,
-    pub(super) params: Vec<String>,
-    pub(super) body: Vec<Stmt>,
-}
-
 /// What is known about a script's variables and functions.
 pub(super) struct Classes<'a> {
     functions: &'a [ScriptFunction],
@@ -146,9 +141,6 @@ pub(super) struct Pointers {
 
 /// After this many rounds, remaining assumptions about variables are dropped.
 const ROUNDS_MAX: usize = 8;
-
-/// Rhai's prefix for the names of closures' functions.
-pub(super) const ANONYMOUS: &str = "anon$";
 
 impl<'a> Classes<'a> {
     pub(super) fn of(functions: &'a [ScriptFunction], pointers: Pointers) -> Classes<'a> {
@@ -351,7 +343,7 @@ impl<'a> Classes<'a> {
                             }
                         }
                         Link::Index(index, _) => _ = self.look(at, index),
-                        Link::Property(_) => {}
+                        Link::Property(..) => {}
                     }
                 }
             }
@@ -466,7 +458,7 @@ impl<'a> Classes<'a> {
     /// The class of a link of a chain.
     pub(super) fn step(&self, of: Class, link: &Link<'_>) -> Class {
         match link {
-            Link::Property(name) => match (of, gives(name)) {
+            Link::Property(name, _) => match (of, gives(name)) {
                 (Class::Any, _) => Class::Any,
                 (Class::Squad, _) => Class::Short,
                 (_, Some(Subject::Players)) => Class::Squad,
@@ -512,70 +504,7 @@ impl<'a> Classes<'a> {
     }
 }
 
-/// The name of a closure's function and the variables it captures, if an expression is one.
-pub(super) fn closure(expr: &Expr) -> Option<(String, &[Expr])> {
-    fn pointer(expr: &Expr) -> Option<String> {
-        let Expr::DynamicConstant(value, _) = expr else { return None };
-        let name = value.read_lock::<FnPtr>()?.fn_name().to_owned();
-        name.starts_with(ANONYMOUS).then_some(name)
-    }
-    match expr {
-        Expr::Stmt(block) => match block.statements() {
-            [Stmt::Share(_), Stmt::Expr(expr)] => closure(expr),
-            [Stmt::Share(_), Stmt::FnCall(call, _)] => {
-                Some((pointer(call.args.first()?)?, call.args.get(1..)?))
-            }
-            _ => None,
-        },
-        Expr::FnCall(call, _) if call.name == "curry" => {
-            Some((pointer(call.args.first()?)?, call.args.get(1..)?))
-        }
-        _ => Some((pointer(expr)?, &[])),
-    }
-}
-
 /// The subject of a property of the match.
 fn gives(name: &str) -> Option<Subject> {
     members().find(|member| member.name == name).map(|member| member.gives)
-}
-
-/// A link of a chain.
-pub(super) enum Link<'a> {
-    Property(&'a str),
-    /// With the position of its name.
-    Method(&'a FnCallExpr, Position),
-    /// With the position of its bracket.
-    Index(&'a Expr, Position),
-}
-
-/// The root of a chain, and its links.
-pub(super) fn links(expr: &Expr) -> (&Expr, Vec<Link<'_>>) {
-    let mut links = Vec::new();
-    let mut root = expr;
-    let mut next = Some(expr);
-    while let Some(here) = next.take() {
-        let (pair, options, position, indexes) = match here {
-            Expr::Dot(pair, options, position) => (pair, options, position, false),
-            Expr::Index(pair, options, position) => (pair, options, position, true),
-            _ => break,
-        };
-        if links.is_empty() {
-            root = &pair.lhs;
-        }
-        let goes_on = matches!(pair.rhs, Expr::Dot(..) | Expr::Index(..))
-            && !options.contains(rhai::ASTFlags::BREAK);
-        let step = match &pair.rhs {
-            Expr::Dot(rest, ..) | Expr::Index(rest, ..) if goes_on => {
-                next = Some(&pair.rhs);
-                &rest.lhs
-            }
-            last => last,
-        };
-        links.push(match step {
-            Expr::Property(property, _) if !indexes => Link::Property(property.2.as_str()),
-            Expr::MethodCall(call, position) if !indexes => Link::Method(call, *position),
-            index => Link::Index(index, *position),
-        });
-    }
-    (root, links)
 }

@@ -9,11 +9,13 @@
 //! Rhai's syntax tree can be read but not written, so the calls are inserted into the text.
 //! [`Edits`] maps places in it back to the author's text.
 
+use super::super::chain::{Link, closure, links};
+use super::super::functions::{ANONYMOUS, ScriptFunction, functions};
 use super::super::limits::{COUNTED, WORKED};
+use super::super::scan::{closing_bracket, expression_end};
 use super::super::words;
-use super::class::{ANONYMOUS, Class, Classes, Link, Pointers, ScriptFunction, closure, links};
-use super::edits::Edits;
-use super::scan::{closing_bracket, expression_end};
+use super::class::{Class, Classes, Pointers};
+use super::edits::{Edits, inserted};
 use super::{CAUGHT_OPERATIONS, CAUGHT_WAITING_OPERATIONS};
 use rhai::{AST, ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
 use std::collections::BTreeSet;
@@ -79,35 +81,6 @@ pub(in super::super) fn count_copies(
         Some(place) => Err(place),
         None => Ok(writer.written()),
     }
-}
-
-/// The functions of a script, in text order. Functions that differ only in the type of `this` are
-/// one.
-fn functions(ast: &AST) -> Vec<ScriptFunction> {
-    let mut list: Vec<(Position, ScriptFunction)> = Vec::new();
-    for found in ast.iter_fn_def() {
-        let (name, n_params) = (found.name.as_str(), found.params.len());
-        let begins = found.body.start_position();
-        if let Some(known) =
-            list.iter_mut().find(|(_, known)| known.name == name && known.params.len() == n_params)
-        {
-            known.0 = known.0.min(begins);
-            continue;
-        }
-        let mut alone = ast.clone_functions_only();
-        alone.retain_functions(|_, _, other, others| other == name && others == n_params);
-        let mut body = Vec::new();
-        alone.walk(&mut |path: &[ASTNode]| {
-            if let [ASTNode::Stmt(statement)] = path {
-                body.push((*statement).clone());
-            }
-            true
-        });
-        let params = found.params.iter().map(ToString::to_string).collect();
-        list.push((begins, ScriptFunction { name: name.to_owned(), params, body }));
-    }
-    list.sort_by_key(|(begins, _)| *begins);
-    list.into_iter().map(|(_, function)| function).collect()
 }
 
 /// The starts of a function's bodies.
@@ -277,7 +250,7 @@ impl CopyWriter<'_> {
     /// are few.
     fn stored(&mut self, place: &Expr, operator: Position, value: &Expr) {
         self.value(value);
-        let spelled = links(place).1.iter().all(|step| matches!(step, Link::Property(_)));
+        let spelled = links(place).1.iter().all(|step| matches!(step, Link::Property(..)));
         let least = if spelled { Class::Squad } else { Class::Text };
         let counted = matches!(value, Expr::Variable(..) | Expr::ThisPtr(_))
             && self.class(value) >= Class::Squad;
@@ -442,7 +415,7 @@ impl CopyWriter<'_> {
                 }
                 for step in steps {
                     match step {
-                        Link::Property(_) => {}
+                        Link::Property(..) => {}
                         Link::Index(index, _) => self.value(index),
                         Link::Method(call, name) => {
                             if call.name == CURRY {
@@ -561,7 +534,7 @@ impl CopyWriter<'_> {
                 let mut nodes = self.nodes(root);
                 for step in &steps {
                     nodes += match step {
-                        Link::Property(_) => 1,
+                        Link::Property(..) => 1,
                         Link::Method(call, _) => all(&call.args),
                         Link::Index(index, _) if class == Class::Short => self.nodes(index),
                         Link::Index(index, _) => INDEX_NODES + self.nodes(index),
@@ -578,23 +551,6 @@ impl CopyWriter<'_> {
     /// first.
     fn written(mut self) -> (String, Edits) {
         self.insertions.sort_by_key(|(at, end, _)| (*at, at != end, usize::MAX - end));
-        let mut text = String::with_capacity(self.source.len() + 32 * self.insertions.len());
-        let mut edits = Edits::default();
-        let (mut copied, mut line, mut column) = (0, 1, 1);
-        for (at, _, words) in &self.insertions {
-            let between = self.source.get(copied..*at).unwrap_or_default();
-            line += between.matches('\n').count();
-            column = match between.rsplit_once('\n') {
-                Some((_, rest)) => 1 + rest.chars().count(),
-                None => column + between.chars().count(),
-            };
-            text.push_str(between);
-            copied = *at;
-            edits.write((line, column), words.len());
-            text.push_str(words);
-            column += words.len();
-        }
-        text.push_str(self.source.get(copied..).unwrap_or_default());
-        (text, edits)
+        inserted(self.source, self.insertions.iter().map(|(at, _, words)| (*at, words.as_str())))
     }
 }

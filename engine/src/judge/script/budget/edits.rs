@@ -19,7 +19,32 @@ impl Edits {
     }
 
     /// Notes characters that are written at a place of the new text, behind all others.
-    pub(super) fn write(&mut self, (line, column): (usize, usize), length: usize) {
+    fn write(&mut self, (line, column): (usize, usize), length: usize) {
         self.written.push((line, column, length));
     }
+}
+
+/// Writes words into a text; `insertions` are bytes of it and what is inserted there, in order.
+pub(in super::super) fn inserted<'w>(
+    source: &str,
+    insertions: impl Iterator<Item = (usize, &'w str)>,
+) -> (String, Edits) {
+    let mut text = String::with_capacity(source.len() + 64);
+    let mut edits = Edits::default();
+    let (mut copied, mut line, mut column) = (0, 1, 1);
+    for (at, words) in insertions {
+        let between = source.get(copied..at).unwrap_or_default();
+        line += between.matches('\n').count();
+        column = match between.rsplit_once('\n') {
+            Some((_, rest)) => 1 + rest.chars().count(),
+            None => column + between.chars().count(),
+        };
+        text.push_str(between);
+        copied = at;
+        edits.write((line, column), words.len());
+        text.push_str(words);
+        column += words.len();
+    }
+    text.push_str(source.get(copied..).unwrap_or_default());
+    (text, edits)
 }

@@ -267,7 +267,7 @@ fn plain_scripts_stay_as_they_are() {
     ] {
         assert_eq!(pay(odd), 1.0, "{odd}");
     }
-    let fault = check_script("fn setpiece_counted(x) { x }", "none", &ScriptNames::default())
+    let fault = check_script("fn setpiece_counted(x) { x }", &[], "none", &ScriptNames::default())
         .pop()
         .unwrap();
     assert_eq!((fault.kind, fault.range), (ScriptFaultKind::Syntax, 23..24));

@@ -21,6 +21,8 @@ fn no_function_of_rhai_is_uncounted() {
         "get$bytes",
         "get$chars",
     ]);
+    // What is printed is counted when it becomes a text.
+    let names = names.filter(|name| !["print", "debug"].contains(name));
     let names: BTreeSet<&str> = names.collect();
     for name in names {
         let mut known: Vec<String> = Vec::new();

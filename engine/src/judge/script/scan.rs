@@ -1,4 +1,65 @@
-//! Finds the ends of expressions in a script's text, which Rhai's syntax tree doesn't contain.
+//! Finds the ends of expressions and the names of functions in a script's text, which Rhai's syntax
+//! tree doesn't contain.
+
+use std::ops::Range;
+
+/// The places of the names of the functions that a text defines.
+pub(super) fn definitions(text: &str) -> Vec<Range<usize>> {
+    let bytes = text.as_bytes();
+    let (mut found, mut at) = (Vec::new(), 0);
+    while let Some(&byte) = bytes.get(at) {
+        at = match byte {
+            b'"' | b'\'' => quote_end(bytes, at),
+            b'`' => interpolated_end(text, at),
+            b'#' => raw_text_end(text, at),
+            b'/' => comment_end(text, at),
+            b'(' | b'[' | b'{' => end_of(text, at + 1, |_| false) + 1,
+            _ if is_letter(byte) => {
+                let end = word_end(bytes, at);
+                if &bytes[at..end] == b"fn" {
+                    let name = defined_name(text, end);
+                    let end = name.end.max(end);
+                    found.extend((!name.is_empty()).then_some(name));
+                    end
+                } else {
+                    end
+                }
+            }
+            _ => at + 1,
+        };
+    }
+    found
+}
+
+/// The name after `fn`: the last word before the parameters, behind the type of `this` if there is
+/// one.
+fn defined_name(text: &str, start: usize) -> Range<usize> {
+    let bytes = text.as_bytes();
+    let (mut name, mut at) = (start..start, start);
+    while let Some(&byte) = bytes.get(at) {
+        at = match byte {
+            b'"' => quote_end(bytes, at),
+            b'/' => comment_end(text, at),
+            b'.' => at + 1,
+            _ if byte.is_ascii_whitespace() => at + 1,
+            _ if is_letter(byte) => {
+                name = at..word_end(bytes, at);
+                name.end
+            }
+            _ => return name,
+        };
+    }
+    name
+}
+
+fn is_letter(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
+fn word_end(bytes: &[u8], start: usize) -> usize {
+    let letters = bytes[start..].iter().take_while(|byte| is_letter(**byte)).count();
+    start + letters
+}
 
 /// The byte after an expression: at a closing bracket that didn't open in it, or at a `,` or `;`
 /// outside any.

@@ -3,10 +3,11 @@ r"""Finds the starts where a policy fails, by MAP-Elites over the parameters of 
     python examples/find_failures.py --scenario academy_run_to_score_with_keeper \
         --policy run_and_shoot
 
-`--policy` is an `.onnx` file or an agent of the command. The archive has a cell for every pair of
-values of two parameters (`--over`), and keeps in each the other parameters with which the policy
-scores least. The worst of them are played again from seeds that the search has not seen, because
-the least of many noisy means is too low. Each is printed as a level with the command that shows it.
+`--policy` is an agent of the command, or an `.onnx` file, which `train_cleanrl.py` writes too. The
+archive has a cell for every pair of values of two parameters (`--over`), and keeps in each the
+other parameters with which the policy scores least. The worst of them are played again from seeds
+that the search has not seen, because the least of many noisy means is too low. Each is printed as a
+level with the command that shows it.
 
 It needs `ribs` and `matplotlib`. The experiment is that of MADRID (Samvelyan et al. 2024), in one
 file.
@@ -59,19 +60,19 @@ class Found:
 
 
 def scores(
-    scenario: setpiece.Scenario, policy: Any, vectors: NDArray[Any], episodes: int, seed: int
+    args: argparse.Namespace, vectors: NDArray[Any], episodes: int, seed: int
 ) -> list[setpiece.SuiteRow]:
     """Plays episodes with the parameters of each vector."""
+    scenario = setpiece.load(args.scenario)
     space = scenario.parameter_space
     params = [space.from_vector(vector) for vector in vectors]
     suite = setpiece.Suite.over(scenario, params, episodes=episodes, seed=seed)
-    return list(suite.evaluate(policy).rows)
+    return list(suite.evaluate(args.policy, observation=args.observation).rows)
 
 
 def search(args: argparse.Namespace) -> Found:
     """Searches, and plays the worst starts again."""
-    scenario = setpiece.load(args.scenario)
-    names = list(scenario.parameter_space.spaces)
+    names = list(setpiece.load(args.scenario).parameter_space.spaces)
     axes = [names.index(name) for name in args.over] if args.over else [0, 1]
     size, cells = len(names), (args.cells, args.cells)
     archive = GridArchive(solution_dim=size, dims=cells, ranges=[(0, 1)] * 2, seed=args.seed)
@@ -86,16 +87,16 @@ def search(args: argparse.Namespace) -> Found:
     scheduler = Scheduler(archive, [emitter])
     rng = np.random.default_rng(args.seed)
     random = rng.random((4 * args.batch, size))
-    rows = scores(scenario, args.policy, random, args.episodes, SEARCHED)
+    rows = scores(args, random, args.episodes, SEARCHED)
     mean = float(np.mean([row.mean_score.value for row in rows]))
     archive.add(random, [-row.mean_score.value for row in rows], random[:, axes])
     for _ in range(args.rounds):
         asked = scheduler.ask()
-        rows = scores(scenario, args.policy, asked, args.episodes, SEARCHED)
+        rows = scores(args, asked, args.episodes, SEARCHED)
         scheduler.tell([-row.mean_score.value for row in rows], asked[:, axes])
     kept = archive.data(["solution", "objective"])
     worst = kept["solution"][np.argsort(-kept["objective"], kind="stable")[: args.worst]]
-    rows = scores(scenario, args.policy, worst, AGAIN, CONFIRMED)
+    rows = scores(args, worst, AGAIN, CONFIRMED)
     failures = [Failure(f"{row.entry}#{row.seed}", row.mean_score) for row in rows]
     return Found(mean, sorted(failures, key=lambda it: it.score.value), archive)
 
@@ -125,6 +126,7 @@ def main(argv: list[str] | None = None) -> Found:
     )
     parser.add_argument("--scenario", required=True, help="a name or a file")
     parser.add_argument("--policy", default="bot", help="an `.onnx` file, or an agent's name")
+    parser.add_argument("--observation", default="simple115v2", help="what the `.onnx` file sees")
     parser.add_argument(
         "--over", nargs=2, metavar="PARAM", help="the archive's parameters [default: the first two]"
     )

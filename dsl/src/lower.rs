@@ -31,6 +31,7 @@ pub(crate) mod observation;
 pub(crate) mod param;
 pub(crate) mod param_info;
 pub(crate) mod people;
+mod pitch;
 pub(crate) mod place;
 mod presence;
 pub(crate) mod record;

@@ -12,6 +12,7 @@ use glam::{Vec2, Vec3};
 use setpiece_engine::physics::{
     Ball, BallObstacle, Conditions, Scratch, advance_ball, predict::places,
 };
+use setpiece_scenario::PitchSize;
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -44,6 +45,7 @@ fn one_tick(
             let mut moved = black_box(ball);
             black_box(advance_ball(
                 &mut moved,
+                &PitchSize::USUAL,
                 &Conditions::USUAL,
                 black_box(bodies),
                 full,

@@ -2,11 +2,12 @@
 //!
 //! FNV-1a over 64 bits. Every number enters as its little-endian bytes, floats by their bits with
 //! -0.0 folded to 0.0. The order is that of [`of_match`]: clock, score, ball, players by id,
-//! possession, mode, agents, the world where it isn't the usual one. Random streams enter by their
-//! next numbers, so runs that only happen to look alike differ.
+//! possession, mode, agents, the world and the pitch where they aren't the usual ones. Random
+//! streams enter by their next numbers, so runs that only happen to look alike differ.
 
 use crate::physics::Conditions;
 use crate::state::{Match, PlayerId};
+use setpiece_scenario::PitchSize;
 
 /// A digest being computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +80,9 @@ pub fn of_match(game: &Match) -> u64 {
     }
     if game.conditions != Conditions::USUAL {
         digest = digest.floats(game.conditions.figures());
+    }
+    if game.pitch != PitchSize::USUAL {
+        digest = digest.floats(<[f64; _]>::from(game.pitch).map(|share| share as f32));
     }
     digest
         .whole(game.play_random.clone().bits().into())

@@ -22,11 +22,10 @@ use crate::state::PlayerId;
 use glam::{Vec2, Vec3};
 use setpiece_scenario::bounds::start_work;
 use setpiece_scenario::pitch::{
-    BALL_RADIUS_M, GOALS_MAX, LONGEST_S, PLAYERS_MAX, RIM_X_M, RIM_Y_M, STEPS_PER_S,
-    YELLOW_CARDS_MAX,
+    BALL_RADIUS_M, GOALS_MAX, LONGEST_S, PLAYERS_MAX, STEPS_PER_S, YELLOW_CARDS_MAX,
 };
 use setpiece_scenario::vocabulary::{Rule, Team};
-use setpiece_scenario::{Ai, Bindings, PlayerSlot, PlayerStart, Reg, Scenario};
+use setpiece_scenario::{Ai, Bindings, PitchSize, PlayerSlot, PlayerStart, Reg, Scenario};
 use std::sync::Arc;
 
 /// The most attempts to find a start that meets its requirements.
@@ -325,8 +324,9 @@ impl Drawer {
     }
 
     /// Where a player stands: on the pitch or its rim, even if a compiled file says otherwise.
-    fn place(&self, at: (Reg, Reg)) -> Vec2 {
-        let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
+    fn place(&self, pitch: &PitchSize, at: (Reg, Reg)) -> Vec2 {
+        let (x, y) = pitch.rim();
+        let rim = Vec2::new(x as f32, y as f32);
         self.point(at).clamp(-rim, rim)
     }
 
@@ -356,11 +356,12 @@ impl Drawer {
         }
         let goals = |reg: Reg| (self.value(reg) as u16).min(GOALS_MAX);
         let height_m = self.optional(start.ball.height).max(0.0) as f32 + BALL_RADIUS_M as f32;
+        let pitch = self.pitch(scenario);
         let difficulty = start.difficulty.map(|reg| self.share(reg));
         Drawn {
             seed,
             index,
-            players: self.players(scenario, roster, difficulty),
+            players: self.players(scenario, roster, &pitch, difficulty),
             ball_pos: self.point((start.ball.x, start.ball.y)).extend(height_m),
             ball_vel: self.vector(start.ball.velocity),
             ball_spin: self.vector(start.ball.spin),
@@ -381,6 +382,7 @@ impl Drawer {
             conditions: Conditions::with(
                 start.world.iter().map(|setting| (setting.figure, self.value(setting.value))),
             ),
+            pitch,
             limit_steps: start.limit.map(|limit| self.steps(limit)),
             rounds: start.rounds.map_or(1, |rounds| self.value(rounds).max(1.0) as u32),
             steps_before: 0,
@@ -388,6 +390,14 @@ impl Drawer {
             agents: roster.agents.iter().map(|&(team, fixed)| DrawnAgent { team, fixed }).collect(),
             lets: start.lets.iter().map(|&reg| self.value(reg)).collect(),
         }
+    }
+
+    /// How large the pitch is in the latest attempt, whether it meets the requirements or not.
+    pub fn pitch(&self, scenario: &Scenario) -> PitchSize {
+        let settings = scenario.start.pitch.iter();
+        PitchSize::with(
+            settings.filter_map(|setting| Some((setting.figure, self.register(setting.value)?))),
+        )
     }
 
     /// Whether a player takes part in this episode.
@@ -415,6 +425,7 @@ impl Drawer {
         &self,
         scenario: &Scenario,
         roster: &Roster,
+        pitch: &PitchSize,
         difficulty: [f32; 2],
     ) -> [Option<DrawnPlayer>; PLAYERS_MAX] {
         let mut players = [const { None }; PLAYERS_MAX];
@@ -422,8 +433,9 @@ impl Drawer {
         for team in Team::ALL {
             for (id, slot) in scenario.team(*team) {
                 // In roster order, as the places are.
-                let kickoff =
-                    place_of.next().map(|at| [self.place(at.kicking), self.place(at.receiving)]);
+                let kickoff = place_of
+                    .next()
+                    .map(|at| [self.place(pitch, at.kicking), self.place(pitch, at.receiving)]);
                 let start = &slot.start;
                 // Of those who share a place, the one who takes part; the first if nobody does.
                 if id >= PLAYERS_MAX
@@ -438,7 +450,7 @@ impl Drawer {
                     ai: self.played_by(slot),
                     controllable: slot.controllable,
                     active: self.is_active(start),
-                    pos: self.place((start.x, start.y)),
+                    pos: self.place(pitch, (start.x, start.y)),
                     vel: start.velocity.map_or(Vec2::ZERO, |velocity| self.point(velocity)),
                     heading_rad: start.heading.map(|heading| self.value(heading) as f32),
                     fatigue: start.fatigue.map_or(0.0, |fatigue| self.share(fatigue)),

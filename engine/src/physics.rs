@@ -22,6 +22,7 @@ pub use scratch::Scratch;
 
 use constants::{BALL_RADIUS, ROLL_DRAG, TICK_S};
 use glam::{Vec2, Vec3};
+use setpiece_scenario::PitchSize;
 
 /// A player's body that the ball may meet during a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +55,7 @@ pub enum Contact {
 /// hard.
 pub fn advance_ball(
     ball: &mut Ball,
+    pitch: &PitchSize,
     conditions: &Conditions,
     bodies: &[BallObstacle],
     full: bool,
@@ -65,12 +67,12 @@ pub fn advance_ball(
     }
     let before = *ball;
     flight::push(ball, conditions);
-    if !full && bodies.is_empty() && !gate::near_goal(ball) {
+    if !full && bodies.is_empty() && !gate::near_goal(ball, pitch) {
         ball.pos += ball.vel * TICK_S;
         flight::land(ball, conditions);
         return None;
     }
-    let touch = scratch.meet(ball, &bodies);
+    let touch = scratch.meet(ball, pitch, &bodies);
     flight::land(ball, conditions);
     let touch = touch?;
     settle(ball, &before, touch.held_up, conditions);

@@ -5,7 +5,7 @@ use crate::state::PlayerId;
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Role, Rule, StartKind, Stat, Team};
-use setpiece_scenario::{Ai, Others};
+use setpiece_scenario::{Ai, Others, PitchSize};
 
 /// One concrete start.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +40,8 @@ pub struct Drawn {
     pub rules: [f64; Rule::ALL.len()],
     /// What nature does to the ball.
     pub conditions: Conditions,
+    /// How large the pitch is.
+    pub pitch: PitchSize,
     /// The episode is truncated after this many steps.
     pub limit_steps: Option<u32>,
     /// How many rounds the episode has.

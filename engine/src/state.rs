@@ -20,8 +20,9 @@ use arrayvec::ArrayVec;
 use glam::Vec2;
 use play::Play;
 use player::KickKind;
+use setpiece_scenario::PitchSize;
 use setpiece_scenario::pitch::PLAYERS_MAX;
-use setpiece_scenario::vocabulary::{GameMode, Rule, Stat, Team};
+use setpiece_scenario::vocabulary::{GameMode, PitchMeasure, Rule, Stat, Team};
 
 /// One simulation. It has no heap data and no engine handle, so `clone` is a plain copy.
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -57,6 +58,8 @@ pub struct Match {
     pub rules: [f64; Rule::ALL.len()],
     /// What nature does to the ball.
     pub conditions: Conditions,
+    /// How large the pitch is.
+    pub pitch: PitchSize,
     /// The bots' difficulty by team.
     pub difficulty: [f32; 2],
     /// The agents, left before right.
@@ -72,8 +75,8 @@ pub struct Match {
 clone_in_place! {
     Match {
         tick, step, elapsed_at_start, limit_steps, score, ball, squad, players, owner, possession,
-        last_touch, mode, dead, rules, conditions, difficulty, agents, play_random, bot_random,
-        play,
+        last_touch, mode, dead, rules, conditions, pitch, difficulty, agents, play_random,
+        bot_random, play,
     }
 }
 
@@ -81,6 +84,31 @@ impl Match {
     /// Whether a rule is on.
     pub fn rule(&self, rule: Rule) -> bool {
         self.rules[rule.index()] != 0.0
+    }
+
+    /// Half the pitch along each axis, metres.
+    #[inline]
+    pub fn half(&self) -> Vec2 {
+        Vec2::new(self.pitch.half_length() as f32, self.pitch.half_width() as f32)
+    }
+
+    /// How far players may go along each axis, metres.
+    #[inline]
+    pub fn rim(&self) -> Vec2 {
+        let (x, y) = self.pitch.rim();
+        Vec2::new(x as f32, y as f32)
+    }
+
+    /// The middle of the attacked goal in a team's own frame, metres; the own goal is its negative.
+    #[inline]
+    pub fn goal(&self) -> Vec2 {
+        Vec2::new(self.pitch.half_length() as f32, 0.0)
+    }
+
+    /// A measure of the pitch, metres.
+    #[inline]
+    pub fn measure(&self, measure: PitchMeasure) -> f32 {
+        self.pitch.measure(measure) as f32
     }
 
     /// Whether a team has agents.

@@ -4,8 +4,8 @@
 
 use crate::state::event::Event;
 use crate::state::{Match, PlayerId};
-use setpiece_scenario::pitch::{HALF_LENGTH_M, PLAYERS_MAX, STEPS_PER_S};
-use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
+use setpiece_scenario::pitch::{PLAYERS_MAX, STEPS_PER_S};
+use setpiece_scenario::vocabulary::{EventKind, PitchMeasure, Qualifier, Role, Team};
 
 /// Players nearer than this to the ball crowd it.
 const CROWD_M: f32 = 8.0;
@@ -138,7 +138,7 @@ impl Statistics {
             self.possession = Some(team);
         }
         let ball = game.ball.pos.truncate();
-        let third = (HALF_LENGTH_M / 3.0) as f32;
+        let third = game.pitch.measure(PitchMeasure::HalfMiddle) as f32;
         self.thirds[usize::from(ball.x > -third) + usize::from(ball.x > third)] += 1;
         let (mut outfield, mut near) = (0u32, 0u32);
         for (id, player) in

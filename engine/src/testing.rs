@@ -195,6 +195,7 @@ pub(crate) fn scenario(players: &[(Team, Role, f64, f64)]) -> Scenario {
             difficulty: [one, one],
             rules: Vec::new(),
             world: Vec::new(),
+            pitch: Vec::new(),
             limit: Some(limit),
             rounds: None,
             requires: Vec::new(),

@@ -7,12 +7,27 @@
 )]
 
 use glam::{Vec2, Vec3};
-use setpiece_engine::physics::Ball;
 use setpiece_engine::physics::constants::{BALL_RADIUS, BODY_RADIUS, FRAME_RADIUS};
-use setpiece_engine::physics::{
-    BallObstacle, Conditions, Contact, Scratch, advance_ball, crossed_goal_line,
-};
+use setpiece_engine::physics::{self, Ball};
+use setpiece_engine::physics::{BallObstacle, Conditions, Contact, Scratch};
 use setpiece_engine::random::{Purpose, Stream};
+use setpiece_scenario::PitchSize;
+use setpiece_scenario::vocabulary::{PitchFigure, Team};
+
+/// A tick of the ball on the usual pitch, on a usual day.
+fn advance_ball(
+    ball: &mut Ball,
+    conditions: &Conditions,
+    bodies: &[BallObstacle],
+    full: bool,
+    scratch: &mut Scratch,
+) -> Option<Contact> {
+    physics::advance_ball(ball, &PitchSize::USUAL, conditions, bodies, full, scratch)
+}
+
+fn crossed_goal_line(before: Vec3, after: Vec3) -> Option<Team> {
+    physics::crossed_goal_line(&PitchSize::USUAL, before, after)
+}
 
 /// A draw from the test's own stream.
 struct Draw(Stream);
@@ -426,4 +441,46 @@ fn hard_things_add_no_energy() {
 fn a_scratch_can_go_to_another_worker() {
     fn assert_send<T: Send>() {}
     assert_send::<Scratch>();
+}
+
+#[test]
+fn goals_of_another_pitch_stand_on_its_lines_and_have_its_size() {
+    let short = PitchSize::with([(PitchFigure::Length, 60.0)]);
+    let small = PitchSize::with([
+        (PitchFigure::Length, 60.0),
+        (PitchFigure::Goal, 4.0),
+        (PitchFigure::GoalHeight, 2.0),
+    ]);
+    let mut draw = Draw::new(11);
+    let (mut usual, mut other) = (Scratch::default(), Scratch::default());
+    let mut woodwork = [0; 2];
+    for shot in 0..300 {
+        let from = draw.point([45.0, -6.0, 0.2], [52.0, 6.0, 2.0]);
+        let at = draw.point([55.0, -4.2, 0.1], [55.0, 4.2, 2.8]);
+        let vel = (at - from).normalize() * 25.0;
+        let ball = Ball { pos: from, vel, spin: Vec3::ZERO };
+        let (mut far, mut near) = (ball, Ball { pos: from - Vec3::X * 25.0, ..ball });
+        let mut little = near;
+        for _ in 0..60 {
+            let met = advance_ball(&mut far, &Conditions::USUAL, &[], false, &mut usual);
+            let conditions = &Conditions::USUAL;
+            let moved =
+                physics::advance_ball(&mut near, &short, conditions, &[], false, &mut other);
+            assert_eq!(met, moved, "shot {shot}: the same goal, 25 m nearer");
+            assert!(far.pos.distance(near.pos + Vec3::X * 25.0) < 0.01, "shot {shot}");
+            woodwork[0] += u32::from(met == Some(Contact::Woodwork));
+        }
+        for _ in 0..60 {
+            let before = little.pos;
+            let conditions = &Conditions::USUAL;
+            let met =
+                physics::advance_ball(&mut little, &small, conditions, &[], false, &mut other);
+            woodwork[1] += u32::from(met == Some(Contact::Woodwork));
+            if let Some(team) = physics::crossed_goal_line(&small, before, little.pos) {
+                assert_eq!(team, Team::Right);
+                assert!(little.pos.y.abs() < 2.0 && little.pos.z < 2.0, "shot {shot}");
+            }
+        }
+    }
+    assert!(woodwork.iter().all(|hits| *hits > 10), "{woodwork:?}");
 }

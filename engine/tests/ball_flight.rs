@@ -11,7 +11,10 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use setpiece_engine::physics::Ball;
 use setpiece_engine::physics::constants::{BALL_RADIUS, GRAVITY};
-use setpiece_engine::physics::{Conditions, Scratch, advance_ball, flight, predict::places};
+use setpiece_engine::physics::{
+    Conditions, Contact, Scratch, advance_ball, flight, predict::places,
+};
+use setpiece_scenario::PitchSize;
 
 const REST: Vec3 = Vec3::new(0.0, 0.0, BALL_RADIUS);
 
@@ -20,13 +23,14 @@ fn kicked(speed_x: f32, speed_z: f32, backspin: f32) -> Ball {
     Ball { pos: REST, vel: Vec3::new(speed_x, 0.0, speed_z), spin: Vec3::new(0.0, -backspin, 0.0) }
 }
 
+/// A tick; gives what hard thing the ball meets.
+fn fly(ball: &mut Ball, scratch: &mut Scratch) -> Option<Contact> {
+    advance_ball(ball, &PitchSize::USUAL, &Conditions::USUAL, &[], false, scratch)
+}
+
 fn advance(ball: &mut Ball, ticks: usize, scratch: &mut Scratch) {
     for _ in 0..ticks {
-        assert_eq!(
-            advance_ball(ball, &Conditions::USUAL, &[], false, scratch),
-            None,
-            "nothing hard stands on the open pitch"
-        );
+        assert_eq!(fly(ball, scratch), None, "nothing hard stands on the open pitch");
     }
 }
 
@@ -224,7 +228,7 @@ proptest! {
         let mut scratch = Scratch::default();
         let mut before = energy(&ball);
         for tick in 0..400 {
-            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
+            fly(&mut ball, &mut scratch);
             prop_assert!(ball.pos.is_finite() && ball.vel.is_finite() && ball.spin.is_finite());
             if ball.pos.x.abs() > 50.0 {
                 break;
@@ -249,8 +253,8 @@ proptest! {
         let mut other = Ball { pos: start.pos, vel: turn(start.vel), spin: turn(start.spin) };
         let mut scratch = Scratch::default();
         for _ in 0..100 {
-            advance_ball(&mut one, &Conditions::USUAL, &[], false, &mut scratch);
-            advance_ball(&mut other, &Conditions::USUAL, &[], false, &mut scratch);
+            fly(&mut one, &mut scratch);
+            fly(&mut other, &mut scratch);
         }
         prop_assert_eq!(Vec2::new(-one.pos.x, -one.pos.y), other.pos.truncate());
         prop_assert_eq!(one.pos.z, other.pos.z);

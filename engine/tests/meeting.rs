@@ -10,6 +10,7 @@ use setpiece_engine::physics::{Ball, Conditions};
 use setpiece_engine::state::Player;
 use setpiece_engine::state::player::Body;
 use setpiece_scenario::Ai;
+use setpiece_scenario::PitchSize;
 use setpiece_scenario::vocabulary::Role;
 
 fn player(pos: [f32; 2], vel: [f32; 2], speed_top_mps: f32) -> Player {
@@ -40,7 +41,9 @@ fn met(player: &Player, forecast: &Forecast, tick: u32) -> Option<(Vec2, f32)> {
         let at = foot + player.vel * (changing_s - changed_s);
         point.z <= PLAYABLE_M && point.truncate().distance_squared(at) <= radius * radius
     };
-    let mut on_pitch = forecast.from(tick).take_while(|(_, point)| left_pitch(*point).is_none());
+    let mut on_pitch = forecast
+        .from(tick)
+        .take_while(|(_, point)| left_pitch(&PitchSize::USUAL, *point).is_none());
     let (time_s, point) = on_pitch.find(near)?;
     let point = point.truncate();
     // A player who arrives within a moment counts as sooner the nearer they are.
@@ -67,7 +70,8 @@ proptest! {
         let pos = Vec3::new(ball.0, ball.1, height);
         let vel = if still { Vec3::ZERO } else { Vec3::new(vel[0], vel[1], rise) };
         let pos = if still { pos.with_z(0.11) } else { pos };
-        let forecast = Forecast::of(&Ball { pos, vel, spin: spin.into() }, &Conditions::USUAL, 700);
+        let ball = Ball { pos, vel, spin: spin.into() };
+        let forecast = Forecast::of(&ball, &PitchSize::USUAL, &Conditions::USUAL, 700);
         let player = player([from.0, from.1], running, speed);
         let tick = 700 + later;
         let found = meeting(&player, &Way::of(&forecast, tick));
@@ -75,7 +79,7 @@ proptest! {
             prop_assert_eq!(found, expected);
         } else {
             // Nowhere in time: the player runs to the path's end, and is late.
-            let inside = |(_, point): &(f32, Vec3)| left_pitch(*point).is_none();
+            let inside = |(_, point): &(f32, Vec3)| left_pitch(&PitchSize::USUAL, *point).is_none();
             let way: Vec<_> = forecast.from(tick).take_while(inside).collect();
             let end = way.last().map(|(time_s, point)| (point.truncate(), *time_s));
             let end = end.unwrap_or((player.pos, 0.0));

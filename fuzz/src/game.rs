@@ -4,7 +4,7 @@ use crate::choice::Choices;
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::judge::Recorded;
 use setpiece::engine::observe;
-use setpiece::scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
+use setpiece::scenario::pitch::PLAYERS_MAX;
 use setpiece::scenario::vocabulary::{Action, Team};
 use setpiece::scenario::{Bindings, Scenario};
 use std::cell::RefCell;
@@ -169,7 +169,7 @@ fn places_are_sound(environment: &Environment) {
     assert!(active <= PLAYERS_MAX, "{active} players");
     let roster = environment.roster().present.iter().filter(|present| **present).count();
     assert!(active <= roster, "{active} of {roster} players are on the pitch");
-    let (x, y) = (RIM_X_M as f32 + SLACK_M, RIM_Y_M as f32 + SLACK_M);
+    let (x, y) = (game.rim() + SLACK_M).into();
     for (id, player) in Team::ALL.iter().flat_map(|team| game.team(*team)) {
         assert!(
             player.pos.x.abs() <= x && player.pos.y.abs() <= y,

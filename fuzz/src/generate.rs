@@ -103,6 +103,9 @@ impl Writer<'_, '_> {
         if self.choices.rarely(3) {
             self.world();
         }
+        if self.choices.rarely(6) {
+            self.pitch();
+        }
         self.start();
         self.teams();
         self.agents();
@@ -201,6 +204,28 @@ impl Writer<'_, '_> {
             _ => format!("wind: (uniform(-14m/s, 14m/s), {y:.1}m/s)"),
         });
         self.line(&format!("world {{ {} }}", options.join(", ")));
+    }
+
+    /// A longer or wider pitch with other goals and boxes. It isn't much smaller: players stand
+    /// where they would on the usual one.
+    fn pitch(&mut self) {
+        const KEYS: &[(&str, f64, f64)] = &[
+            ("length", 110.0, 120.0),
+            ("width", 72.0, 90.0),
+            ("goal", 1.0, 10.0),
+            ("goal_height", 1.0, 3.0),
+            ("box", 2.0, 40.0),
+            ("box_width", 4.0, 72.0),
+        ];
+        let mut options: Vec<String> = Vec::new();
+        for &(key, low, high) in KEYS {
+            match self.choices.below(4) {
+                0 | 1 => {}
+                2 => options.push(format!("{key}: {:.1}m", self.choices.between(low, high))),
+                _ => options.push(format!("{key}: uniform({low}m, {high}m)")),
+            }
+        }
+        self.line(&format!("pitch {{ {} }}", options.join(", ")));
     }
 
     fn agents(&mut self) {

@@ -184,8 +184,8 @@ module.exports = grammar({
       block($._scenario_statement),
     ),
     _scenario_statement: ($) => choice(
-      $.param, $.let, $.constant, $.region, $.rules, $.world, $.agents, $.ball, $.team, $.kickoff, $.start, $.reward_use,
-      $.end, $.rounds, $.substitute, $.require, $.record, $.remove, $.mirror, $.observe,
+      $.param, $.let, $.constant, $.region, $.rules, $.world, $.pitch, $.agents, $.ball, $.team, $.kickoff, $.start,
+      $.reward_use, $.end, $.rounds, $.substitute, $.require, $.record, $.remove, $.mirror, $.observe,
     ),
     param: ($) => seq("param", $.parameter),
     let: ($) => seq("let", choice(
@@ -194,6 +194,7 @@ module.exports = grammar({
     )),
     rules: ($) => seq("rules", $.fields),
     world: ($) => seq("world", $.fields),
+    pitch: ($) => seq("pitch", $.fields),
     agents: ($) => seq("agents", $.fields),
     ball: ($) => seq("ball", $._place, optional($.jitter), optional($.fields)),
     team: ($) => seq("team", choice("left", "right"), block($._team_statement)),
@@ -206,7 +207,7 @@ module.exports = grammar({
     record: ($) => seq("record", field("name", $.identifier), "=", $._expression),
     remove: ($) => seq("remove", choice(
       seq(choice("reward", "end", "require", "record", "substitute"), choice($.identifier, $.string)),
-      "ball", "rounds", "world", "start", "observe",
+      "ball", "rounds", "world", "pitch", "start", "observe",
     )),
     substitute: ($) => seq("substitute", $._expression, "when", $._condition, optional($.fields)),
     rounds: ($) => seq("rounds", $._expression, "when", $._condition),

@@ -22,8 +22,10 @@ RED: Colour = (226, 62, 62)
 CYAN: Colour = (96, 220, 235)
 NIGHT: Colour = (17, 21, 27)
 
-SHOWN_M = np.array([119.0, 79.0])
-"""What the camera above shows: the pitch with a margin."""
+USUAL_M = (110.0, 72.0)
+"""The length and width of the usual pitch."""
+MARGIN_M = (9.0, 7.0)
+"""How much more than the pitch the camera above shows."""
 PALETTE = 256
 
 
@@ -41,11 +43,12 @@ class Panel:
         self.y = self.corner[1] + y[:, None] / self.scale + 0 * x[None, :]
         self.pixels = np.zeros((height, width, 3))
 
-    def show(self, env: Any) -> None:
-        """Draws the match as it is now."""
-        width, height = np.round(SHOWN_M * self.scale).astype(int)
+    def show(self, env: Any, pitch_m: tuple[float, float] = USUAL_M) -> None:
+        """Draws the match as it is now, on a pitch of this length and width."""
+        shown = np.add(pitch_m, MARGIN_M)
+        width, height = np.round(shown * self.scale).astype(int)
         whole = env.picture((int(width), int(height)), camera="above", news=False)
-        left, top = np.round((self.corner + SHOWN_M / 2) * self.scale).astype(int)
+        left, top = np.round((self.corner + shown / 2) * self.scale).astype(int)
         columns = np.clip(np.arange(left, left + self.size[0]), 0, width - 1)
         rows = np.clip(np.arange(top, top + self.size[1]), 0, height - 1)
         self.pixels = whole[rows][:, columns].astype(float)

@@ -14,7 +14,7 @@ import numpy as np
 import setpiece
 from numpy.typing import NDArray
 
-from drawing import CYAN, GOLD, RED, WHITE, Panel, save, sheet
+from drawing import CYAN, GOLD, RED, USUAL_M, WHITE, Panel, save, sheet
 
 ROOT = Path(__file__).resolve().parents[2]
 METRES = np.array([54.4, 83.6])
@@ -93,10 +93,16 @@ class Match:
         while len(self.path) <= step and not self.over:
             self.step()
 
-    def panel(self, middle: Any, width_m: float, size: tuple[int, int] = SMALL) -> Panel:
+    def panel(
+        self,
+        middle: Any,
+        width_m: float,
+        size: tuple[int, int] = SMALL,
+        pitch_m: tuple[float, float] = USUAL_M,
+    ) -> Panel:
         """The match as it is now."""
         panel = Panel(middle, width_m, size)
-        panel.show(self.env)
+        panel.show(self.env, pitch_m)
         return panel
 
 
@@ -184,6 +190,27 @@ def pitch_control() -> list[Panel]:
     return panels
 
 
+def drawn_formations() -> list[Panel]:
+    """The starts of four episodes."""
+    return [Match("drawn_formations", episode).panel((0, 0), 119) for episode in (1, 6, 12, 17)]
+
+
+def substitution() -> list[Panel]:
+    """Four moments of a match, with a ring around the striker: red while they are tired."""
+    match, panels = Match("substitution", 0), []
+    striker = int(np.flatnonzero(match.raw["left_team_roles"] == CENTRE_FORWARD)[0])
+    while not match.over and len(panels) < 4:
+        tired = match.raw["left_team_tired_factor"][striker] > 0.1
+        if len(panels) == 1 and tired:
+            match.step()
+            continue
+        panel = match.panel((0, 0), 119)
+        panel.ring(match.team("left")[striker], 9, RED if tired else GOLD)
+        panels.append(panel)
+        match.play_to(len(match.path) + 30)
+    return panels
+
+
 def drawn_opponents() -> list[Panel]:
     """The starts of four episodes."""
     size = (SMALL[0], 300)
@@ -200,6 +227,17 @@ def randomised_world() -> list[Panel]:
         panel.line(shot.path, 2, GOLD)
         panel.arrow((27, -8), wind, CYAN)
         panels.append(panel)
+    return panels
+
+
+def small_sided() -> list[Panel]:
+    """The starts of four episodes, at one scale."""
+    panels = []
+    for episode in range(4):
+        match = Match("small_sided", episode, observation="vector")
+        # The agents see the way to a corner.
+        length, width = 2 * np.abs(match.places[0] + match.seen[0][8:10])
+        panels.append(match.panel((0, 0), 68, pitch_m=(length, width)))
     return panels
 
 
@@ -286,14 +324,20 @@ def phases() -> list[Panel]:
     return panels
 
 
+CENTRE_FORWARD = 9
+"""The number of the role in `raw`."""
+
 PICTURES: dict[str, Callable[[], list[Panel]]] = {
     "rondo": rondo,
     "shoot_out": shoot_out,
     "expected_threat": expected_threat,
     "pitch_control": pitch_control,
+    "drawn_formations": drawn_formations,
     "drawn_opponents": drawn_opponents,
     "randomised_world": randomised_world,
+    "small_sided": small_sided,
     "noisy_eyes": noisy_eyes,
+    "substitution": substitution,
     "effort": effort,
     "own_part": own_part,
     "phases": phases,

@@ -44,6 +44,7 @@ class ScenarioDict(TypedDict, total=False):
     - `agents`: `{"left": count, "all" or names, "right": …, "others": "hold", "switching":
       "fixed"}`.
     - `rules`: `{"offside": False, …}`. `world`: `{"gravity": 9.81, "wind": "(4m/s, 0m/s)", …}`.
+      `pitch`: `{"length": "60m", "width": "40m", …}`.
     - `limit`: steps, or words: `"30s"`.
     - `rewards`: a list of names or words: `"scoring"`, `"checkpoints(regions: 5) * 0.5"`, `"effort
       { give -0.01 when ball in left.half as 'back' }"` (with double quotes).
@@ -59,6 +60,7 @@ class ScenarioDict(TypedDict, total=False):
     agents: Mapping[str, int | str | Sequence[str]]
     rules: Mapping[str, Value]
     world: Mapping[str, Value]
+    pitch: Mapping[str, Value]
     limit: int | str
     rewards: Sequence[str]
     ends: Sequence[str]
@@ -99,6 +101,7 @@ def pitch_text(scenario: ScenarioDict) -> str:
     first = [
         *([f"    rules {_options(scenario['rules'], 'rules')}"] if "rules" in scenario else []),
         *([f"    world {_options(scenario['world'], 'world')}"] if "world" in scenario else []),
+        *([f"    pitch {_options(scenario['pitch'], 'pitch')}"] if "pitch" in scenario else []),
         *([f"    agents {_agents(scenario['agents'])}"] if "agents" in scenario else []),
         *([f"    ball {_place(scenario['ball'], 'ball')}"] if "ball" in scenario else []),
     ]

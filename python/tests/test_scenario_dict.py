@@ -17,6 +17,7 @@ DUO: setpiece.ScenarioDict = {
     "extends": "academy",
     "rules": {"offside": False, "half_time": 50},
     "world": {"friction": "uniform(0.5, 1.5)", "wind": ("4m/s", "-1m/s")},
+    "pitch": {"goal": "6m"},
     "agents": {"left": ["anna", "bea"], "others": "hold"},
     "ball": ("uniform(0.5, 0.6)", 0, {"velocity": "(2m/s, 0m/s)"}),
     "difficulty": {"right": 0.3},
@@ -34,6 +35,7 @@ TEXT = """\
 scenario duo extends academy {
     rules { offside: off, half_time: 50 }
     world { friction: uniform(0.5, 1.5), wind: (4m/s, -1m/s) }
+    pitch { goal: 6m }
     agents { left: [anna, bea], others: hold }
     ball at (uniform(0.5, 0.6), 0) { velocity: (2m/s, 0m/s) }
 

@@ -16,6 +16,7 @@ mod named;
 pub mod operators;
 pub mod params;
 pub mod pitch;
+pub mod pitch_size;
 pub mod plan;
 pub mod program;
 pub mod scenario;
@@ -30,15 +31,16 @@ pub use file::{FORMAT_VERSION, FormatError};
 pub use module::{MODULES_MAX, ScriptModule, module_name};
 pub use named::{NamedKind, NamedValue};
 pub use params::{Bindings, Param, ParamError};
+pub use pitch_size::PitchSize;
 pub use program::{
     BinaryOp, Distribution, Each, EventFilter, Fold, FoldKind, Instr, Over, Program, Reg, UnaryOp,
     When, Who,
 };
 pub use scenario::{
     Agents, Ai, BallStart, Ending, Endings, Kickoff, KickoffPlaces, LIMIT, Observation,
-    ObservedValue, Others, PlayerSlot, PlayerStart, ROUNDS, Record, Require, Reward, RewardBody,
-    RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Substitution, Switching,
-    WorldSetting,
+    ObservedValue, Others, PitchSetting, PlayerSlot, PlayerStart, ROUNDS, Record, Require, Reward,
+    RewardBody, RewardHook, RuleSetting, Scenario, Script, SideAgents, Start, Substitution,
+    Switching, WorldSetting,
 };
 pub use table::Table;
 pub use vocabulary::{

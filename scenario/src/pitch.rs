@@ -12,10 +12,6 @@ pub const Y_SCALE_M: f64 = 83.6;
 pub const HALF_LENGTH_M: f64 = 55.0;
 /// Half the pitch's width: the side lines are at y = ±36 m.
 pub const HALF_WIDTH_M: f64 = 36.0;
-/// How far players may go beyond the lines, in x.
-pub const RIM_X_M: f64 = 60.0;
-/// How far players may go beyond the lines, in y.
-pub const RIM_Y_M: f64 = 40.0;
 /// Half the width of the goal mouth, between the posts' centres.
 pub const GOAL_HALF_WIDTH_M: f64 = 3.7;
 /// Height of the crossbar's centre.

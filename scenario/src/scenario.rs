@@ -5,7 +5,7 @@ use crate::module::ScriptModule;
 use crate::named::NamedValue;
 use crate::params::Param;
 use crate::program::{Program, Reg};
-use crate::vocabulary::{Role, Rule, StartKind, Stat, Team, Verdict, WorldFigure};
+use crate::vocabulary::{PitchFigure, Role, Rule, StartKind, Stat, Team, Verdict, WorldFigure};
 use serde::{Deserialize, Serialize};
 
 /// A compiled scenario: self-contained, with its parameters still symbolic.
@@ -280,6 +280,9 @@ pub struct Start {
     /// The figures of the world that differ from the usual ones, or may.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub world: Vec<WorldSetting>,
+    /// The figures of the pitch that differ from the usual ones, or may.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pitch: Vec<PitchSetting>,
     /// The episode is truncated after this many seconds; never if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<Reg>,
@@ -350,6 +353,16 @@ pub struct WorldSetting {
     /// Which figure.
     pub figure: WorldFigure,
     /// Its value; see [`WorldFigure::usual`] and [`WorldFigure::range`].
+    pub value: Reg,
+}
+
+/// A figure of the pitch and its value, a register of the start program, which may be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PitchSetting {
+    /// Which figure.
+    pub figure: PitchFigure,
+    /// Its value, metres; see [`PitchFigure::usual`] and [`PitchFigure::range`].
     pub value: Reg,
 }
 

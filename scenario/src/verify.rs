@@ -155,6 +155,7 @@ fn verify_start(scenario: &Scenario) -> Result<(), String> {
     regs.extend(start.score.iter().flat_map(|s| [s.0, s.1]));
     regs.extend(start.rules.iter().map(|setting| setting.value));
     regs.extend(start.world.iter().map(|setting| setting.value));
+    regs.extend(start.pitch.iter().map(|setting| setting.value));
     for require in &start.requires {
         regs.push(require.condition);
         regs.extend(require.probability);

@@ -3,13 +3,13 @@
 use crate::load::Loaded;
 use setpiece_engine::start::Drawn;
 use setpiece_scenario::pitch::to_normalised;
-use setpiece_scenario::vocabulary::{Rule, WorldFigure};
+use setpiece_scenario::vocabulary::{PitchFigure, Rule, WorldFigure};
 use setpiece_scenario::{Ai, Others, Param, Reward, Scenario, Team};
 use std::fmt::Write as _;
 
 /// Describes a scenario: title, description, parameters, players of one start, rewards, endings,
-/// records, rules, the world. `picture` is the path of a picture of that start, relative to the
-/// page.
+/// records, rules, the pitch, the world. `picture` is the path of a picture of that start, relative
+/// to the page.
 pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String {
     let scenario = &*loaded.scenario;
     let mut page = format!("# {}\n\n", scenario.name);
@@ -26,6 +26,7 @@ pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String
     endings(&mut page, loaded, start);
     measured(&mut page, scenario);
     rules(&mut page, start);
+    pitch(&mut page, scenario, start);
     world(&mut page, scenario, start);
     page.truncate(page.trim_end().len());
     page + "\n"
@@ -171,6 +172,22 @@ fn rules(page: &mut String, start: &Drawn) {
             _ => if value > 0.0 { "on" } else { "off" }.to_owned(),
         };
         row(page, &[&code(rule.name()), &shown, rule.doc()]);
+    }
+}
+
+/// What a scenario sets in `pitch { }`, as the start has it.
+fn pitch(page: &mut String, scenario: &Scenario, start: &Drawn) {
+    if scenario.start.pitch.is_empty() {
+        return;
+    }
+    page.push_str("\n## Pitch\n\n");
+    head(page, &["figure", "in this start, m", "usual, m", ""]);
+    for &figure in PitchFigure::ALL {
+        if scenario.start.pitch.iter().any(|setting| setting.figure == figure) {
+            let shown = format!("{:.3}", start.pitch.figure(figure));
+            let usual = figure.usual().to_string();
+            row(page, &[&code(figure.name()), &shown, &usual, figure.doc()]);
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Draws in text where everybody stands.
 
 use setpiece_engine::state::Match;
-use setpiece_scenario::Team;
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::vocabulary::PitchMeasure;
+use setpiece_scenario::{PitchSize, Team};
 
 /// The meaning of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,17 +34,17 @@ pub fn draw(game: &Match) -> String {
 /// The same sign by sign, each with what it stands for.
 pub fn drawn(game: &Match) -> Vec<(char, Paint)> {
     let mut cells = [[(' ', Paint::Plain); COLUMNS]; ROWS];
-    markings(&mut cells);
+    markings(&mut cells, &game.pitch);
     for team in Team::ALL {
         for (n, (_, player)) in game.team(*team).enumerate() {
-            let (row, column) = cell(player.pos.x, player.pos.y);
+            let (row, column) = cell(&game.pitch, player.pos.x, player.pos.y);
             cells[row][column] = match team {
                 Team::Left => (char::from(b'0' + (n % 10) as u8), Paint::Left),
                 Team::Right => (char::from(b'a' + n as u8), Paint::Right),
             };
         }
     }
-    let (row, column) = cell(game.ball.pos.x, game.ball.pos.y);
+    let (row, column) = cell(&game.pitch, game.ball.pos.x, game.ball.pos.y);
     cells[row][column] = ('o', Paint::Ball);
     let plain = |text: &str| text.chars().map(|sign| (sign, Paint::Plain)).collect::<Vec<_>>();
     let rim = "─".repeat(COLUMNS);
@@ -62,13 +62,15 @@ pub fn drawn(game: &Match) -> Vec<(char, Paint)> {
 }
 
 /// The half-way line, the boxes and the centre spot.
-fn markings(cells: &mut [[(char, Paint); COLUMNS]; ROWS]) {
+fn markings(cells: &mut [[(char, Paint); COLUMNS]; ROWS], pitch: &PitchSize) {
     for row in cells.iter_mut() {
         row[COLUMNS / 2] = ('┊', Paint::Plain);
     }
     cells[ROWS / 2][COLUMNS / 2] = ('·', Paint::Plain);
-    let (top, depth) = cell(-HALF_LENGTH_M as f32 + 16.5, -20.15);
-    let (bottom, _) = cell(0.0, 20.15);
+    let aside = pitch.measure(PitchMeasure::BoxHalfWidth) as f32;
+    let edge = (pitch.measure(PitchMeasure::BoxDepth) - pitch.half_length()) as f32;
+    let (top, depth) = cell(pitch, edge, -aside);
+    let (bottom, _) = cell(pitch, 0.0, aside);
     for row in cells.iter_mut().take(bottom + 1).skip(top) {
         row[depth] = ('┊', Paint::Plain);
         row[COLUMNS - 1 - depth] = ('┊', Paint::Plain);
@@ -76,9 +78,9 @@ fn markings(cells: &mut [[(char, Paint); COLUMNS]; ROWS]) {
 }
 
 /// The cell of a place in metres; anything outside the pitch is drawn at its edge.
-fn cell(x_m: f32, y_m: f32) -> (usize, usize) {
-    let column = f32::midpoint(x_m / HALF_LENGTH_M as f32, 1.0) * (COLUMNS - 1) as f32;
-    let row = f32::midpoint(y_m / HALF_WIDTH_M as f32, 1.0) * (ROWS - 1) as f32;
+fn cell(pitch: &PitchSize, x_m: f32, y_m: f32) -> (usize, usize) {
+    let column = f32::midpoint(x_m / pitch.half_length() as f32, 1.0) * (COLUMNS - 1) as f32;
+    let row = f32::midpoint(y_m / pitch.half_width() as f32, 1.0) * (ROWS - 1) as f32;
     (
         (row.round().max(0.0) as usize).min(ROWS - 1),
         (column.round().max(0.0) as usize).min(COLUMNS - 1),

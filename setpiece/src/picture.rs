@@ -2,11 +2,8 @@
 
 use crate::scene::player_id;
 use setpiece_render::Scene;
-use setpiece_render::scene::ScenePlayer;
-use setpiece_scenario::pitch::{
-    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M,
-    HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
-};
+use setpiece_render::scene::{Pitch, ScenePlayer};
+use setpiece_scenario::pitch::PLAYERS_MAX;
 use std::fmt::Write as _;
 
 /// Grass around the lines, metres.
@@ -26,7 +23,7 @@ const COLOURS: [[&str; 3]; 2] =
 /// `names`: everybody's label, by their
 /// [index](crate::engine::state::PlayerId::index); a role as a name is left out.
 pub fn svg(title: &str, names: &[String; PLAYERS_MAX], scene: &Scene) -> String {
-    let (x, y) = (HALF_LENGTH_M + MARGIN_M, HALF_WIDTH_M + MARGIN_M);
+    let [x, y] = half(&scene.pitch).map(|half| half + MARGIN_M);
     let (width, height) = (2.0 * x, 2.0 * y);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{} {} {width} {height}\" width=\"{}\" height=\"{}\" \
@@ -37,8 +34,8 @@ pub fn svg(title: &str, names: &[String; PLAYERS_MAX], scene: &Scene) -> String 
         height * 8.0,
         escaped(title)
     );
-    lawn(&mut text);
-    lines(&mut text);
+    lawn(&mut text, &scene.pitch);
+    lines(&mut text, &scene.pitch);
     for one in scene.players.iter().filter(|player| player.present) {
         let name = names.get(player_id(one.id).index()).map_or("", String::as_str);
         player(&mut text, one, name);
@@ -51,9 +48,20 @@ pub fn svg(title: &str, names: &[String; PLAYERS_MAX], scene: &Scene) -> String 
     text
 }
 
-fn lawn(text: &mut String) {
-    let (x, y) = (HALF_LENGTH_M + MARGIN_M, HALF_WIDTH_M + MARGIN_M);
-    let width = 2.0 * HALF_LENGTH_M / f64::from(STRIPES);
+/// Half the pitch along each axis, metres.
+fn half(pitch: &Pitch) -> [f64; 2] {
+    [pitch.length_m, pitch.width_m].map(|metres| 0.5 * shown(metres))
+}
+
+/// A measure as it is written: in centimetres.
+fn shown(metres: f32) -> f64 {
+    (f64::from(metres) * 100.0).round() / 100.0
+}
+
+fn lawn(text: &mut String, pitch: &Pitch) {
+    let [half_length, half_width] = half(pitch);
+    let (x, y) = (half_length + MARGIN_M, half_width + MARGIN_M);
+    let width = 2.0 * half_length / f64::from(STRIPES);
     let _ = writeln!(
         text,
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"1.5\" fill=\"#2f6f3e\"/>",
@@ -63,41 +71,44 @@ fn lawn(text: &mut String) {
         2.0 * y
     );
     for stripe in (0..STRIPES).step_by(2) {
-        let left = f64::from(stripe) * width - HALF_LENGTH_M;
+        let left = f64::from(stripe) * width - half_length;
         let _ = writeln!(
             text,
             "<rect x=\"{left}\" y=\"{}\" width=\"{width}\" height=\"{}\" fill=\"#367a46\"/>",
-            -HALF_WIDTH_M,
-            2.0 * HALF_WIDTH_M
+            -half_width,
+            2.0 * half_width
         );
     }
 }
 
 /// The lines of the pitch; each end is drawn once and turned for the other.
-fn lines(text: &mut String) {
-    let (x, y) = (HALF_LENGTH_M, HALF_WIDTH_M);
-    let spot = x - PENALTY_SPOT_M;
-    let edge = x - BOX_DEPTH_M;
-    let arc = (CIRCLE_RADIUS_M.powi(2) - (spot - edge).powi(2)).sqrt();
+fn lines(text: &mut String, pitch: &Pitch) {
+    let [x, y] = half(pitch);
+    let [spot, edge] = [pitch.spot_m, pitch.box_depth_m].map(|ahead| x - shown(ahead));
+    let [wide, six_yard, post] = [pitch.box_width_m, pitch.six_yard_width_m, pitch.goal_width_m]
+        .map(|width| 0.5 * shown(width));
+    let circle = shown(pitch.circle_m);
+    // A circle that ends in the box has no part outside it.
+    let arc = (circle.powi(2) - (spot - edge).powi(2)).max(0.0).sqrt();
     let _ = writeln!(
         text,
         "<g fill=\"none\" stroke=\"#f4f7f2\" stroke-width=\"0.25\" stroke-linejoin=\"round\">\n\
-         <path d=\"M{} {}H{x}V{y}H{}ZM0 {}V{y}\"/>\n<circle r=\"{CIRCLE_RADIUS_M}\"/>",
+         <path d=\"M{} {}H{x}V{y}H{}ZM0 {}V{y}\"/>\n<circle r=\"{circle}\"/>",
         -x, -y, -x, -y
     );
     for turn in [0, 180] {
         let _ = writeln!(
             text,
-            "<g transform=\"rotate({turn})\"><path d=\"M{x} {}H{edge}V{BOX_HALF_WIDTH_M}H{x}M{x} {}H{}V\
-             {SIX_YARD_HALF_WIDTH_M}H{x}\"/><path d=\"M{edge} {:.3}A{CIRCLE_RADIUS_M} {CIRCLE_RADIUS_M} 0 0 0 {edge} \
-             {arc:.3}\"/><path d=\"M{x} {}H{}V{GOAL_HALF_WIDTH_M}H{x}\" fill=\"#ffffff55\"/>\
+            "<g transform=\"rotate({turn})\"><path d=\"M{x} {}H{edge}V{wide}H{x}M{x} {}H{}V\
+             {six_yard}H{x}\"/><path d=\"M{edge} {:.3}A{circle} {circle} 0 0 0 {edge} \
+             {arc:.3}\"/><path d=\"M{x} {}H{}V{post}H{x}\" fill=\"#ffffff55\"/>\
              <circle cx=\"{spot}\" r=\"0.15\" fill=\"#f4f7f2\"/></g>",
-            -BOX_HALF_WIDTH_M,
-            -SIX_YARD_HALF_WIDTH_M,
-            x - SIX_YARD_DEPTH_M,
+            -wide,
+            -six_yard,
+            x - shown(pitch.six_yard_depth_m),
             -arc,
-            -GOAL_HALF_WIDTH_M,
-            x + GOAL_DEPTH_M
+            -post,
+            x + shown(pitch.goal_depth_m)
         );
     }
     text.push_str("<circle r=\"0.15\" fill=\"#f4f7f2\"/>\n</g>\n");

@@ -9,9 +9,9 @@ use crate::engine::environment::Environment;
 use crate::engine::state::event::Event;
 use crate::engine::state::player::Pose;
 use crate::engine::state::{Match, Player, PlayerId};
-use crate::scenario::pitch::STEPS_PER_S;
-use crate::scenario::vocabulary::{EventKind, GameMode, Role};
-use crate::scenario::{Team, pitch};
+use crate::scenario::pitch::{GOAL_DEPTH_M, STEPS_PER_S};
+use crate::scenario::vocabulary::{EventKind, GameMode, PitchMeasure, Role};
+use crate::scenario::{PitchSize, Team};
 use setpiece_render::Scene;
 use setpiece_render::scene::{
     self, Id, Mode, News, NewsKind, Pitch, Posture, SceneBall, ScenePlayer, Side, Term,
@@ -91,7 +91,7 @@ pub fn of_match(game: &Match, scene: &mut Scene) {
 fn fill(game: &Match, scene: &mut Scene) {
     scene.step = game.step;
     scene.between = 0.0;
-    scene.pitch = PITCH;
+    scene.pitch = pitch_of(&game.pitch);
     scene.ball = SceneBall {
         pos: game.ball.pos.to_array(),
         vel: game.ball.vel.to_array(),
@@ -146,20 +146,24 @@ fn turn(scene: &mut Scene) {
     scene.possession = scene.possession.map(other);
 }
 
-/// The measures of the game's pitch.
-const PITCH: Pitch = Pitch {
-    length_m: 2.0 * pitch::HALF_LENGTH_M as f32,
-    width_m: 2.0 * pitch::HALF_WIDTH_M as f32,
-    goal_width_m: 2.0 * pitch::GOAL_HALF_WIDTH_M as f32,
-    goal_height_m: pitch::GOAL_HEIGHT_M as f32,
-    goal_depth_m: pitch::GOAL_DEPTH_M as f32,
-    box_depth_m: pitch::BOX_DEPTH_M as f32,
-    box_width_m: 2.0 * pitch::BOX_HALF_WIDTH_M as f32,
-    six_yard_depth_m: pitch::SIX_YARD_DEPTH_M as f32,
-    six_yard_width_m: 2.0 * pitch::SIX_YARD_HALF_WIDTH_M as f32,
-    spot_m: pitch::PENALTY_SPOT_M as f32,
-    circle_m: pitch::CIRCLE_RADIUS_M as f32,
-};
+/// The measures of a pitch.
+pub(crate) fn pitch_of(pitch: &PitchSize) -> Pitch {
+    use PitchMeasure as Measure;
+    let one = |measure| pitch.measure(measure) as f32;
+    Pitch {
+        length_m: 2.0 * one(Measure::HalfLength),
+        width_m: 2.0 * one(Measure::HalfWidth),
+        goal_width_m: 2.0 * one(Measure::GoalHalfWidth),
+        goal_height_m: one(Measure::GoalHeight),
+        goal_depth_m: GOAL_DEPTH_M as f32,
+        box_depth_m: one(Measure::BoxDepth),
+        box_width_m: 2.0 * one(Measure::BoxHalfWidth),
+        six_yard_depth_m: one(Measure::SixYardDepth),
+        six_yard_width_m: 2.0 * one(Measure::SixYardHalfWidth),
+        spot_m: one(Measure::PenaltySpot),
+        circle_m: one(Measure::Circle),
+    }
+}
 
 /// A player's identity in a scene.
 pub fn id(player: PlayerId) -> Id {

@@ -12,8 +12,7 @@ use setpiece::film::{Film, FilmOptions, film, replayed};
 use setpiece::render::scene::{Posture, Role, ScenePlayer};
 use setpiece::render::{Options, Overlays, Renderer, Scene};
 use setpiece::replay::{Recorder, Replay};
-use setpiece::scenario::Action;
-use setpiece::scenario::pitch::{RIM_X_M, RIM_Y_M};
+use setpiece::scenario::{Action, PitchSize};
 use setpiece::scene::team;
 use setpiece::sheet::colours::{AGENT, Colour, shirt};
 use setpiece::sheet::{Region, frame, sheet};
@@ -89,7 +88,8 @@ fn count(picture: &Pixmap, middle: Point, within: f32, [red, green, blue, _]: Co
 }
 
 fn spot(x_m: f32, y_m: f32) -> Point {
-    Point { x: (x_m + RIM_X_M as f32) * 10.0, y: (y_m + RIM_Y_M as f32) * 10.0 }
+    let (x, y) = PitchSize::USUAL.rim();
+    Point { x: (x_m + x as f32) * 10.0, y: (y_m + y as f32) * 10.0 }
 }
 
 #[test]

@@ -246,6 +246,36 @@ fn regions_and_requirements_are_drawn_and_what_fails_is_marked() {
 }
 
 #[test]
+fn every_reply_has_the_pitch_of_its_episode_and_a_drag_ends_at_its_rim() {
+    let text = SCENARIO
+        .replace(
+            "ball at",
+            "pitch { length: uniform(40m, 80m), width: 30m, goal: 4m }\n    ball at",
+        )
+        .replace("gap,", "gap / 2,");
+    let studio = Studio::with(&["two.pitch"], &text);
+    let mut tab = studio.tab();
+    let mut lengths = Vec::new();
+    for seed in [1, 2, 3] {
+        tab.ask(&json!({"type": "play", "seed": seed, "episode": 0, "agent": "idle"}));
+        let first = tab.hear("episode");
+        let episode = while_not(&mut tab, first, |value| value["seed"] == seed);
+        let length = episode["pitch"]["length_m"].as_f64().unwrap();
+        assert!((40.0..80.0).contains(&length), "{length}");
+        assert_eq!(episode["pitch"]["width_m"], 30.0);
+        assert_eq!(episode["pitch"]["goal_width_m"], 4.0);
+        assert_eq!(tab.hear("sketch")["pitch"], episode["pitch"]);
+        lengths.push(length);
+    }
+    assert!(lengths[0] != lengths[1] && lengths[1] != lengths[2], "{lengths:?}");
+    let left = json!({"team": "left", "slot": 0});
+    tab.ask(&json!({"type": "move", "player": left, "to": [99.0, 99.0]}));
+    let episode = tab.hear("episode");
+    let [x, y] = [0, 1].map(|axis| place(&episode, 0)[axis].as_f64().unwrap());
+    assert!((x - lengths[2] / 2.0).abs() < 0.06 && (y - 15.0).abs() < 0.01, "{x} {y}");
+}
+
+#[test]
 fn behaviours_play_and_two_policies_stand_side_by_side() {
     let studio = Studio::with(&["two.pitch"], ZONES);
     let mut tab = studio.tab();
@@ -446,11 +476,12 @@ fn a_recorded_episode_is_shown_as_it_was_played() {
 }
 
 /// Reads episodes until one is as wanted.
-fn while_not(tab: &mut Tab, first: Value, wanted: impl Fn(&Value) -> bool) {
+fn while_not(tab: &mut Tab, first: Value, wanted: impl Fn(&Value) -> bool) -> Value {
     let mut value = first;
     while !wanted(&value) {
         value = tab.hear("episode");
     }
+    value
 }
 
 #[test]

@@ -15,7 +15,7 @@ const WORDS = new Set(
   ("scenario abstract extends reward behavior formation region ending const fn import param let " +
     "state record observe ball team left right at ahead behind of by between beyond offset from " +
     "along facing jitter require with when else on give once as end success failure limit agents " +
-    "rules world start mirror do until for repeat times choose interrupt finish if then and or not in " +
+    "rules world pitch start mirror do until for repeat times choose interrupt finish if then and or not in " +
     "each absent remove script kickoff rounds substitute table grid maybe noise delayed stack count " +
     "max min mean sum first last series has completed " +
     "true false nobody none").split(" "),

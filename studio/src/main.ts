@@ -15,7 +15,7 @@ import { showEvents, showRequires, showSummary } from "./results";
 import type { Seen } from "./screen";
 import { Screen } from "./screen";
 import { Socket } from "./socket";
-import type { Frame } from "./view";
+import type { Frame, Painted } from "./view";
 
 const CHECK_MS = 60;
 const STEP_MS = 100;
@@ -50,7 +50,7 @@ let other: Episode | null = null;
 /** An episode of another program that waits until the last one has been seen. */
 let waits: Episode | null = null;
 let starts: [number, number][][] = [];
-let regions: HTMLCanvasElement | null = null;
+let regions: Painted | null = null;
 /** The scenes of a match that somebody plays now, and when the last one came. */
 let live: Scene[] = [];
 let arrived = 0;
@@ -156,7 +156,7 @@ function hear(reply: Reply): void {
       break;
     }
     case "episode": {
-      const played: Episode = { ...reply, scenes: scenes(reply.roster, reply.scenes) };
+      const played: Episode = { ...reply, scenes: scenes(reply) };
       if (reply.watched) element("follow").closest("label")?.removeAttribute("hidden");
       if (reply.watched && !follow.checked) break;
       if (reply.watched && episode?.watched && clock.now.at < clock.last) waits = played;
@@ -166,14 +166,14 @@ function hear(reply: Reply): void {
     }
     case "step":
       if (reply.scenes[0]?.step === 0) live = [];
-      live.push(...scenes(reply.roster, reply.scenes));
+      live.push(...scenes(reply));
       arrived = performance.now();
       break;
     case "cloud":
       starts = cloud.checked ? reply.starts : [];
       break;
     case "sketch":
-      regions = painted(reply.regions);
+      regions = painted(reply.regions, reply.pitch);
       element("zones").closest("label")?.toggleAttribute("hidden", regions === null);
       showRequires(element("requires"), reply.requires, (line) => editor.go(line));
       break;

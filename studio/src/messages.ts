@@ -3,6 +3,21 @@
 export type Side = "left" | "right";
 export interface Id { team: Side; slot: number }
 
+/** The measures of a pitch, metres: see `Pitch` in render/src/scene.rs. */
+export interface Measures {
+  length_m: number;
+  width_m: number;
+  goal_width_m: number;
+  goal_height_m: number;
+  goal_depth_m: number;
+  box_depth_m: number;
+  box_width_m: number;
+  six_yard_depth_m: number;
+  six_yard_width_m: number;
+  spot_m: number;
+  circle_m: number;
+}
+
 /** What stays the same of a player. */
 export interface Rostered { id: Id; number: number; role: string }
 
@@ -34,15 +49,20 @@ export interface RawScene extends Moment {
   ball: [number, number, number]; owner: Id | null; players: RawPlayer[];
 }
 
+/** Moments as they are sent, with what is the same in all of them. */
+export interface RawScenes { pitch: Measures; roster: Rostered[]; scenes: RawScene[] }
+
 export interface Scene extends Moment {
+  pitch: Measures;
   ball: { pos: [number, number, number]; owner: Id | null };
   players: Player[];
 }
 
 /** Moments as the page keeps them. */
-export function scenes(roster: Rostered[], raw: RawScene[]): Scene[] {
+export function scenes({ pitch, roster, scenes: raw }: RawScenes): Scene[] {
   return raw.map(({ ball, owner, players, ...moment }) => ({
     ...moment,
+    pitch,
     ball: { pos: ball, owner },
     players: players.map(([x, y, vx, vy, fx, fy, posture, cards, present, agent], index) => ({
       ...(roster[index] ?? { id: { team: "left", slot: index }, number: index + 1, role: "" }),
@@ -90,12 +110,13 @@ export type Reply =
   | { type: "checked"; problems: Problem[]; fault: string | null; name: string; title: string;
       params: Param[]; agents: Seat[]; players: string[] }
   | { type: "episode"; seed: number; episode: number; agent: string; beside: boolean;
-      watched: boolean; name: string; roster: Rostered[]; scenes: RawScene[]; names: string[]; events: Happened[]; outcome: string | null; success: boolean | null }
-  | { type: "step"; roster: Rostered[]; scenes: RawScene[] }
+      watched: boolean; name: string; names: string[]; events: Happened[]; outcome: string | null;
+      success: boolean | null } & RawScenes
+  | { type: "step" } & RawScenes
   | { type: "cloud"; starts: [number, number][][] }
   | { type: "summary"; episodes: number; outcomes: [string, number][]; mean_return: number;
       score: [number, number]; terms: [string, number][]; records: [string, number][] }
-  | { type: "sketch"; regions: Region[]; requires: Require[] }
+  | { type: "sketch"; pitch: Measures; regions: Region[]; requires: Require[] }
   | { type: "recording"; name: string; hex: string }
   | { type: "saved" }
   | { type: "refused"; message: string };

@@ -1,8 +1,8 @@
 // The pitch from above, in metres, with the left team attacking to the right.
 
-import type { Player, Scene } from "./messages";
+import type { Measures, Player, Scene } from "./messages";
 import type { Arrow, Frame, View } from "./view";
-import { HALF_X, HALF_Y, MARGIN, mixed, same, shirt, towards } from "./view";
+import { USUAL, extent, mixed, same, shirt, towards } from "./view";
 
 const TRAIL = 12;
 
@@ -10,6 +10,9 @@ interface Colours { grass: string; stripe: string; line: string }
 
 export class Pitch implements View {
   private readonly context: CanvasRenderingContext2D;
+  /** Half of the length that is seen, metres. */
+  private half = USUAL.x;
+
   constructor(private readonly canvas: HTMLCanvasElement) {
     const context = canvas.getContext("2d");
     if (!context) throw new Error("no canvas");
@@ -19,7 +22,7 @@ export class Pitch implements View {
   /** The place in metres of a point of the page. */
   place(x: number, y: number): [number, number] {
     const box = this.canvas.getBoundingClientRect();
-    const scale = (2 * (HALF_X + MARGIN)) / box.width;
+    const scale = (2 * this.half) / box.width;
     return [(x - box.left - box.width / 2) * scale, (y - box.top - box.height / 2) * scale];
   }
 
@@ -27,8 +30,10 @@ export class Pitch implements View {
   draw(frame: Frame): void {
     const { scenes, at, share } = frame;
     const scene = scenes[at];
+    if (!scene) return;
+    [this.half] = extent(scene.pitch);
     const width = this.canvas.clientWidth;
-    const height = (width * (HALF_Y + MARGIN)) / (HALF_X + MARGIN);
+    const height = (width * USUAL.y) / USUAL.x;
     const ratio = window.devicePixelRatio || 1;
     if (this.canvas.width !== Math.round(width * ratio)) {
       this.canvas.width = Math.round(width * ratio);
@@ -36,12 +41,12 @@ export class Pitch implements View {
       this.canvas.style.height = `${height}px`;
     }
     const c = this.context;
-    const scale = (width * ratio) / (2 * (HALF_X + MARGIN));
+    const scale = (width * ratio) / (2 * this.half);
     c.setTransform(scale, 0, 0, scale, this.canvas.width / 2, this.canvas.height / 2);
-    field(c, this.colours());
+    field(c, scene.pitch, this.colours());
     if (frame.regions) {
-      const [x, y] = [HALF_X + MARGIN, HALF_Y + MARGIN];
-      c.drawImage(frame.regions, -x, -y, 2 * x, 2 * y);
+      const { picture, half: [x, y] } = frame.regions;
+      c.drawImage(picture, -x, -y, 2 * x, 2 * y);
     }
     for (const start of frame.cloud) {
       start.forEach(([x, y], index) => {
@@ -51,9 +56,8 @@ export class Pitch implements View {
         c.fill();
       });
     }
-    if (!scene) return;
     const to = towards(frame) ?? scene;
-    if (frame.offside !== null) this.offside(frame.offside);
+    if (frame.offside !== null) this.offside(frame.offside, scene.pitch);
     if (frame.trails) this.trails(scenes, at);
     for (const arrow of frame.arrows) this.arrow(arrow);
     for (const player of scene.players) {
@@ -130,12 +134,12 @@ export class Pitch implements View {
     }
   }
 
-  private offside(x: number): void {
+  private offside(x: number, { width_m }: Measures): void {
     const c = this.context;
     c.strokeStyle = "#ff8278";
     c.lineWidth = 0.25;
     c.setLineDash([1.2, 1]);
-    stroke(c, [x, -HALF_Y], [x, HALF_Y]);
+    stroke(c, [x, -width_m / 2], [x, width_m / 2]);
     c.setLineDash([]);
   }
 
@@ -179,28 +183,36 @@ export class Pitch implements View {
 }
 
 /** Draws grass and lines; metres. */
-export function field(c: CanvasRenderingContext2D, { grass, stripe, line }: Colours): void {
+export function field(c: CanvasRenderingContext2D, pitch: Measures, { grass, stripe, line }: Colours): void {
+  const [x, y] = [pitch.length_m / 2, pitch.width_m / 2];
+  const [far, wide] = extent(pitch);
   c.fillStyle = grass;
-  c.fillRect(-HALF_X - MARGIN, -HALF_Y - MARGIN, 2 * (HALF_X + MARGIN), 2 * (HALF_Y + MARGIN));
+  c.fillRect(-far, -wide, 2 * far, 2 * wide);
   c.fillStyle = stripe;
-  for (let k = 0; k < 10; k += 2) c.fillRect(-HALF_X + k * 11, -HALF_Y, 11, 2 * HALF_Y);
+  const mown = pitch.length_m / 10;
+  for (let k = 0; k < 10; k += 2) c.fillRect(-x + k * mown, -y, mown, 2 * y);
   c.strokeStyle = line;
   c.lineWidth = 0.2;
   c.beginPath();
-  c.rect(-HALF_X, -HALF_Y, 2 * HALF_X, 2 * HALF_Y);
-  c.moveTo(0, -HALF_Y);
-  c.lineTo(0, HALF_Y);
-  c.moveTo(9.15, 0);
-  c.arc(0, 0, 9.15, 0, 2 * Math.PI);
+  c.rect(-x, -y, 2 * x, 2 * y);
+  c.moveTo(0, -y);
+  c.lineTo(0, y);
+  const circle = pitch.circle_m;
+  c.moveTo(circle, 0);
+  c.arc(0, 0, circle, 0, 2 * Math.PI);
   for (const side of [-1, 1]) {
-    c.rect(side * HALF_X, -20.15, -side * 16.5, 40.3);
-    c.rect(side * HALF_X, -9.16, -side * 5.5, 18.32);
-    c.rect(side * HALF_X, -3.7, side * 2.55, 7.4);
-    const spot = side * (HALF_X - 11);
-    const angle = Math.acos(5.5 / 9.15);
+    const area = (deep: number, width: number) => c.rect(side * x, -width / 2, side * deep, width);
+    area(-pitch.box_depth_m, pitch.box_width_m);
+    area(-pitch.six_yard_depth_m, pitch.six_yard_width_m);
+    area(pitch.goal_depth_m, pitch.goal_width_m);
+    const spot = side * (x - pitch.spot_m);
+    const beyond = pitch.box_depth_m - pitch.spot_m;
+    // A deep box has all of the D within it.
+    if (beyond >= circle) continue;
+    const angle = Math.acos(beyond / circle);
     const middle = side > 0 ? Math.PI : 0;
-    c.moveTo(spot + 9.15 * Math.cos(middle - angle), 9.15 * Math.sin(middle - angle));
-    c.arc(spot, 0, 9.15, middle - angle, middle + angle);
+    c.moveTo(spot + circle * Math.cos(middle - angle), circle * Math.sin(middle - angle));
+    c.arc(spot, 0, circle, middle - angle, middle + angle);
   }
   c.stroke();
 }

@@ -1,28 +1,32 @@
 // Regions as a picture of the whole pitch, which either view lays over the grass.
 
-import type { Region, Shape } from "./messages";
-import { HALF_X, HALF_Y, MARGIN } from "./view";
+import type { Measures, Region, Shape } from "./messages";
+import type { Painted } from "./view";
+import { USUAL, extent } from "./view";
 
+/** Pixels per metre of the usual pitch: of a small one there are more, so that it fills the picture. */
 const PER_METRE = 8;
-const WIDTH = 2 * (HALF_X + MARGIN) * PER_METRE;
-const HEIGHT = 2 * (HALF_Y + MARGIN) * PER_METRE;
+const WIDTH = 2 * USUAL.x * PER_METRE;
+const HEIGHT = 2 * USUAL.y * PER_METRE;
 const COLOURS = ["#56b4e9", "#e69f00", "#cc79a7", "#f0e442", "#009e73", "#d55e00"];
 const LETTERS_MAX = 40;
 
 /** Paints regions, each in a colour with its name; null without any. */
-export function painted(regions: Region[]): HTMLCanvasElement | null {
+export function painted(regions: Region[], pitch: Measures): Painted | null {
   if (regions.length === 0) return null;
+  const half = extent(pitch);
+  const zoom = USUAL.x / half[0];
   const [all, layer] = sheet();
   regions.forEach((region, index) => {
     const colour = COLOURS[index % COLOURS.length] ?? "#ffffff";
-    const inside = mask(region.shape);
-    layer.setTransform(1, 0, 0, 1, 0, 0);
+    const inside = mask(region.shape, zoom);
     layer.globalAlpha = 0.3;
     layer.drawImage(tinted(inside, colour), 0, 0);
     layer.globalAlpha = 1;
     layer.drawImage(edge(inside, colour), 0, 0);
   });
-  metres(layer);
+  // Names have the same size in every picture.
+  metres(layer, 1);
   layer.font = "600 1.8px system-ui, sans-serif";
   layer.textBaseline = "top";
   layer.lineWidth = 0.4;
@@ -31,9 +35,9 @@ export function painted(regions: Region[]): HTMLCanvasElement | null {
   regions.forEach((region, index) => {
     const name = region.name.length > LETTERS_MAX ? `${region.name.slice(0, LETTERS_MAX)}…` : region.name;
     const wide = layer.measureText(name).width;
-    let [x, y] = corner(region.shape);
-    x = Math.min(x + 0.6, HALF_X + MARGIN - wide - 0.5);
-    y += 0.6;
+    const [left, top] = corner(region.shape);
+    const x = Math.min(left * zoom + 0.6, USUAL.x - wide - 0.5);
+    let y = top * zoom + 0.6;
     // Names that begin at one place stand below each other.
     while (taken.some(([a, b]) => Math.abs(a - x) < 12 && Math.abs(b - y) < 2)) y += 2.2;
     taken.push([x, y]);
@@ -41,7 +45,7 @@ export function painted(regions: Region[]): HTMLCanvasElement | null {
     layer.strokeText(name, x, y);
     layer.fillText(name, x, y);
   });
-  return all;
+  return { picture: all, half };
 }
 
 function sheet(): [HTMLCanvasElement, CanvasRenderingContext2D] {
@@ -49,21 +53,21 @@ function sheet(): [HTMLCanvasElement, CanvasRenderingContext2D] {
   [canvas.width, canvas.height] = [WIDTH, HEIGHT];
   const context = canvas.getContext("2d");
   if (!context) throw new Error("no canvas");
-  metres(context);
   return [canvas, context];
 }
 
-function metres(context: CanvasRenderingContext2D): void {
-  context.setTransform(PER_METRE, 0, 0, PER_METRE, WIDTH / 2, HEIGHT / 2);
+/** `zoom`: how much larger than on the usual pitch a metre is. */
+function metres(context: CanvasRenderingContext2D, zoom: number): void {
+  const scale = PER_METRE * zoom;
+  context.setTransform(scale, 0, 0, scale, WIDTH / 2, HEIGHT / 2);
 }
 
 /** Opaque where the shape is. */
-function mask(shape: Shape): HTMLCanvasElement {
+function mask(shape: Shape, zoom: number): HTMLCanvasElement {
   const [canvas, c] = sheet();
   const draw = (other: Shape, how: GlobalCompositeOperation) => {
-    c.setTransform(1, 0, 0, 1, 0, 0);
     c.globalCompositeOperation = how;
-    c.drawImage(mask(other), 0, 0);
+    c.drawImage(mask(other, zoom), 0, 0);
   };
   if ("union" in shape) {
     draw(shape.union[0], "source-over");
@@ -75,6 +79,7 @@ function mask(shape: Shape): HTMLCanvasElement {
     draw(shape.difference[0], "source-over");
     draw(shape.difference[1], "destination-out");
   } else {
+    metres(c, zoom);
     trace(c, shape);
     c.lineWidth = 0.25;
     c.fill();
@@ -105,7 +110,6 @@ function trace(c: CanvasRenderingContext2D, shape: Shape): void {
 
 function tinted(inside: HTMLCanvasElement, colour: string): HTMLCanvasElement {
   const [canvas, c] = sheet();
-  c.setTransform(1, 0, 0, 1, 0, 0);
   c.drawImage(inside, 0, 0);
   c.globalCompositeOperation = "source-in";
   c.fillStyle = colour;
@@ -116,7 +120,6 @@ function tinted(inside: HTMLCanvasElement, colour: string): HTMLCanvasElement {
 /** A line around a mask: the mask moved a little each way, less the mask. */
 function edge(inside: HTMLCanvasElement, colour: string): HTMLCanvasElement {
   const [canvas, c] = sheet();
-  c.setTransform(1, 0, 0, 1, 0, 0);
   for (const [x, y] of [[2, 0], [-2, 0], [0, 2], [0, -2]]) c.drawImage(inside, x ?? 0, y ?? 0);
   c.globalCompositeOperation = "destination-out";
   c.drawImage(inside, 0, 0);

@@ -3,17 +3,17 @@
 import {
   AmbientLight, BoxGeometry, BufferGeometry, CanvasTexture, CapsuleGeometry, CircleGeometry, Color, ConeGeometry,
   CylinderGeometry, DirectionalLight, Fog, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
-  MeshLambertMaterial, PerspectiveCamera, Plane, PlaneGeometry, Raycaster, RingGeometry, Scene as Space,
+  MeshLambertMaterial, Object3D, PerspectiveCamera, Plane, PlaneGeometry, Raycaster, RingGeometry, Scene as Space,
   SphereGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { Id, Player, Scene } from "./messages";
+import type { Id, Measures, Player, Scene } from "./messages";
 import { field } from "./pitch";
-import type { Frame, View } from "./view";
-import { HALF_X, HALF_Y, MARGIN, mixed, same, shirt, towards } from "./view";
+import type { Frame, Painted, View } from "./view";
+import { USUAL, extent, grounds, mixed, same, shirt, towards } from "./view";
 
-const GROUND_PX_PER_M = 16;
-const GOAL = { half: 3.7, high: 2.5, deep: 2.55 };
+/** Pixels of the ground's picture along the usual pitch. */
+const GROUND_PX = 1888;
 /** Metres per stride, both legs. */
 const STRIDE_M = 1.9;
 const SKIN = "#c98f68";
@@ -45,7 +45,10 @@ export class Stadium implements View {
   private readonly line: Mesh;
   private readonly regions: Mesh;
   private readonly arrows = new Group();
-  private painted: HTMLCanvasElement | null = null;
+  /** What is built for this pitch: the ground, the goals and the stands. */
+  private readonly built = new Group();
+  private pitch: Measures | null = null;
+  private painted: Painted | null = null;
   private drawn = performance.now();
   private readonly aim = new Vector3();
   private from: Camera = "stand";
@@ -63,25 +66,23 @@ export class Stadium implements View {
     const sun = new DirectionalLight("#fff4dc", 1.9);
     sun.position.set(-40, 70, 30);
     this.space.add(sun);
-    this.space.add(...ground(), ...goals(), ...stands());
     this.ball = new Mesh(new SphereGeometry(0.2, 20, 14), new MeshLambertMaterial({ color: "#ffffff" }));
     this.shadow = blob(0.25);
     this.line = new Mesh(
-      new PlaneGeometry(0.25, 2 * HALF_Y),
+      new PlaneGeometry(0.25, 1),
       new MeshBasicMaterial({ color: "#ff8278", transparent: true, opacity: 0.8 }),
     );
     this.line.rotation.x = -Math.PI / 2;
     this.line.position.y = 0.03;
-    this.regions = flat(2 * (HALF_X + MARGIN), 2 * (HALF_Y + MARGIN), new MeshBasicMaterial({ transparent: true }));
+    this.regions = flat(1, 1, new MeshBasicMaterial({ transparent: true }));
     this.regions.position.y = 0.015;
     this.regions.visible = false;
-    this.space.add(this.ball, this.shadow, this.line, this.regions, this.arrows);
+    this.space.add(this.built, this.ball, this.shadow, this.line, this.regions, this.arrows);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.maxPolarAngle = 1.52;
     this.controls.minDistance = 4;
     this.controls.maxDistance = 160;
     this.controls.enabled = false;
-    this.stand(new Vector3(0, 0, 0));
   }
 
   /** Chooses where it is seen from. */
@@ -112,6 +113,7 @@ export class Stadium implements View {
   }
 
   private stage(frame: Frame, scene: Scene, seconds: number): void {
+    this.build(scene.pitch);
     const to = towards(frame) ?? scene;
     const shown = new Set<string>();
     for (const player of scene.players) {
@@ -137,6 +139,17 @@ export class Stadium implements View {
     this.follow(scene, new Vector3(x, Math.min(high, 4) * 0.5, y), seconds);
   }
 
+  /** Builds what stands around a match, unless it stands there already. */
+  private build(pitch: Measures): void {
+    const known = this.pitch;
+    this.pitch = pitch;
+    if (known && alike(known, pitch)) return;
+    this.built.traverse(dispose);
+    this.built.clear();
+    this.built.add(...ground(pitch), ...goals(pitch), ...stands(pitch));
+    this.line.scale.y = pitch.width_m;
+  }
+
   private follow(scene: Scene, ball: Vector3, seconds: number): void {
     const who = scene.players.find((player) => same(player.id, this.followed));
     const goal = who ? new Vector3(who.pos[0], 1, who.pos[1]) : ball;
@@ -144,12 +157,12 @@ export class Stadium implements View {
       this.isAimed = true;
       this.aim.copy(goal);
       this.controls.target.copy(goal);
-      this.stand(goal);
+      this.stand(goal, scene.pitch);
     }
     const before = this.aim.clone();
     this.aim.lerp(goal, Math.min(1, FOLLOWS * seconds));
     if (this.from === "stand") {
-      this.stand(this.aim);
+      this.stand(this.aim, scene.pitch);
     } else {
       const moved = this.aim.clone().sub(before);
       this.camera.position.add(moved);
@@ -158,15 +171,15 @@ export class Stadium implements View {
     }
   }
 
-  private stand(aim: Vector3): void {
-    this.camera.position.set(aim.x * 0.75, 21, HALF_Y + 24);
+  private stand(aim: Vector3, { width_m }: Measures): void {
+    this.camera.position.set(aim.x * 0.75, 21, width_m / 2 + 24);
     this.camera.lookAt(aim.x * 0.95, 0, aim.z * 0.55 + 4);
   }
 
   /** Fits the picture to the page. */
   private fit(): void {
     const width = this.canvas.clientWidth;
-    const height = Math.round((width * (HALF_Y + MARGIN)) / (HALF_X + MARGIN));
+    const height = Math.round((width * USUAL.y) / USUAL.x);
     const size = this.renderer.getSize(new Vector2());
     if (width === 0 || (size.x === width && size.y === height)) return;
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
@@ -176,14 +189,15 @@ export class Stadium implements View {
     this.camera.updateProjectionMatrix();
   }
 
-  private lay(painted: HTMLCanvasElement | null): void {
+  private lay(painted: Painted | null): void {
     if (painted === this.painted) return;
     this.painted = painted;
     const material = this.regions.material as MeshBasicMaterial;
     material.map?.dispose();
-    material.map = painted ? new CanvasTexture(painted) : null;
+    material.map = painted ? new CanvasTexture(painted.picture) : null;
     if (material.map) material.map.colorSpace = SRGBColorSpace;
     material.needsUpdate = true;
+    if (painted) this.regions.scale.set(2 * painted.half[0], 2 * painted.half[1], 1);
     this.regions.visible = painted !== null;
   }
 
@@ -238,6 +252,18 @@ export class Stadium implements View {
   }
 }
 
+function alike(a: Measures, b: Measures): boolean {
+  return a === b || Object.values(a).join() === Object.values(b).join();
+}
+
+/** Frees what the graphics card keeps of an object. */
+function dispose(object: Object3D): void {
+  if (!(object instanceof Mesh || object instanceof Line)) return;
+  object.geometry.dispose();
+  object.material.map?.dispose();
+  object.material.dispose();
+}
+
 function lambert(color: string): MeshLambertMaterial {
   return new MeshLambertMaterial({ color });
 }
@@ -257,14 +283,15 @@ function blob(radius: number): Mesh {
 }
 
 /** The grass with its lines, and what is around it. */
-function ground(): Mesh[] {
+function ground(pitch: Measures): Mesh[] {
   const canvas = document.createElement("canvas");
-  const [x, y] = [HALF_X + MARGIN, HALF_Y + MARGIN];
-  [canvas.width, canvas.height] = [2 * x * GROUND_PX_PER_M, 2 * y * GROUND_PX_PER_M];
+  const [x, y] = grounds(pitch);
+  const scale = GROUND_PX / (2 * extent(pitch)[0]);
+  [canvas.width, canvas.height] = [Math.round(2 * x * scale), Math.round(2 * y * scale)];
   const context = canvas.getContext("2d");
   if (!context) throw new Error("no canvas");
-  context.setTransform(GROUND_PX_PER_M, 0, 0, GROUND_PX_PER_M, canvas.width / 2, canvas.height / 2);
-  field(context, { grass: "#2f7a40", stripe: "#38884a", line: "#f2f7f2" });
+  context.setTransform(scale, 0, 0, scale, canvas.width / 2, canvas.height / 2);
+  field(context, pitch, { grass: "#2f7a40", stripe: "#38884a", line: "#f2f7f2" });
   const map = new CanvasTexture(canvas);
   map.colorSpace = SRGBColorSpace;
   map.anisotropy = 8;
@@ -273,35 +300,36 @@ function ground(): Mesh[] {
   return [flat(2 * x, 2 * y, new MeshLambertMaterial({ map })), around];
 }
 
-function goals(): Group[] {
+function goals(pitch: Measures): Group[] {
+  const [half, high] = [pitch.goal_width_m / 2, pitch.goal_height_m];
   return [-1, 1].map((side) => {
     const group = new Group();
     const white = lambert("#ffffff");
     const bar = (length: number): Mesh => new Mesh(new CylinderGeometry(0.07, 0.07, length, 10), white);
-    for (const post of [-GOAL.half, GOAL.half]) {
-      const upright = bar(GOAL.high);
-      upright.position.set(0, GOAL.high / 2, post);
+    for (const post of [-half, half]) {
+      const upright = bar(high);
+      upright.position.set(0, high / 2, post);
       group.add(upright);
     }
-    const cross = bar(2 * GOAL.half);
+    const cross = bar(2 * half);
     cross.rotation.x = Math.PI / 2;
-    cross.position.y = GOAL.high;
-    group.add(cross, net());
-    group.position.x = side * HALF_X;
+    cross.position.y = high;
+    group.add(cross, net(pitch));
+    group.position.x = (side * pitch.length_m) / 2;
     group.rotation.y = side > 0 ? 0 : Math.PI;
     return group;
   });
 }
 
 /** The net behind the line, as threads. */
-function net(): Group {
+function net(pitch: Measures): Group {
   const group = new Group();
   const thread = new LineBasicMaterial({ color: "#e8eef0", transparent: true, opacity: 0.55 });
   const add = (...points: [number, number, number][]): void => {
     const places = points.map(([x, y, z]) => new Vector3(x, y, z));
     group.add(new Line(new BufferGeometry().setFromPoints(places), thread));
   };
-  const { half, high, deep } = GOAL;
+  const [half, high, deep] = [pitch.goal_width_m / 2, pitch.goal_height_m, pitch.goal_depth_m];
   const top = deep * 0.4;
   for (let z = -half; z <= half + 0.01; z += (2 * half) / 16) add([0, high, z], [top, high, z], [deep, 0, z]);
   for (let k = 0; k <= 8; k++) {
@@ -311,7 +339,7 @@ function net(): Group {
   return group;
 }
 
-function stands(): Mesh[] {
+function stands(pitch: Measures): Mesh[] {
   const seats = lambert("#5a6675");
   const boards = lambert("#20303f");
   const made: Mesh[] = [];
@@ -320,7 +348,7 @@ function stands(): Mesh[] {
     mesh.position.set(x, y, z);
     made.push(mesh);
   };
-  const [x, z] = [HALF_X + MARGIN, HALF_Y + MARGIN];
+  const [x, z] = grounds(pitch);
   box(0, 0.45, -z, [2 * x, 0.9, 0.2], boards);
   for (const side of [-1, 1]) box(side * x, 0.45, 0, [0.2, 0.9, 2 * z], boards);
   for (let row = 0; row < 8; row++) {

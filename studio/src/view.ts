@@ -1,9 +1,12 @@
 // What a picture of the match needs, from above or in space.
 
-import type { Id, Player, Scene } from "./messages";
+import type { Id, Measures, Player, Scene } from "./messages";
 
 /** A pass or a shot, from where it was struck to where the ball is or came. */
 export interface Arrow { from: [number, number]; to: [number, number]; fade: number; shot: boolean }
+
+/** Regions as a picture, and half of what it covers, metres. */
+export interface Painted { picture: HTMLCanvasElement; half: [number, number] }
 
 /** A moment, and what is drawn beside the match. */
 export interface Frame {
@@ -16,7 +19,7 @@ export interface Frame {
   /** Where the attackers are offside, metres. */
   offside: number | null;
   /** The painted regions of the start. */
-  regions: HTMLCanvasElement | null;
+  regions: Painted | null;
   /** Many starts: the ball and everyone. */
   cloud: [number, number][][];
 }
@@ -27,10 +30,22 @@ export interface View {
   place(x: number, y: number): [number, number];
 }
 
-export const HALF_X = 55;
-export const HALF_Y = 36;
 /** Grass around the pitch, metres. */
-export const MARGIN = 4;
+const MARGIN = 4;
+/** Half of the picture of the usual pitch, metres. Every picture has this shape. */
+export const USUAL = { x: 59, y: 40 };
+
+/** Half of the pitch and the grass around it, metres. */
+export function grounds({ length_m, width_m }: Measures): [number, number] {
+  return [length_m / 2 + MARGIN, width_m / 2 + MARGIN];
+}
+
+/** Half of the picture from above, metres: the pitch and the grass around it fit into it. */
+export function extent(pitch: Measures): [number, number] {
+  const [x, y] = grounds(pitch);
+  const scale = Math.max(x / USUAL.x, y / USUAL.y);
+  return [USUAL.x * scale, USUAL.y * scale];
+}
 
 /** Shirts and numbers, by team and whether it is the keeper's: the same as in pictures. */
 export const SHIRTS = {

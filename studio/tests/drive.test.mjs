@@ -145,18 +145,23 @@ test("a save on disk is shown, and one here is written", async () => {
   assert.match(readFileSync(file, "utf8"), /^\/\/ mine\n/);
 });
 
+/** Drags what is at a place on the pitch to another one, metres; `seen`: the length that is seen. */
+async function drag(page, from, to, seen = 118) {
+  const box = await page.locator("#pitch").boundingBox();
+  const scale = box.width / seen;
+  const at = ([x, y]) => [box.x + box.width / 2 + x * scale, box.y + box.height / 2 + y * scale];
+  await page.mouse.move(...at(from));
+  await page.mouse.down();
+  await page.mouse.move(...at([0, 0]));
+  await page.mouse.move(...at(to));
+  await page.mouse.up();
+}
+
 test("a drag rewrites the numbers of one place and nothing else", async () => {
   const { folder } = drill();
   const page = await open("drill.pitch", folder);
   await rewind(page);
-  const box = await page.locator("#pitch").boundingBox();
-  const scale = box.width / 118;
-  const at = ([x, y]) => [box.x + box.width / 2 + x * scale, box.y + box.height / 2 + y * scale];
-  await page.mouse.move(...at([0.4 * 54.4, 0.2 * 83.6]));
-  await page.mouse.down();
-  await page.mouse.move(...at([28, 0]));
-  await page.mouse.move(...at([30, -20]));
-  await page.mouse.up();
+  await drag(page, [0.4 * 54.4, 0.2 * 83.6], [30, -20]);
   await waits(page, ".cm-content", "RM at \\(0.55");
   const now = (await page.locator(".cm-content").innerText()).replace(/RM at \(.*\)/, "RM at (0.4, 0.2)");
   assert.equal(now.trim(), DRILL.trim());
@@ -226,14 +231,14 @@ function zones() {
   return folder;
 }
 
-/** The colour of a place on the pitch, metres. */
-const colour = (page, [x, y]) =>
-  page.evaluate(([mx, my]) => new Promise((resolve) => requestAnimationFrame(() => {
+/** The colour of a place on the pitch, metres; `seen`: the length that is seen. */
+const colour = (page, [x, y], seen = 118) =>
+  page.evaluate(([mx, my, seen]) => new Promise((resolve) => requestAnimationFrame(() => {
     const canvas = document.getElementById("pitch");
-    const scale = canvas.width / 118;
+    const scale = canvas.width / seen;
     const [px, py] = [canvas.width / 2 + mx * scale, canvas.height / 2 + my * scale];
     resolve([...canvas.getContext("2d").getImageData(px, py, 1, 1).data].join());
-  })), [x, y]);
+  })), [x, y, seen]);
 
 test("regions and requirements are drawn, and what fails is red", async () => {
   const page = await open("zones.pitch", zones());
@@ -250,6 +255,59 @@ test("regions and requirements are drawn, and what fails is red", async () => {
   await page.keyboard.press("Home");
   await page.waitForSelector(".require.fails", PATIENCE);
   await waits(page, "#state", "distance\\(striker, ball\\) < near");
+});
+
+const SMALL = `region danger = right.box
+scenario small {
+    param long: length = 60m in 20m..120m
+    pitch { length: long, width: 40m, goal: 4m, goal_height: 2m, box: 9m, box_width: 20m }
+    ball at (8m, 0m)
+    team left {
+        GK at left.goal + (1m, 0m)
+        striker: CF at (9m, -6m)
+    }
+    team right {
+        GK at right.goal - (1m, 0m)
+        CB at (25m, -5m)
+    }
+    end success inside when ball in danger
+    end limit 2s
+}
+`;
+
+test("a pitch of another size is drawn to its size, from above and in space", async () => {
+  const folder = mkdtempSync(join(tmpdir(), "studio-"));
+  writeFileSync(join(folder, "small.pitch"), SMALL);
+  const page = await open("small.pitch", folder);
+  await rewind(page);
+  // The whole width is seen, with 4 m of grass beside it.
+  const seen = (40 + 2 * 4) * (118 / 80);
+  const isLine = async (place, long) => Number((await colour(page, place, long)).split(",")[0]) > 120;
+  for (const place of [[-30, -14], [0, -14], [30, -14], [-4, -20], [-4, 20], [-21, 7]]) {
+    assert.ok(await isLine(place, seen), `a line at ${place}`);
+  }
+  for (const place of [[-31, -14], [2, -14], [31, -14], [-4, -21], [-4, 21], [-19, 7]]) {
+    assert.ok(!(await isLine(place, seen)), `grass at ${place}`);
+  }
+  const places = [[23, 9], [23, 11]];
+  const painted = await Promise.all(places.map((place) => colour(page, place, seen)));
+  await page.click("#zones");
+  assert.notEqual(await colour(page, places[0], seen), painted[0]);
+  assert.equal(await colour(page, places[1], seen), painted[1]);
+  await drag(page, [9, -6], [-12, 15], seen);
+  await waits(page, ".cm-content", "striker: CF at \\(-1[12][.\\d]*m, 1[45][.\\d]*m\\)");
+  // The same page shows a longer one.
+  await page.selectOption("#view", "stand");
+  await page.waitForTimeout(500);
+  const shot = async () => (await page.locator("#pitch-deep").screenshot()).toString("base64");
+  const before = await shot();
+  await page.locator(".param", { hasText: "long" }).locator("input").focus();
+  await page.keyboard.press("End");
+  await waits(page, '[data-shown="long"]', "120m");
+  await page.waitForTimeout(1000);
+  assert.notEqual(await shot(), before);
+  await page.selectOption("#view", "above");
+  for (const x of [-60, 0, 60]) assert.ok(await isLine([x, -14], 120 + 2 * 4), `a line at ${x}`);
 });
 
 test("a behaviour plays, beside another player, and the episode is kept as a file", async () => {

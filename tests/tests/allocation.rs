@@ -85,6 +85,21 @@ fn a_step_allocates_nothing_but_what_rapier_does() {
 }
 
 #[test]
+fn a_pitch_of_another_size_in_every_episode_allocates_nothing() {
+    let text = "scenario s {
+        pitch { length: uniform(40m, 80m), width: uniform(30m, 50m), goal: uniform(3m, 5m) }
+        ball at centre
+        team left { GK at left.goal  3 CM in left.half }
+        team right { GK at right.goal  3 CM in right.half }
+        reward near { give 0.01 when ball in them.box }
+        end limit 300 steps
+    }";
+    let scenario = setpiece::compile_text(text, "<test>").unwrap().scenario;
+    let steps = steps_of(scenario, 10);
+    assert!(steps.played > 2000 && steps.allocated == 0, "{steps:?}");
+}
+
+#[test]
 fn pictures_allocate_nothing() {
     let scenario = setpiece::load("11_vs_11_stochastic").unwrap().scenario;
     let mut environment = Environment::new(scenario, EnvironmentOptions::default()).unwrap();

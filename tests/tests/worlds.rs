@@ -10,6 +10,7 @@ use setpiece::engine::environment::{Environment, Scratch};
 use setpiece::engine::physics::{Conditions, Forecast};
 use setpiece::engine::state::Match;
 use setpiece::replay::{Recorder, Replay};
+use setpiece::scenario::PitchSize;
 use setpiece::scenario::vocabulary::WorldFigure as Figure;
 use setpiece_tests::environment;
 
@@ -129,5 +130,5 @@ fn snapshots_and_replays_carry_the_world() {
     environment.reset_from(&snapshot, Some(4), Some(5)).unwrap();
     let now = environment.state();
     assert_eq!(now.conditions, other);
-    assert_eq!(now.play.forecast, Forecast::of(&now.ball, &other, now.tick));
+    assert_eq!(now.play.forecast, Forecast::of(&now.ball, &PitchSize::USUAL, &other, now.tick));
 }

@@ -37,6 +37,8 @@ pub enum ScenarioStmtKind {
     Rules(Vec<Field>),
     /// `world { … }`
     World(Vec<Field>),
+    /// `pitch { … }`
+    Pitch(Vec<Field>),
     /// `agents { … }`
     Agents(Vec<Field>),
     /// `ball PLACE …`

@@ -22,5 +22,7 @@ pub(crate) const BALL: &[&str] = &["velocity", "height", "spin", "owner"];
 /// Keys of `world { }`.
 pub(crate) const WORLD: &[&str] =
     &["gravity", "wind", "drag", "swerve", "spin_decay", "bounce", "friction"];
+/// Keys of `pitch { }`.
+pub(crate) const PITCH: &[&str] = &["length", "width", "goal", "goal_height", "box", "box_width"];
 /// Keys of `start … { }`.
 pub(crate) const START: &[&str] = &["score", "elapsed"];

@@ -259,7 +259,7 @@ pub(super) const HABITS: &[Habit] = &[
     row(Scenario, "^ | rounds :¦= 9", "write `rounds {2} when …`"),
     row(Scenario, "^ | formation :¦= _", "it stands in a team: `team left { formation: {2} }`"),
     row(Scenario, "^ | formation :¦=", "it stands in a team: `team left { formation: … }`"),
-    row(Scenario, "^ | rules¦world¦agents =¦: {", "write `{1} { … }`"),
+    row(Scenario, "^ | rules¦world¦pitch¦agents =¦: {", "write `{1} { … }`"),
     row(Scenario, "^ | _ = *", "write `let {1} = …`"),
     row(Scenario, "^ | var¦val¦int¦float¦double¦auto _ =", "write `let {2} = …`"),
     row(File, "^ | var¦val¦int¦float¦double¦auto¦let _ =", "write `const {2} = …`"),

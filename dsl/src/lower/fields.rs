@@ -2,7 +2,7 @@
 
 use super::Lower;
 use crate::ast::{Expr, Field, FieldValue};
-use crate::check::options::WORLD;
+use crate::check::options::{PITCH, WORLD};
 use crate::problem::facts::{Names, Types};
 use crate::problem::{Guess, Problem};
 
@@ -23,13 +23,18 @@ pub(super) fn is_known(lower: &Lower<'_, '_>, field: &Field, known: &[&str], who
         return true;
     }
     let (whose, option) = (whose.to_owned(), key.to_owned());
-    let fact = if WORLD.contains(&key) {
-        Names::OfTheWorld { whose, option }
-    } else {
-        Names::NoOption { whose, option, guess: Guess::similar_or_all(key, known) }
+    let fact = match block_of(key) {
+        Some(block) => Names::OfBlock { whose, option, block },
+        None => Names::NoOption { whose, option, guess: Guess::similar_or_all(key, known) },
     };
     lower.report(Problem::new(field.key.span, fact));
     false
+}
+
+/// The block of the scenario that alone has this option.
+pub(super) fn block_of(option: &str) -> Option<&'static str> {
+    let blocks = [("world", WORLD), ("pitch", PITCH)];
+    blocks.into_iter().find(|(_, keys)| keys.contains(&option)).map(|(block, _)| block)
 }
 
 /// The expression of a field; reports a group or a script.

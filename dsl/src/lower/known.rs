@@ -4,7 +4,7 @@ use super::people::Presence;
 use super::value::{Scope, Value};
 use crate::ast::{Arg, BehaviorItem, ScriptRef, Span};
 use crate::origins::{RegionOrigin, RequireOrigin};
-use setpiece_scenario::vocabulary::{Primitive, StartKind, Team};
+use setpiece_scenario::vocabulary::{PitchFigure, Primitive, StartKind, Team};
 use setpiece_scenario::{Ai, Distribution, Reg, Require, When};
 use std::collections::BTreeMap;
 
@@ -30,6 +30,8 @@ pub(crate) struct StartState<'w> {
     pub(crate) ball: OnDemand<(Reg, Reg)>,
     /// What must hold of values that are known at the draw only.
     pub(crate) implied: Vec<(Require, RequireOrigin)>,
+    /// The pitch's figures that are lowered, by their index.
+    pub(crate) pitch: [Option<Reg>; PitchFigure::ALL.len()],
     /// The regions in which something is drawn.
     pub(crate) drawn_in: Vec<RegionOrigin>,
     /// The `let`s that are lowered; none where one is being lowered.

@@ -108,6 +108,22 @@ impl<'w> Rostered<'w> {
         }
     }
 
+    /// One player for each formation that they belong to, if it isn't all of them. Who has a name
+    /// stays one player.
+    pub(super) fn by_formation(&self) -> Vec<Rostered<'w>> {
+        let (Some(formations), Stand::Among(whole, stands), None) =
+            (&self.formations, &self.stand, self.name)
+        else {
+            return vec![self.clone()];
+        };
+        let single = |stand: &(usize, Stand<'w>)| Rostered {
+            formations: Some(Formations { whole: formations.whole, which: vec![stand.0] }),
+            stand: Stand::Among(whole, vec![stand.clone()]),
+            ..self.clone()
+        };
+        stands.iter().map(single).collect()
+    }
+
     /// What a report of the place points at.
     pub(crate) fn place_span(&self) -> Span {
         match self.stand {

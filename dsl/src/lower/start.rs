@@ -3,6 +3,7 @@
 mod fields;
 mod football;
 mod kind;
+mod pitch;
 mod remap;
 mod world;
 
@@ -10,7 +11,7 @@ use super::agents::{lower_agents, side_with_agents};
 use super::builder::RegisterLayout;
 use super::known::{OnDemand, PlayedBy, Scripted, StartState};
 use super::people::Rostered;
-use super::step_world::{LetSlot, LetSource, StepWorld};
+use super::step_world::{LetSlot, LetSource, PitchSources, StepWorld};
 use super::team::{PlayerOptions, lower_difficulty, lower_player_options};
 use super::value::{LiteralFrame, Scope, Value};
 use super::{Lower, ProgramStage, World};
@@ -22,7 +23,7 @@ use crate::problem::facts::{Bounds, Chance, Names};
 use crate::resolve::Named;
 use remap::{map_agents, map_slot, map_start};
 use setpiece_scenario::pitch::{LONGEST_S, STEP_S};
-use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::vocabulary::{PitchFigure, Team};
 use setpiece_scenario::{
     Agents, Ai, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, Start,
 };
@@ -65,18 +66,9 @@ pub(crate) fn lower_start<'c, 'w>(
         StartState { places, headings, layouts, presence, ..StartState::default() },
     );
 
-    for param in world.params.iter().filter(|param| param.bound.is_some()) {
-        lower.scenario_let(&param.name.node, param.name.span);
-    }
-    for binding in &world.flat.lets {
-        lower.scenario_let(&binding.name.node, binding.name.span);
-    }
-    for name in world.flat.tuples.iter().flat_map(|(names, _)| *names) {
-        lower.scenario_let(&name.node, name.span);
-    }
-    if let Some((_, _, span)) = world.flat.kickoff {
+    lower.scenario_lets();
+    if world.flat.kickoff.is_some() {
         lower.first_team();
-        debug_assert!(span.start <= span.end);
     }
     let (kind, taker) = lower.start_kind();
     let places: Vec<(Reg, Reg)> =
@@ -93,6 +85,7 @@ pub(crate) fn lower_start<'c, 'w>(
     let side = side_with_agents(&lower, &agents, &options);
     let rules = lower.rules();
     let settings = lower.world_settings();
+    let pitch = lower.pitch_settings();
     let limit = lower.limit();
     let rounds = lower.rounds();
     let (score, elapsed) = lower.start_fields();
@@ -113,7 +106,7 @@ pub(crate) fn lower_start<'c, 'w>(
     let of_requires = written.chain(of_implied).collect();
     requires.append(&mut implied);
 
-    let (lets, let_regs) = lower.let_slots(state.lets);
+    let (lets, pitch_sources, let_regs) = lower.let_slots(state.lets, state.pitch);
     let mut wanted: Vec<Reg> = Vec::new();
     let mut collect = |reg: Reg| {
         wanted.push(reg);
@@ -135,6 +128,7 @@ pub(crate) fn lower_start<'c, 'w>(
         difficulty,
         rules,
         world: settings,
+        pitch,
         limit,
         rounds,
         requires,
@@ -154,7 +148,7 @@ pub(crate) fn lower_start<'c, 'w>(
     let players =
         players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
     let agents = map_agents(&agents, &mut |reg| place(&layout, reg));
-    let step = StepWorld::new(world, &start, lets, side);
+    let step = StepWorld::new(world, &start, lets, pitch_sources, side);
     let regions = laid_out(&regions, &layout);
     LoweredStart { start, players, agents, step, behaviors, requires: of_requires, regions }
 }
@@ -235,6 +229,20 @@ impl<'w> Lower<'_, 'w> {
         let result = f(self);
         self.streams.drawing = outer;
         result
+    }
+
+    /// Computes every `let` of the scenario, and what its children bind parameters to.
+    fn scenario_lets(&mut self) {
+        let world = self.world;
+        let bound = world.params.iter().filter(|param| param.bound.is_some());
+        let tuples = world.flat.tuples.iter().flat_map(|(names, _)| *names);
+        let names = bound
+            .map(|param| param.name)
+            .chain(world.flat.lets.iter().map(|binding| &binding.name))
+            .chain(tuples);
+        for name in names {
+            self.scenario_let(&name.node, name.span);
+        }
     }
 
     /// The value of a `let` of the scenario, or of a parameter that is bound by a child.
@@ -356,26 +364,25 @@ impl<'w> Lower<'_, 'w> {
     fn let_slots(
         &self,
         lets: BTreeMap<&'w str, Option<Value<'w>>>,
-    ) -> (Vec<LetSlot<'w>>, Vec<Reg>) {
+        pitch: [Option<Reg>; PitchFigure::ALL.len()],
+    ) -> (Vec<LetSlot<'w>>, PitchSources, Vec<Reg>) {
         let mut regs: Vec<Reg> = Vec::new();
         let mut slots = Vec::new();
+        let mut source = |reg: Reg| match self.code.instr(reg) {
+            Some(setpiece_scenario::Instr::Const(value)) => LetSource::Constant(*value),
+            Some(setpiece_scenario::Instr::Param(index)) => LetSource::Param(*index),
+            _ => {
+                regs.push(reg);
+                LetSource::Let(regs.len() as u32 - 1)
+            }
+        };
         for (name, value) in lets {
             let Some(value) = value else { continue };
-            let mut parts = Vec::new();
-            for reg in value.regs() {
-                let part = match self.code.instr(reg) {
-                    Some(setpiece_scenario::Instr::Const(value)) => LetSource::Constant(*value),
-                    Some(setpiece_scenario::Instr::Param(index)) => LetSource::Param(*index),
-                    _ => {
-                        regs.push(reg);
-                        LetSource::Let(regs.len() as u32 - 1)
-                    }
-                };
-                parts.push((reg, part));
-            }
+            let parts = value.regs().into_iter().map(|reg| (reg, source(reg))).collect();
             slots.push(LetSlot { name, value, parts });
         }
-        (slots, regs)
+        let pitch = pitch.map(|figure| figure.map(&mut source));
+        (slots, pitch, regs)
     }
 
     /// The team that kicks off first.

@@ -1,7 +1,6 @@
 //! What a program of a step reads of the start.
 
 use super::Lower;
-use super::step_world::LetSource;
 use super::value::Value;
 use setpiece_scenario::Reg;
 use setpiece_scenario::vocabulary::{Rule, Team};
@@ -17,9 +16,7 @@ impl<'w> Lower<'_, 'w> {
         // A value's registers are gone through in the order of its parts.
         let mut parts = slot.parts.iter();
         let mut map = |reg: Reg| match parts.find(|(known, _)| *known == reg) {
-            Some((_, LetSource::Constant(value))) => self.code.constant(*value),
-            Some((_, LetSource::Param(index))) => self.code.param(*index),
-            Some((_, LetSource::Let(index))) => self.code.scenario_let(*index),
+            Some((_, source)) => self.read(*source),
             None => self.code.constant(0.0),
         };
         slot.value.map(&mut map)

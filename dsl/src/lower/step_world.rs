@@ -3,7 +3,7 @@
 
 use super::World;
 use super::value::Value;
-use setpiece_scenario::vocabulary::{Rule, Team};
+use setpiece_scenario::vocabulary::{PitchFigure, Rule, Team};
 use setpiece_scenario::{Instr, Reg, Start};
 
 /// What every program of a step is lowered against.
@@ -12,6 +12,8 @@ pub(crate) struct StepWorld<'c, 'w> {
     pub(crate) world: &'c World<'w>,
     /// Its `let`s, in the order of their names.
     pub(super) lets: Vec<LetSlot<'w>>,
+    /// The pitch's figures that the scenario sets, by their index.
+    pub(super) pitch: PitchSources,
     /// The one team that has agents, if it is one.
     pub(crate) agents: Option<Team>,
     /// The rules that are off, whatever its parameters are.
@@ -24,16 +26,28 @@ impl<'c, 'w> StepWorld<'c, 'w> {
     /// What is known once the start is lowered.
     ///
     /// - `lets`: in the order of their names;
+    /// - `pitch`: the pitch's figures that the scenario sets, by their index;
     /// - `agents`: the one team that has agents, if it is one.
     pub(super) fn new(
         world: &'c World<'w>,
         start: &Start,
         lets: Vec<LetSlot<'w>>,
+        pitch: PitchSources,
         agents: Option<Team>,
     ) -> StepWorld<'c, 'w> {
-        StepWorld { world, lets, agents, rules_off: rules_off(start), longest: longest(start) }
+        StepWorld {
+            world,
+            lets,
+            pitch,
+            agents,
+            rules_off: rules_off(start),
+            longest: longest(start),
+        }
     }
 }
+
+/// The pitch's figures as step programs see them, by their index; `None`: not set.
+pub(super) type PitchSources = [Option<LetSource>; PitchFigure::ALL.len()];
 
 /// A `let` as step programs see it.
 pub(crate) struct LetSlot<'w> {

@@ -7,8 +7,8 @@ use crate::ast::{Arg, Expr, ExprKind, Span, Spanned, TableItem, TableRows};
 use crate::check::types::Ty;
 use crate::problem::Problem;
 use crate::problem::facts::Tables;
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::table::TABLE_MAX;
+use setpiece_scenario::vocabulary::PitchRegion;
 use setpiece_scenario::{BinaryOp, Reg, Table};
 
 /// A rectangle in the reader's frame: the corner with the least x and y, and the other one.
@@ -77,9 +77,8 @@ impl<'w> Lower<'_, 'w> {
     pub(crate) fn rectangle(&mut self, over: Option<&'w Expr>) -> Option<Rectangle> {
         let (a, b) = match over {
             None => {
-                let (x, y) = (HALF_LENGTH_M, HALF_WIDTH_M);
-                let low = (self.code.constant(-x), self.code.constant(-y));
-                (low, (self.code.constant(x), self.code.constant(y)))
+                let pitch = PitchRegion::Pitch.rect()?;
+                self.corners(pitch)
             }
             Some(over) => {
                 let region = self.region(over)?;

@@ -74,6 +74,7 @@ impl Reader<'_> {
             }
             Rule::rules => ScenarioStmtKind::Rules(self.take_fields(&mut nodes)),
             Rule::world => ScenarioStmtKind::World(self.take_fields(&mut nodes)),
+            Rule::pitch => ScenarioStmtKind::Pitch(self.take_fields(&mut nodes)),
             Rule::agents => ScenarioStmtKind::Agents(self.take_fields(&mut nodes)),
             Rule::ball => {
                 let place = nodes.want(Rule::place)?;

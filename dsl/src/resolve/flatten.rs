@@ -36,6 +36,8 @@ pub(crate) struct Flat<'a> {
     pub(crate) rules: Vec<&'a Field>,
     /// `world { }`
     pub(crate) world: Vec<&'a Field>,
+    /// `pitch { }`
+    pub(crate) pitch: Vec<&'a Field>,
     /// `agents { }`
     pub(crate) agents: Vec<&'a Field>,
     /// The ball.
@@ -206,6 +208,7 @@ pub(crate) fn flatten<'a>(
         regions: Vec::new(),
         rules: Vec::new(),
         world: Vec::new(),
+        pitch: Vec::new(),
         agents: Vec::new(),
         ball: None,
         teams: Default::default(),
@@ -298,6 +301,7 @@ impl<'a> Adding<'a, '_> {
             }
             ScenarioStmtKind::Rules(fields) => self.merge("rules", fields, |flat| &mut flat.rules),
             ScenarioStmtKind::World(fields) => self.merge("world", fields, |flat| &mut flat.world),
+            ScenarioStmtKind::Pitch(fields) => self.merge("pitch", fields, |flat| &mut flat.pitch),
             ScenarioStmtKind::Agents(fields) => {
                 self.merge("agents", fields, |flat| &mut flat.agents);
             }

@@ -85,7 +85,7 @@ pub fn meeting(game: &Match, id: PlayerId, wish: Vec2) -> Option<(Vec2, f32)> {
         game.play.forecast.from(game.tick).filter(|(time_s, _)| *time_s >= soonest_s)
     {
         let place = point.truncate();
-        let out = crate::physics::left_pitch(point).is_some();
+        let out = crate::physics::left_pitch(&game.pitch, point).is_some();
         if !out && point.z >= HIGH_M {
             continue;
         }

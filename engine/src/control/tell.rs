@@ -13,7 +13,6 @@ use crate::state::player::{Intent, KickKind, KickPlan, Pose};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
-use setpiece_scenario::pitch::GOAL_HALF_WIDTH_M;
 use setpiece_scenario::vocabulary::Action;
 
 /// Nearer than this to their target, players stand, metres.
@@ -173,8 +172,9 @@ fn turn_for(game: &Match, id: PlayerId, plan: &KickPlan, held: u16) -> Option<Ac
     let unless_held = |direction: Action| (!sticky::holds(held, direction)).then_some(direction);
     match (plan.kind, plan.mate, plan.point) {
         (KickKind::Shot, ..) => {
-            let goal = shot::aim_of(from, side, None);
-            let between = shot::aim_of(from, side, now).distance(goal) < GOAL_HALF_WIDTH_M as f32;
+            let aim = |dir| shot::aim_of(&game.pitch, from, side, dir);
+            let goal = aim(None);
+            let between = aim(now).distance(goal) < game.pitch.goal_half_width() as f32;
             if between { None } else { Some(toward(goal - from)) }
         }
         (KickKind::Clear, ..) => unless_held(toward(plan.dir.unwrap_or(Vec2::new(side, 0.0)))),

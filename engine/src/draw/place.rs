@@ -5,8 +5,7 @@ use arrayvec::ArrayVec;
 use glam::Vec2;
 use setpiece_scenario::Scenario;
 use setpiece_scenario::pitch::{
-    BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, PLAYER_SPEED_MAX_MPS, PLAYERS_MAX, RIM_X_M, RIM_Y_M,
-    START_HEIGHT_MAX_M,
+    BALL_SPEED_MAX_MPS, BALL_SPIN_MAX, PLAYER_SPEED_MAX_MPS, PLAYERS_MAX, START_HEIGHT_MAX_M,
 };
 use setpiece_scenario::vocabulary::Team;
 
@@ -63,13 +62,15 @@ impl Drawer {
     pub(super) fn misplaced(&self, scenario: &Scenario, roster: &Roster) -> Option<PlaceFault> {
         let start = &scenario.start;
         let ball = self.point((start.ball.x, start.ball.y));
+        let (x, y) = self.pitch(scenario).rim();
+        let rim = Vec2::new(x as f32, y as f32);
         let number = |reg| self.optional(reg).is_finite();
         let ball_moves =
             [start.ball.velocity, start.ball.spin].map(|vector| self.vector(vector).is_finite());
         if !ball.is_finite() || !number(start.ball.height) || ball_moves.contains(&false) {
             return Some(PlaceFault::Number);
         }
-        if !on_pitch(ball) {
+        if !on_pitch(ball, rim) {
             return Some(PlaceFault::Ball);
         }
         if !self.is_ball_bounded(scenario) {
@@ -92,7 +93,7 @@ impl Drawer {
                 if !at.is_finite() || !velocity.is_finite() || !number(own.heading) {
                     return Some(PlaceFault::Number);
                 }
-                if !on_pitch(at) {
+                if !on_pitch(at, rim) {
                     return Some(PlaceFault::Player);
                 }
                 let speed = f64::from(velocity.length());
@@ -129,6 +130,6 @@ impl Drawer {
 }
 
 /// Whether a place is on the pitch or the rim around it.
-fn on_pitch(at: Vec2) -> bool {
-    at.x.abs() <= RIM_X_M as f32 && at.y.abs() <= RIM_Y_M as f32
+fn on_pitch(at: Vec2, rim: Vec2) -> bool {
+    at.abs().cmple(rim).all()
 }

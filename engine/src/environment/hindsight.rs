@@ -10,8 +10,9 @@ use setpiece_scenario::vocabulary::{Rule, Team};
 ///
 /// - From `past`: places, ball, everything under way (kicks, flights, a set piece), score, cards,
 ///   fatigue, the clock.
-/// - From `fresh`, the start that the scenario draws: rules, the world, limit, difficulty, roles
-///   and statistics, who controls which player, the random streams. Nothing is held.
+/// - From `fresh`, the start that the scenario draws: rules, the world, the pitch, limit,
+///   difficulty, roles and statistics, who controls which player, the random streams. Nothing is
+///   held.
 ///
 /// Steps start at 0. Ticks continue, because everything under way is timed by them.
 pub(super) fn begin_from(past: &Match, fresh: &Match) -> Match {
@@ -20,8 +21,9 @@ pub(super) fn begin_from(past: &Match, fresh: &Match) -> Match {
     game.step = 0;
     game.limit_steps = fresh.limit_steps;
     game.rules = fresh.rules;
-    if game.conditions != fresh.conditions {
+    if game.conditions != fresh.conditions || game.pitch != fresh.pitch {
         game.conditions = fresh.conditions;
+        game.pitch = fresh.pitch;
         forecast::renew(&mut game);
     }
     game.difficulty = fresh.difficulty;

@@ -11,10 +11,8 @@ use crate::state::player::Body;
 use crate::state::{AgentSlot, Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
-use setpiece_scenario::pitch::{
-    GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M, PLAYERS_MAX,
-};
-use setpiece_scenario::vocabulary::{GameMode, Role, Rule, StartKind, Stat, Team};
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::{GameMode, PitchMeasure, Role, Rule, StartKind, Stat, Team};
 
 /// Ticks before the ball of a start can be touched; the stream of chance picks one. Measured.
 const FIRST_TICKS: std::ops::Range<f32> = 18.0..42.0;
@@ -103,6 +101,7 @@ pub(crate) fn blank(drawn: &Drawn) -> Match {
         dead: false,
         rules: drawn.rules,
         conditions: drawn.conditions,
+        pitch: drawn.pitch,
         difficulty: drawn.difficulty,
         agents: drawn
             .agents
@@ -165,19 +164,21 @@ fn start_of(game: &mut Match, drawn: &Drawn, nearest: Team) {
     let team = drawn.taker.unwrap_or(nearest);
     let side = team.side() as f32;
     let ball = drawn.ball_pos.truncate();
-    let (half_x, half_y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
+    let half = game.half();
     let top = if ball.y < 0.0 { -1.0 } else { 1.0 };
     let (mode, spot) = match drawn.kind {
         StartKind::Open => return,
         StartKind::Kickoff => (GameMode::KickOff, Vec2::ZERO),
-        StartKind::Corner => (GameMode::Corner, Vec2::new(half_x * side, half_y * top)),
+        StartKind::Corner => (GameMode::Corner, Vec2::new(half.x * side, half.y * top)),
         StartKind::FreeKick => (GameMode::FreeKick, ball),
-        StartKind::ThrowIn => (GameMode::ThrowIn, Vec2::new(ball.x, half_y * top)),
+        StartKind::ThrowIn => (GameMode::ThrowIn, Vec2::new(ball.x, half.y * top)),
         StartKind::GoalKick => {
-            (GameMode::GoalKick, Vec2::new((GOAL_KICK_SPOT_M as f32 - half_x) * side, 0.0))
+            let spot = game.measure(PitchMeasure::GoalKickSpot);
+            (GameMode::GoalKick, Vec2::new((spot - half.x) * side, 0.0))
         }
         StartKind::Penalty => {
-            (GameMode::Penalty, Vec2::new((half_x - PENALTY_SPOT_M as f32) * side, 0.0))
+            let spot = game.measure(PitchMeasure::PenaltySpot);
+            (GameMode::Penalty, Vec2::new((half.x - spot) * side, 0.0))
         }
     };
     let placed: [(Vec2, Vec2); PLAYERS_MAX] =

@@ -5,10 +5,7 @@
 
 use crate::math;
 use glam::Vec2;
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 
-/// Half the pitch, metres.
-pub const HALF: Vec2 = Vec2::new(HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
 /// Beyond this distance from a point of attraction, players don't feel it, metres.
 const DRAW_M: f32 = 50.0;
 
@@ -35,8 +32,8 @@ pub struct TeamBlock {
 }
 
 impl TeamBlock {
-    /// The place of a slot on the pitch.
-    pub fn place(&self, slot: Vec2) -> Vec2 {
+    /// The place of a slot on a pitch; `half`: half the pitch along each axis, metres.
+    pub fn place(&self, slot: Vec2, half: Vec2) -> Vec2 {
         let [back, front] = self.depth;
         let middle = (1.0 - 1.2 * slot.x.abs()).max(0.0);
         let moved = math::mix(slot.x, self.midfield.0, math::ease(middle) * self.midfield.1);
@@ -53,7 +50,7 @@ impl TeamBlock {
         };
         let (y, keen) = self.towards_y;
         let near = 1.0 - ((y - plain.y) / (2.0 * self.half_width)).abs().min(1.0);
-        let place_y = math::mix(plain.y, y, near * (0.2 + 0.8 * y.abs() / HALF.y) * keen);
+        let place_y = math::mix(plain.y, y, near * (0.2 + 0.8 * y.abs() / half.y) * keen);
         self.drawn(plain, Vec2::new(place_x, place_y))
     }
 

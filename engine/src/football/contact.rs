@@ -5,7 +5,7 @@ use crate::state::event::{Event, Events};
 use crate::state::play::{Flight, Received};
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{BALL_RADIUS_M, HALF_LENGTH_M, TEAM_MAX};
+use setpiece_scenario::pitch::{BALL_RADIUS_M, TEAM_MAX};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
 
 /// Ticks until a player hit by the ball can play it.
@@ -181,7 +181,7 @@ pub fn shot_struck(game: &mut Match, events: &mut Events, by: PlayerId, from: Ve
 /// An event about a shot. Its place and length are those of the strike, whatever happened to the
 /// shot later.
 pub fn of_shot(game: &Match, kind: EventKind, shot: Flight) -> Event {
-    let goal = Vec2::new(HALF_LENGTH_M as f32 * shot.by.team().side() as f32, 0.0);
+    let goal = game.goal() * shot.by.team().side() as f32;
     let at = shot.from.extend(BALL_RADIUS_M as f32);
     report::event(game, kind).by(shot.by).at(at).length(goal.distance(shot.from))
 }

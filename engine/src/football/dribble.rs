@@ -6,7 +6,7 @@ use crate::state::event::Events;
 use crate::state::play::ticks_since;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M};
+use setpiece_scenario::PitchSize;
 
 /// A dribbling touch needs the ball this near to the foot, metres.
 const FOOT_M: f32 = 0.65;
@@ -91,12 +91,12 @@ fn carried_m(speed: f32) -> f32 {
     CARRIED_M[0] + (CARRIED_M[1] - CARRIED_M[0]) * sprints
 }
 
-/// Whether a player keeps the ball on the pitch. Agent-driven players do so until they are at the
-/// line themselves.
-pub(super) fn minds_lines(game: &Match, id: PlayerId) -> bool {
+/// The pitch that a player keeps the ball on. Agent-driven players do so until they are at the line
+/// themselves.
+pub(super) fn minds_lines(game: &Match, id: PlayerId) -> Option<PitchSize> {
     let pos = game.player(id).pos.abs();
-    let (x, y) = (HALF_LENGTH_M as f32 - AT_LINE_M, HALF_WIDTH_M as f32 - AT_LINE_M);
-    !game.is_driven(id) || (pos.x < x && pos.y < y)
+    let minds = !game.is_driven(id) || pos.cmplt(game.half() - AT_LINE_M).all();
+    minds.then_some(game.pitch)
 }
 
 /// Pushes the ball the way its player wants to run. False if it already rolls that way.
@@ -174,8 +174,8 @@ fn rest(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
 
 /// What a dribbler takes care of.
 pub(super) struct Care {
-    /// Whether to keep the ball inside the lines.
-    pub(super) lines: bool,
+    /// The pitch to keep the ball on, if they do.
+    pub(super) lines: Option<PitchSize>,
     /// Whether the ball lies still.
     pub(super) lies: bool,
 }
@@ -211,7 +211,7 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     let time = (0.12 + 0.6 * gait * gait * gait * gait).max(brakes);
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
     let free = ahead * (mean * (time - brakes) + carried_m(own)) + rest * (0.5 * brakes);
-    let cut = if care.lines { within_lines(player.pos, free) } else { None };
+    let cut = care.lines.and_then(|pitch| within_lines(&pitch, player.pos, free));
     if (care.lies || !turns) && cut.is_none() {
         // Whoever does not turn comes to the ball's line rather than the ball to theirs.
         let beside = (to_ball - ahead * to_ball.dot(ahead)) * BESIDE;
@@ -231,10 +231,10 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
 
 /// Shortens the way of a touch to stay on the pitch. None if it stays on the pitch, or leaves it
 /// only into a goal.
-fn within_lines(pos: Vec2, way: Vec2) -> Option<Vec2> {
-    let (x, y) = (HALF_LENGTH_M as f32 - LINE_CARE_M, HALF_WIDTH_M as f32 - LINE_CARE_M);
+fn within_lines(pitch: &PitchSize, pos: Vec2, way: Vec2) -> Option<Vec2> {
+    let [x, y] = [pitch.half_length(), pitch.half_width()].map(|half| half as f32 - LINE_CARE_M);
     let to = pos + way;
-    let x = if to.y.abs() < GOAL_HALF_WIDTH_M as f32 { x + 3.0 } else { x };
+    let x = if to.y.abs() < pitch.goal_half_width() as f32 { x + 3.0 } else { x };
     let cut = to.clamp(Vec2::new(-x, -y), Vec2::new(x, y));
     (cut != to).then(|| cut - pos)
 }

@@ -7,13 +7,14 @@ use crate::state::play::ticks_since;
 use crate::state::player::KickKind;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::HALF_LENGTH_M;
 use setpiece_scenario::vocabulary::Stat;
 
 /// A higher ball is headed, or left to come down, metres.
 pub(super) const CHEST_M: f32 = 1.25;
 /// How near a player must be to take a free ball, metres.
 const TRAP_M: f32 = 0.75;
+/// Whoever is this far in the own half heads the ball away, metres on the usual pitch; chosen.
+const OWN_THIRD_M: f64 = 20.0;
 /// How fast a trapped ball is drawn to the foot of a standing player, per second, and its top
 /// speed, m/s; fitted.
 const SETTLES_PER_S: f32 = 4.0;
@@ -150,8 +151,8 @@ fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
     let player = *game.player(id);
     let side = id.team().side() as f32;
     let skill = player.skill(Stat::Header);
-    let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
-    let own_third = player.pos.x * side < -20.0;
+    let goal = game.goal() * side;
+    let own_third = player.pos.x * side < -game.pitch.along(OWN_THIRD_M) as f32;
     let plan = player.body.kick;
     let aimed = match plan.map(|plan| plan.kind) {
         Some(KickKind::Shot) => Some((goal, 15.0)),

@@ -5,14 +5,16 @@ use crate::state::event::Events;
 use crate::state::play::Restart;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::{BOX_DEPTH_M, BOX_HALF_WIDTH_M, HALF_LENGTH_M, PENALTY_SPOT_M};
-use setpiece_scenario::vocabulary::{EventKind, GameMode, Role, Rule, Team};
+use setpiece_scenario::PitchSize;
+use setpiece_scenario::vocabulary::{EventKind, GameMode, PitchMeasure, Role, Rule, Team};
 use std::ops::Range;
 
 /// Severity above which a foul earns a yellow card.
 const YELLOW: f32 = 1.5;
 /// Severity above which a foul earns a red card.
 const RED: f32 = 1.87;
+/// A free kick is taken at least this far inside the goal lines and the side lines, metres.
+const INSIDE_M: Vec2 = Vec2::new(3.0, 1.5);
 /// The ball meets a player's arms at these heights, metres.
 const ARMS_M: Range<f32> = 0.6..1.5;
 /// The probability that a ball at this height hits an arm.
@@ -47,7 +49,7 @@ pub fn call_or_let_run(
 /// was an opponent's shot, which earns a yellow card.
 pub fn handball(game: &mut Match, events: &mut Events, by: PlayerId, shot: bool) {
     let (spot, height) = (game.ball.pos.truncate(), game.ball.pos.z);
-    let own_keeper = game.player(by).role == Role::GK && in_box(spot, by.team());
+    let own_keeper = game.player(by).role == Role::GK && in_box(&game.pitch, spot, by.team());
     if !game.rule(Rule::Handball) || game.dead || own_keeper || !ARMS_M.contains(&height) {
         return;
     }
@@ -65,7 +67,7 @@ pub fn handball(game: &mut Match, events: &mut Events, by: PlayerId, shot: bool)
 /// Calls a keeper who held the ball for too long: a free kick from the edge of the box.
 pub fn held_too_long(game: &mut Match, events: &mut Events, by: PlayerId) {
     let (team, pos) = (by.team().other(), game.player(by).pos);
-    let edge = (HALF_LENGTH_M - BOX_DEPTH_M) as f32 * team.side() as f32;
+    let edge = box_edge(&game.pitch) * team.side() as f32;
     game.play.hands = None;
     whistle::stop(game, events, GameMode::FreeKick, team, Vec2::new(edge, pos.y));
 }
@@ -95,19 +97,26 @@ fn note(
 /// The penalty or free kick for an offence at a place.
 fn award(game: &Match, spot: Vec2, offenders: Team) -> Restart {
     let team = offenders.other();
-    if in_box(spot, offenders) && game.rule(Rule::Penalties) {
-        let x = (HALF_LENGTH_M - PENALTY_SPOT_M) as f32 * team.side() as f32;
+    if in_box(&game.pitch, spot, offenders) && game.rule(Rule::Penalties) {
+        let ahead = game.pitch.measure(PitchMeasure::PenaltySpot);
+        let x = (game.pitch.half_length() - ahead) as f32 * team.side() as f32;
         Restart { mode: GameMode::Penalty, team, spot: Vec2::new(x, 0.0) }
     } else {
-        let spot = spot.clamp(Vec2::new(-52.0, -34.5), Vec2::new(52.0, 34.5));
+        let most = game.half() - INSIDE_M;
+        let spot = spot.clamp(-most, most);
         Restart { mode: GameMode::FreeKick, team, spot }
     }
 }
 
+/// How far the penalty boxes' edges are from the halfway line, metres.
+fn box_edge(pitch: &PitchSize) -> f32 {
+    (pitch.half_length() - pitch.measure(PitchMeasure::BoxDepth)) as f32
+}
+
 /// Whether a point is in a team's penalty box.
-pub fn in_box(point: Vec2, team: Team) -> bool {
-    let depth = (HALF_LENGTH_M - BOX_DEPTH_M) as f32;
-    -point.x * team.side() as f32 > depth && point.y.abs() < BOX_HALF_WIDTH_M as f32
+pub fn in_box(pitch: &PitchSize, point: Vec2, team: Team) -> bool {
+    let half_width = pitch.measure(PitchMeasure::BoxHalfWidth) as f32;
+    -point.x * team.side() as f32 > box_edge(pitch) && point.y.abs() < half_width
 }
 
 /// Shows a yellow card. A second one sends the player off, so the last player of a team doesn't get

@@ -1,35 +1,38 @@
 //! Keeps players out of posts and nets; the only way into a goal is through its mouth.
 
 use glam::Vec2;
-use setpiece_scenario::pitch::{GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
+use setpiece_scenario::PitchSize;
+use setpiece_scenario::pitch::GOAL_DEPTH_M;
 
 /// Least distance of a body's middle from a post or net, metres: half the breadth of both.
 const KEEP_M: f32 = 0.36;
+
 /// Sides and rear of the goal at +x, the ends of each, metres.
-const WALLS: [[Vec2; 2]; 3] = {
+fn walls(pitch: &PitchSize) -> [[Vec2; 2]; 3] {
+    let half = pitch.half_length();
     let (line, rear, post) =
-        (HALF_LENGTH_M as f32, (HALF_LENGTH_M + GOAL_DEPTH_M) as f32, GOAL_HALF_WIDTH_M as f32);
+        (half as f32, (half + GOAL_DEPTH_M) as f32, pitch.goal_half_width() as f32);
     [
         [Vec2::new(line, -post), Vec2::new(rear, -post)],
         [Vec2::new(line, post), Vec2::new(rear, post)],
         [Vec2::new(rear, -post), Vec2::new(rear, post)],
     ]
-};
+}
 
 /// Keeps a player's place and velocity out of the frames and nets of both goals.
 #[inline]
-pub fn keep_out(pos: &mut Vec2, vel: &mut Vec2) {
-    let reach = HALF_LENGTH_M as f32 - KEEP_M;
-    if pos.x.abs() >= reach && pos.y.abs() <= GOAL_HALF_WIDTH_M as f32 + KEEP_M {
-        keep_off_walls(pos, vel);
+pub fn keep_out(pitch: &PitchSize, pos: &mut Vec2, vel: &mut Vec2) {
+    let reach = pitch.half_length() as f32 - KEEP_M;
+    if pos.x.abs() >= reach && pos.y.abs() <= pitch.goal_half_width() as f32 + KEEP_M {
+        keep_off_walls(pitch, pos, vel);
     }
 }
 
 /// Keeps a player at a goal out of its frame and net.
-fn keep_off_walls(pos: &mut Vec2, vel: &mut Vec2) {
+fn keep_off_walls(pitch: &PitchSize, pos: &mut Vec2, vel: &mut Vec2) {
     // Both ends are alike: the one at -x is turned by 180°.
     let side = if pos.x < 0.0 { -1.0 } else { 1.0 };
-    for [from, to] in WALLS {
+    for [from, to] in walls(pitch) {
         let at = *pos * side;
         let along = to - from;
         let share = ((at - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
@@ -53,7 +56,7 @@ mod tests {
         let mut pos = from;
         for _ in 0..100 {
             pos += vel * 0.02;
-            keep_out(&mut pos, &mut { vel });
+            keep_out(&PitchSize::USUAL, &mut pos, &mut { vel });
         }
         pos
     }

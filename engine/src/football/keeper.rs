@@ -9,8 +9,9 @@ use crate::state::play::{Save, ticks_since};
 use crate::state::player::Pose;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
-use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Role, Rule, Stat, Team};
+use setpiece_scenario::vocabulary::{
+    EventKind, GameMode, PitchMeasure, Qualifier, Role, Rule, Stat,
+};
 
 /// How high the keeper's hands reach, metres.
 const HANDS_M: f32 = 2.55;
@@ -93,6 +94,8 @@ fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
     }
 }
 
+/// Balls this far above the crossbar still count as dangerous, metres; chosen.
+const OVER_BAR_M: f64 = 0.4;
 /// The share of the keeper's own speed that a parried ball takes along, besides three tenths of its
 /// own. (GRF's.)
 const PARRIED: f32 = 2.5;
@@ -117,31 +120,38 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     if speed < SHOT_MPS || game.ball.vel.x * side > -3.0 || ours {
         return Some(IDLE);
     }
-    let goal_x = -(HALF_LENGTH_M as f32) * side;
+    let goal_x = -game.goal().x * side;
     let player = *game.player(id);
     // Balls this far beside the goal still count as dangerous; a keeper who reads them better
     // ignores more (GRF's).
     let reading = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
-    let panic = GOAL_HALF_WIDTH_M as f32 * (1.02 + 0.5 * (1.0 - reading));
+    let panic = game.measure(PitchMeasure::GoalHalfWidth) * (1.02 + 0.5 * (1.0 - reading));
     let reaction = 0.15 + 0.12 * (1.0 - player.skill(Stat::Reaction));
     let since =
         game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
     let react_s = (reaction - since as f32 * 0.01).max(0.02);
     let path = || game.play.forecast.from(game.tick);
     let past = |point: Vec3| (point.x - goal_x) * side < 0.0;
+    let above = (game.pitch.goal_height() + OVER_BAR_M) as f32;
     // A forecast that ends before the goal line can't tell yet.
     let goal = path().position(|(_, point)| past(point))?;
-    let enters = path().nth(goal).is_some_and(|(_, point)| point.y.abs() < panic && point.z < 2.9);
+    let enters =
+        path().nth(goal).is_some_and(|(_, point)| point.y.abs() < panic && point.z < above);
     if !enters {
         return Some(IDLE);
     }
     let mut best: Option<(f32, f32, Vec3)> = None;
+    let mut weigh = |time_s: f32, point: Vec3| {
+        if foul::in_box(&game.pitch, point.truncate(), team) {
+            consider(&player, react_s, time_s, point, &mut best);
+        }
+    };
     let mut before: Option<Vec3> = None;
     for (time_s, point) in path().take(goal + 1) {
         if let Some(last) = before {
-            consider(&player, react_s, time_s - 0.025, (last + point) * 0.5, team, &mut best);
+            weigh(time_s - 0.025, (last + point) * 0.5);
         }
-        consider(&player, react_s, time_s, point, team, &mut best);
+        weigh(time_s, point);
         before = Some(point);
     }
     let Some((ratio, time_s, point)) = best else { return Some(IDLE) };
@@ -172,16 +182,15 @@ fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
     })
 }
 
-/// Weighs a point of the ball's path: which share of the keeper's reach it takes.
+/// Weighs a point of the ball's path in the box: which share of the keeper's reach it takes.
 fn consider(
     player: &crate::state::Player,
     react_s: f32,
     time_s: f32,
     point: Vec3,
-    team: Team,
     best: &mut Option<(f32, f32, Vec3)>,
 ) {
-    if !foul::in_box(point.truncate(), team) || point.z > HANDS_M {
+    if point.z > HANDS_M {
         return;
     }
     let spare = (time_s - react_s).max(0.0);
@@ -200,7 +209,7 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
         events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
         report::did(game, events, EventKind::Save, id, Some(shot.by));
     }
-    if holds && foul::in_box(game.ball.pos.truncate(), id.team()) {
+    if holds && foul::in_box(&game.pitch, game.ball.pos.truncate(), id.team()) {
         take(game, events, id);
         return;
     }
@@ -227,7 +236,7 @@ fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
     if near > PICK_M * PICK_M
         || ball.z > HANDS_M - 0.2
         || player.body.pose == Pose::Down
-        || !foul::in_box(flat, team)
+        || !foul::in_box(&game.pitch, flat, team)
     {
         return;
     }
@@ -276,11 +285,13 @@ pub fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
 /// Carries the ball in the hands.
 fn hold(game: &mut Match, id: PlayerId) {
     let side = id.team().side() as f32;
-    let player = &mut game.players[id.index()];
     // The keeper stays in the box and looks up the pitch.
-    let line = HALF_LENGTH_M as f32;
-    let x = (player.pos.x * side).clamp(-line + 0.6, -line + 15.5) * side;
-    let inside = Vec2::new(x, player.pos.y.clamp(-19.0, 19.0));
+    let line = game.goal().x;
+    let edge = game.measure(PitchMeasure::BoxDepth) - 1.0;
+    let aside = (game.pitch.measure(PitchMeasure::BoxHalfWidth) - 1.15) as f32;
+    let player = &mut game.players[id.index()];
+    let x = (player.pos.x * side).clamp(-line + 0.6, -line + edge) * side;
+    let inside = Vec2::new(x, player.pos.y.clamp(-aside, aside));
     player.pos += (inside - player.pos).clamp_length_max(0.08);
     player.body.facing = Vec2::new(side, 0.0);
     if player.body.pose == Pose::Diving {

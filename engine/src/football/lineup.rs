@@ -4,15 +4,16 @@
 //! 4-3-3. A set piece stretches that block over a part of the pitch and draws it towards the ball.
 //! All coordinates are in the team's own frame; the team attacks towards +x.
 
-use crate::football::block::{HALF, TeamBlock};
+use crate::football::block::TeamBlock;
 use crate::math;
 use crate::state::Match;
 use glam::Vec2;
-use setpiece_scenario::pitch::{BOX_DEPTH_M, CIRCLE_RADIUS_M, TEAM_MAX};
-use setpiece_scenario::vocabulary::{GameMode, Team};
+use setpiece_scenario::PitchSize;
+use setpiece_scenario::pitch::TEAM_MAX;
+use setpiece_scenario::vocabulary::{GameMode, PitchMeasure, Team};
 
-/// How far in front of the goal line a keeper waits, metres.
-const KEEPER_M: f32 = 0.02 * HALF.x;
+/// How far in front of the goal line a keeper waits, a share of half the pitch.
+const KEEPER: f32 = 0.02;
 /// How far everybody keeps from a penalty and its box, metres beyond the law's distance.
 const PENALTY_MARGIN_M: f32 = 0.5;
 
@@ -45,24 +46,27 @@ pub fn assign_slots(game: &mut Match) {
 }
 
 /// Where the keeper waits.
-pub fn keeper() -> Vec2 {
-    Vec2::new(KEEPER_M - HALF.x, 0.0)
+pub fn keeper(pitch: &PitchSize) -> Vec2 {
+    let half = pitch.half_length() as f32;
+    Vec2::new(KEEPER * half - half, 0.0)
 }
 
 /// Where an outfield player of a number waits.
 ///
 /// - `own`: whether their team takes it.
 /// - `ball`: where it lies, own frame.
-/// - `size`: how many players the team has.
-pub fn place(mode: GameMode, own: bool, ball: Vec2, number: usize, size: usize) -> Vec2 {
-    let layout = layout_of(mode, own, ball);
-    let place = layout.place(slot(number, size));
+/// - `slot`: that of the number; see [`slot()`].
+pub fn place(pitch: &PitchSize, mode: GameMode, own: bool, ball: Vec2, slot: Vec2) -> Vec2 {
+    let half = Vec2::new(pitch.half_length() as f32, pitch.half_width() as f32);
+    let [circle, depth] =
+        [PitchMeasure::Circle, PitchMeasure::BoxDepth].map(|of| pitch.measure(of) as f32);
+    let place = layout_of(half, mode, own, ball).place(slot, half);
     match mode {
-        GameMode::FreeKick if !own => keep_off(place, ball, CIRCLE_RADIUS_M as f32),
+        GameMode::FreeKick if !own => keep_off(place, ball, circle),
         GameMode::Penalty => {
-            let line = HALF.x - BOX_DEPTH_M as f32 - PENALTY_MARGIN_M;
+            let line = half.x - depth - PENALTY_MARGIN_M;
             let x = math::sign_or(ball.x, 1.0) * (place.x * math::sign_or(ball.x, 1.0)).min(line);
-            keep_off(Vec2::new(x, place.y), ball, CIRCLE_RADIUS_M as f32 + PENALTY_MARGIN_M)
+            keep_off(Vec2::new(x, place.y), ball, circle + PENALTY_MARGIN_M)
         }
         _ => place,
     }
@@ -101,13 +105,13 @@ fn keep_off(place: Vec2, ball: Vec2, least_m: f32) -> Vec2 {
     }
 }
 
-fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> TeamBlock {
-    let x = |x: f32| x.clamp(-HALF.x, HALF.x);
+fn layout_of(half: Vec2, mode: GameMode, own: bool, ball: Vec2) -> TeamBlock {
+    let x = |x: f32| x.clamp(-half.x, half.x);
     // 0 at the own goal line, 1 at the opponents'.
-    let up = ((ball.x / HALF.x).clamp(-1.0, 1.0) + 1.0) * 0.5;
+    let up = ((ball.x / half.x).clamp(-1.0, 1.0) + 1.0) * 0.5;
     let plain = TeamBlock {
-        depth: [-0.7 * HALF.x, 0.7 * HALF.x],
-        half_width: 0.7 * HALF.y,
+        depth: [-0.7 * half.x, 0.7 * half.x],
+        half_width: 0.7 * half.y,
         middle_y: 0.0,
         towards_x: (0.0, 0.0),
         towards_y: (0.0, 0.0),
@@ -116,24 +120,24 @@ fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> TeamBlock {
     };
     match mode {
         GameMode::Normal | GameMode::KickOff => plain,
-        GameMode::GoalKick if own => TeamBlock { depth: [-0.5 * HALF.x, 0.2 * HALF.x], ..plain },
-        GameMode::GoalKick => TeamBlock { depth: [-0.4 * HALF.x, 0.1 * HALF.x], ..plain },
+        GameMode::GoalKick if own => TeamBlock { depth: [-0.5 * half.x, 0.2 * half.x], ..plain },
+        GameMode::GoalKick => TeamBlock { depth: [-0.4 * half.x, 0.1 * half.x], ..plain },
         GameMode::Corner => {
             let towards = (ball * Vec2::new(0.95, 0.1), 0.9);
-            let corner = TeamBlock { half_width: 0.6 * HALF.y, towards, ..plain };
+            let corner = TeamBlock { half_width: 0.6 * half.y, towards, ..plain };
             let y = 0.1 * ball.y;
             if own {
-                let depth = [0.2 * HALF.x, 0.96 * HALF.x];
+                let depth = [0.2 * half.x, 0.96 * half.x];
                 let (towards_x, towards_y) = ((0.85 * depth[1], 0.7), (y, 0.7));
                 TeamBlock { depth, towards_x, towards_y, midfield: (0.8, 0.5), ..corner }
             } else {
-                let depth = [-0.98 * HALF.x, -0.5 * HALF.x];
+                let depth = [-0.98 * half.x, -0.5 * half.x];
                 let (towards_x, towards_y) = ((0.94 * depth[0], 0.8), (y, 0.9));
                 TeamBlock { depth, towards_x, towards_y, midfield: (-0.8, 0.7), ..corner }
             }
         }
         GameMode::ThrowIn => {
-            let half_width = 0.75 * HALF.y;
+            let half_width = 0.75 * half.y;
             let near =
                 TeamBlock { half_width, middle_y: 0.25 * ball.y, towards: (ball, 0.7), ..plain };
             let back = x(ball.x - 30.0);
@@ -149,14 +153,14 @@ fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> TeamBlock {
             let around = TeamBlock { towards: (ball, 0.4), ..plain };
             if own {
                 TeamBlock {
-                    depth: [HALF.x * 0.7 * (up - 1.0), HALF.x * (0.3 + 0.7 * up)],
+                    depth: [half.x * 0.7 * (up - 1.0), half.x * (0.3 + 0.7 * up)],
                     towards_x: (x(ball.x + 10.0), 0.5 + 0.2 * up),
                     towards_y: (0.4 * ball.y, 0.6 + 0.2 * up),
                     ..around
                 }
             } else {
                 TeamBlock {
-                    depth: [-HALF.x * (1.0 - 0.6 * up), x(-HALF.x * (0.5 - 0.8 * up))],
+                    depth: [-half.x * (1.0 - 0.6 * up), x(-half.x * (0.5 - 0.8 * up))],
                     towards_x: (x(ball.x - 20.0), 0.6 - 0.4 * up),
                     towards_y: (0.2 * ball.y, 0.8 - 0.4 * up),
                     ..around
@@ -164,7 +168,7 @@ fn layout_of(mode: GameMode, own: bool, ball: Vec2) -> TeamBlock {
             }
         }
         GameMode::Penalty => {
-            let wide = TeamBlock { half_width: 0.8 * HALF.y, ..plain };
+            let wide = TeamBlock { half_width: 0.8 * half.y, ..plain };
             if own {
                 let depth = [x(ball.x - 50.0), x(ball.x + 10.0)];
                 TeamBlock { depth, towards_x: (ball.x, 0.6), towards_y: (0.0, 0.8), ..wide }

@@ -11,7 +11,7 @@ use crate::state::player::{Intent, Pose};
 use crate::state::{Match, Player, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::Vec2;
-use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
+use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::Stat;
 
 /// Acceleration with the ball relative to without it. Fitted to the starts of the Academy.
@@ -40,7 +40,7 @@ pub fn advance(game: &mut Match) -> Busy {
     let mut busy = Busy::default();
     let ball = game.ball.pos.truncate();
     let ball_vel = game.ball.vel.truncate();
-    let owner = game.owner;
+    let (owner, rim) = (game.owner, game.rim());
     // Until the ball of a start can be touched, a player who has reached it stands there.
     let starts = game.last_touch.is_none();
     let now = game.tick as i32;
@@ -61,19 +61,19 @@ pub fn advance(game: &mut Match) -> Busy {
                 busy.slides.add(id);
                 slow_down(player, 7.0);
                 pass_time(player, Pose::Down, 35);
-                go(player);
+                go(player, rim);
                 continue;
             }
             Pose::Stumbling { to_dmps } => {
                 stumble(player, f32::from(to_dmps) * 0.1);
                 pass_time(player, Pose::Up, 0);
-                go(player);
+                go(player, rim);
                 continue;
             }
             Pose::Down | Pose::Diving => {
                 slow_down(player, 12.0);
                 pass_time(player, Pose::Up, 0);
-                go(player);
+                go(player, rim);
                 continue;
             }
         }
@@ -98,7 +98,7 @@ pub fn advance(game: &mut Match) -> Busy {
         take(four, at, player, has_ball, now);
         runners.push(id);
     }
-    stride::run(&mut fours, ball.x, ball.y);
+    stride::run(&mut fours, ball, rim);
     for (i, id) in runners.into_iter().enumerate() {
         give(&fours[i / WIDTH], i % WIDTH, &mut game.players[id.index()]);
     }
@@ -144,8 +144,7 @@ fn give(four: &Four, at: usize, player: &mut Player) {
 }
 
 /// Moves a player along their velocity, no further than the rim.
-fn go(player: &mut Player) {
-    let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
+fn go(player: &mut Player, rim: Vec2) {
     player.pos = (player.pos + player.vel * DT).clamp(-rim, rim);
 }
 

@@ -7,6 +7,10 @@ use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Rule, Team};
 
+/// A free kick for offside is taken at least this far inside the goal lines and the side lines,
+/// metres.
+const INSIDE_M: Vec2 = Vec2::new(3.0, 2.0);
+
 /// The attackers' offside line, x in their own frame, metres: the second-last opponent or the ball,
 /// never in their own half.
 pub fn line(game: &Match, attackers: Team) -> f32 {
@@ -57,7 +61,8 @@ pub fn caught(game: &mut Match, events: &mut Events, by: PlayerId) -> bool {
         return true;
     }
     report::did(game, events, EventKind::Offside, by, None);
-    let spot = game.player(by).pos.clamp(Vec2::new(-52.0, -34.0), Vec2::new(52.0, 34.0));
+    let most = game.half() - INSIDE_M;
+    let spot = game.player(by).pos.clamp(-most, most);
     whistle::stop(game, events, GameMode::FreeKick, by.team().other(), spot);
     true
 }

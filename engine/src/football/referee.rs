@@ -5,20 +5,19 @@ use crate::physics::{self, Line};
 use crate::state::event::Events;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M};
-use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Team};
+use setpiece_scenario::vocabulary::{EventKind, GameMode, PitchMeasure, Qualifier, Team};
 
-/// A throw-in is taken at most this far from the middle, along x, metres. (GRF's.)
-const THROW_IN_X_M: f32 = 54.4;
+/// A throw-in is taken at least this far from a goal line, metres. (GRF's.)
+const THROW_IN_X_M: f64 = 0.6;
 
 /// Judges a tick in which the ball came from `before`.
 pub fn judge(game: &mut Match, events: &mut Events, before: Vec3) {
     if game.dead || game.play.set_piece.is_some() {
         return;
     }
-    if let Some(goal_of) = physics::crossed_goal_line(before, game.ball.pos) {
+    if let Some(goal_of) = physics::crossed_goal_line(&game.pitch, before, game.ball.pos) {
         goal(game, events, goal_of.other());
-    } else if let Some(line) = physics::left_pitch(game.ball.pos)
+    } else if let Some(line) = physics::left_pitch(&game.pitch, game.ball.pos)
         && !advantage::called_back(game, events)
     {
         out(game, events, line);
@@ -60,7 +59,7 @@ fn goal(game: &mut Match, events: &mut Events, scorers: Team) {
 
 /// Handles a ball that left the pitch.
 fn out(game: &mut Match, events: &mut Events, line: Line) {
-    let ball = game.ball.pos;
+    let (ball, half) = (game.ball.pos, game.half());
     if let Some(shot) = game.play.shot.take() {
         events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OffTarget));
     }
@@ -73,18 +72,17 @@ fn out(game: &mut Match, events: &mut Events, line: Line) {
     if let Line::Goal(defenders) = line {
         if last == defenders {
             let top = if ball.y < 0.0 { -1.0 } else { 1.0 };
-            let corner =
-                Vec2::new(HALF_LENGTH_M as f32 * ball.x.signum(), HALF_WIDTH_M as f32 * top);
+            let corner = Vec2::new(half.x * ball.x.signum(), half.y * top);
             whistle::stop(game, events, GameMode::Corner, defenders.other(), corner);
         } else {
-            let spot = Vec2::new((HALF_LENGTH_M - GOAL_KICK_SPOT_M) as f32 * ball.x.signum(), 0.0);
+            let ahead = game.pitch.measure(PitchMeasure::GoalKickSpot);
+            let spot = (game.pitch.half_length() - ahead) as f32 * ball.x.signum();
+            let spot = Vec2::new(spot, 0.0);
             whistle::stop(game, events, GameMode::GoalKick, defenders, spot);
         }
     } else {
-        let spot = Vec2::new(
-            ball.x.clamp(-THROW_IN_X_M, THROW_IN_X_M),
-            HALF_WIDTH_M as f32 * ball.y.signum(),
-        );
+        let most = (game.pitch.half_length() - THROW_IN_X_M) as f32;
+        let spot = Vec2::new(ball.x.clamp(-most, most), half.y * ball.y.signum());
         whistle::stop(game, events, GameMode::ThrowIn, last.other(), spot);
     }
 }

@@ -3,13 +3,12 @@
 use crate::state::event::{Event, Events};
 use crate::state::{Match, PlayerId};
 use glam::Vec3;
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
 use setpiece_scenario::vocabulary::EventKind;
 
 /// An event that happens now, at the ball. If the ball has left the pitch, its place is on the line
 /// it crossed.
 pub fn event(game: &Match, kind: EventKind) -> Event {
-    let (x, y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
+    let (x, y) = game.half().into();
     Event {
         tick: game.tick,
         kind,

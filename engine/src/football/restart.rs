@@ -7,8 +7,8 @@ use crate::state::play::{Restart, SetPiece};
 use crate::state::player::{Intent, NEVER, Pose};
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{BALL_RADIUS_M, CIRCLE_RADIUS_M};
-use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
+use setpiece_scenario::pitch::BALL_RADIUS_M;
+use setpiece_scenario::vocabulary::{GameMode, PitchMeasure, Role, Rule, Team};
 
 /// Places everyone for the pending restart, and ends the stop.
 pub fn apply(game: &mut Match) {
@@ -91,12 +91,12 @@ fn kick_off(game: &mut Match, team: Team, spot: Vec2) {
 
 /// Moves opponents of the team that kicks off out of the circle.
 fn clear_circle(game: &mut Match, team: Team, spot: Vec2) {
-    let side = team.other().side() as f32;
+    let (side, radius) = (team.other().side() as f32, game.measure(PitchMeasure::Circle));
     for (i, player) in game.players.iter_mut().enumerate() {
-        if PlayerId(i as u8).team() != team && player.pos.distance(spot) < CIRCLE_RADIUS_M as f32 {
+        if PlayerId(i as u8).team() != team && player.pos.distance(spot) < radius {
             let away = (player.pos - spot).normalize_or(Vec2::new(-side, 0.0));
             let away = if away.x * side > 0.0 { Vec2::new(-side, 0.0) } else { away };
-            player.pos = spot + away * (CIRCLE_RADIUS_M as f32 + 0.3);
+            player.pos = spot + away * (radius + 0.3);
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::state::player::{Aim, Pose};
 use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;
-use setpiece_scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
+use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::Stat;
 use wide::f32x4;
 
@@ -80,14 +80,14 @@ pub fn separate(game: &mut Match, events: &mut Events) {
             meet(game, events, [ids[i], ids[j]], first);
         }
     }
-    let (x, y) = (RIM_X_M as f32, RIM_Y_M as f32);
+    let (pitch, rim) = (game.pitch, game.rim());
     for id in ids {
         let player = &mut game.players[id.index()];
         if !player.active {
             continue;
         }
-        player.pos = player.pos.clamp(Vec2::new(-x, -y), Vec2::new(x, y));
-        frame::keep_out(&mut player.pos, &mut player.vel);
+        player.pos = player.pos.clamp(-rim, rim);
+        frame::keep_out(&pitch, &mut player.pos, &mut player.vel);
     }
 }
 

@@ -5,13 +5,9 @@ use crate::state::play::{Restart, SetPiece};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::Ai;
-use setpiece_scenario::pitch::{
-    CIRCLE_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, PLAYERS_MAX, RIM_X_M, RIM_Y_M,
-};
-use setpiece_scenario::vocabulary::{GameMode, Role, Rule, Team};
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::{GameMode, PitchMeasure, Role, Rule, Team};
 
-/// How far a wall stands from the ball, metres. Laws.
-const WALL_M: f32 = CIRCLE_RADIUS_M as f32;
 /// How far opponents keep from a throw-in, metres. Laws.
 const THROW_IN_M: f32 = 2.0;
 /// A wall is built for free kicks nearer to goal than this, metres (GRF's).
@@ -88,6 +84,7 @@ pub fn arrange(game: &mut Match, restart: Restart) -> Option<PlayerId> {
 /// Sends everyone to the place of their number.
 fn line_up(game: &mut Match, restart: Restart) {
     let sizes = [Team::Left, Team::Right].map(|team| game.team(team).count());
+    let pitch = game.pitch;
     for i in 0..PLAYERS_MAX {
         let id = PlayerId(i as u8);
         let side = id.team().side() as f32;
@@ -96,13 +93,13 @@ fn line_up(game: &mut Match, restart: Restart) {
             let own = id.team() == restart.team;
             player.pos = side
                 * match player.role {
-                    Role::GK => lineup::keeper(),
+                    Role::GK => lineup::keeper(&pitch),
                     _ => lineup::place(
+                        &pitch,
                         restart.mode,
                         own,
                         side * restart.spot,
-                        id.in_team(),
-                        sizes[id.team().index()],
+                        lineup::slot(id.in_team(), sizes[id.team().index()]),
                     ),
                 };
         }
@@ -123,6 +120,7 @@ fn keep_onside(game: &mut Match, team: Team) {
 /// Moves apart players who would overlap. The taker and keepers stay. Returns whether anybody was
 /// moved.
 pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
+    let rim = game.rim();
     for pass in 0..SPREAD_PASSES {
         let mut moved = false;
         for a in game.order() {
@@ -140,7 +138,7 @@ pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
                 } else {
                     Vec2::new(0.0, a.team().side() as f32)
                 };
-                game.players[b.index()].pos = beside(first.pos, away * (APART_M + 0.01));
+                game.players[b.index()].pos = beside(first.pos, away * (APART_M + 0.01), rim);
                 moved = true;
             }
         }
@@ -153,8 +151,7 @@ pub fn spread_out(game: &mut Match, taker: PlayerId) -> bool {
 
 /// The place at this distance from another; on the other side of it if that place is beyond the
 /// rim.
-fn beside(of: Vec2, away: Vec2) -> Vec2 {
-    let rim = Vec2::new(RIM_X_M as f32, RIM_Y_M as f32);
+fn beside(of: Vec2, away: Vec2, rim: Vec2) -> Vec2 {
     let outside = (of + away).abs().cmpgt(rim);
     (of + Vec2::select(outside, -away, away)).clamp(-rim, rim)
 }
@@ -162,10 +159,12 @@ fn beside(of: Vec2, away: Vec2) -> Vec2 {
 /// Builds a wall of the three defenders nearest to the ball, as close to a free kick near their
 /// goal as allowed.
 fn build_wall(game: &mut Match, restart: Restart) {
-    let goal = Vec2::new(HALF_LENGTH_M as f32 * restart.team.side() as f32, 0.0);
+    let goal = game.goal() * restart.team.side() as f32;
+    // Laws.
+    let wall_m = game.measure(PitchMeasure::Circle);
     let way = goal - restart.spot;
     let distance = way.length();
-    if restart.mode != GameMode::FreeKick || !(WALL_M + 1.5..WALL_WITHIN_M).contains(&distance) {
+    if restart.mode != GameMode::FreeKick || !(wall_m + 1.5..WALL_WITHIN_M).contains(&distance) {
         return;
     }
     let ahead = way / distance;
@@ -183,15 +182,16 @@ fn build_wall(game: &mut Match, restart: Restart) {
         let Some((_, id)) = best else { return };
         taken |= 1 << id.0;
         let way = (ahead + aside * (place * WALL_SPACING)).normalize_or(ahead);
-        game.players[id.index()].pos = restart.spot + way * WALL_M;
+        game.players[id.index()].pos = restart.spot + way * wall_m;
     }
 }
 
 /// Keeps opponents at the legal distance.
 fn keep_distance(game: &mut Match, restart: Restart) {
-    let least = if restart.mode == GameMode::ThrowIn { THROW_IN_M } else { CIRCLE_RADIUS_M as f32 };
+    let circle = game.measure(PitchMeasure::Circle);
+    let least = if restart.mode == GameMode::ThrowIn { THROW_IN_M } else { circle };
     let inward = (-restart.spot).normalize_or(Vec2::new(-(restart.team.side() as f32), 0.0));
-    let (x, y) = (HALF_LENGTH_M as f32, HALF_WIDTH_M as f32);
+    let (x, y) = game.half().into();
     for (i, player) in game.players.iter_mut().enumerate() {
         let own = PlayerId(i as u8).team() == restart.team;
         let away = player.pos - restart.spot;

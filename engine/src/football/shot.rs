@@ -7,7 +7,7 @@ use crate::math;
 use crate::state::player::KickPlan;
 use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
+use setpiece_scenario::PitchSize;
 use setpiece_scenario::vocabulary::Stat;
 
 /// Backspin of a shot, rad/s. At 25 m/s it falls with 8 m/s², or with 11.5 m/s² if the spin is
@@ -51,7 +51,8 @@ pub fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
     let player = game.player(id);
     let dir = plan.dir.unwrap_or(player.body.facing);
     plan.point.unwrap_or_else(|| {
-        aim_of(player.pos + player.vel * AHEAD_S, id.team().side() as f32, Some(dir))
+        let from = player.pos + player.vel * AHEAD_S;
+        aim_of(&game.pitch, from, id.team().side() as f32, Some(dir))
     })
 }
 
@@ -67,26 +68,27 @@ pub fn runs(player: &Player) -> bool {
 }
 
 /// The middle of the goal that a side attacks.
-fn goal_of(side: f32) -> Vec2 {
-    Vec2::new(HALF_LENGTH_M as f32 * side, 0.0)
+fn goal_of(pitch: &PitchSize, side: f32) -> Vec2 {
+    Vec2::new(pitch.half_length() as f32 * side, 0.0)
 }
 
 /// The angle from the way to the goal's middle to a world direction, radians.
-fn off_goal(from: Vec2, side: f32, dir: Vec2) -> f32 {
-    let way = goal_of(side) - from;
+fn off_goal(goal: Vec2, from: Vec2, dir: Vec2) -> f32 {
+    let way = goal - from;
     math::atan2(way.perp_dot(dir), way.dot(dir))
 }
 
 /// The point of the goal mouth that a held world direction means, whatever the keeper does. The
 /// further it points off the middle, the closer it is to the post. (GRF's.)
-pub fn aim_of(from: Vec2, side: f32, dir: Option<Vec2>) -> Vec2 {
-    let goal = goal_of(side);
+pub fn aim_of(pitch: &PitchSize, from: Vec2, side: f32, dir: Option<Vec2>) -> Vec2 {
+    let goal = goal_of(pitch, side);
     let Some(dir) = dir else { return goal };
     // The sign of the angle gives the side of the goal in the shooter's own view.
-    let angle = off_goal(from, side, dir);
+    let angle = off_goal(goal, from, dir);
     let turn = (2.0 * angle / std::f32::consts::PI).clamp(-1.0, 1.0);
     let shift = libm::powf(turn.abs(), 0.7) * math::sign_or(turn, 1.0);
-    Vec2::new(goal.x, shift * math::sign_or(goal.x - from.x, side) * GOAL_HALF_WIDTH_M as f32 * 0.9)
+    let post = pitch.goal_half_width() as f32;
+    Vec2::new(goal.x, shift * math::sign_or(goal.x - from.x, side) * post * 0.9)
 }
 
 /// A smooth step from 0 to 1, mixed with a linear one.

@@ -5,7 +5,7 @@
 
 use crate::football::pace::{ARRIVAL_PER_S, DT};
 use crate::rows::{Lane, WIDTH};
-use setpiece_scenario::pitch::{RIM_X_M, RIM_Y_M};
+use glam::Vec2;
 use wide::f32x4;
 
 /// Braking, m/s².
@@ -71,17 +71,17 @@ pub(super) struct Four {
 /// Brings every velocity closer to its wish, moves everyone along it, and turns them.
 ///
 /// All fours do one act before the next: acts of different fours overlap in the processor, while
-/// acts of one four wait for each other.
-pub(super) fn run(fours: &mut [Four], ball_x: f32, ball_y: f32) {
+/// acts of one four wait for each other. `rim`: how far they may go along each axis, metres.
+pub(super) fn run(fours: &mut [Four], ball: Vec2, rim: Vec2) {
     for four in fours.iter_mut() {
-        four.wish();
+        four.wish(rim);
     }
     for four in fours.iter_mut() {
         four.steer();
     }
     for four in fours.iter_mut() {
-        four.go();
-        four.turn(ball_x, ball_y);
+        four.go(rim);
+        four.turn(ball.x, ball.y);
     }
 }
 
@@ -110,10 +110,10 @@ impl Four {
 
     /// Turns ways to points into velocities that stop there, and turns back wishes that lead beyond
     /// the rim.
-    fn wish(&mut self) {
+    fn wish(&mut self, rim: Vec2) {
         let (none, there) = (f32x4::ZERO, f32x4::splat(THERE_M));
-        let rim_x = f32x4::splat(RIM_X_M as f32 - RIM_CARE_M);
-        let rim_y = f32x4::splat(RIM_Y_M as f32 - RIM_CARE_M);
+        let rim_x = f32x4::splat(rim.x - RIM_CARE_M);
+        let rim_y = f32x4::splat(rim.y - RIM_CARE_M);
         let (x, y, pace) =
             (f32x4::new(self.want_x), f32x4::new(self.want_y), f32x4::new(self.pace));
         let distance = (x * x + y * y).sqrt();
@@ -194,8 +194,8 @@ impl Four {
     }
 
     /// Moves everyone along their velocity, no further than the rim.
-    fn go(&mut self) {
-        let (rim_x, rim_y) = (f32x4::splat(RIM_X_M as f32), f32x4::splat(RIM_Y_M as f32));
+    fn go(&mut self, rim: Vec2) {
+        let (rim_x, rim_y) = (f32x4::splat(rim.x), f32x4::splat(rim.y));
         let (dt, aside) = (f32x4::splat(DT), f32x4::splat(DT * ASIDE));
         let (vx, vy) = (f32x4::new(self.vx), f32x4::new(self.vy));
         let x = f32x4::new(self.x) + vx * dt + vy * aside;

@@ -11,8 +11,8 @@ use crate::state::play::ticks_since;
 use crate::state::{Match, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
-use setpiece_scenario::pitch::{CIRCLE_RADIUS_M, PLAYERS_MAX};
-use setpiece_scenario::vocabulary::{EventKind, Role, Rule};
+use setpiece_scenario::pitch::PLAYERS_MAX;
+use setpiece_scenario::vocabulary::{EventKind, PitchMeasure, Role, Rule};
 
 /// How long opponents keep out of the circle while the kick-off isn't taken, ticks: as long as a
 /// set piece waits for an agent.
@@ -67,7 +67,8 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch, near:
     }
     let bodies = near_bodies(game, near);
     let full = game.rule(Rule::Physics);
-    match physics::advance_ball(&mut game.ball, &game.conditions, &bodies, full, scratch) {
+    let (pitch, conditions) = (&game.pitch, &game.conditions);
+    match physics::advance_ball(&mut game.ball, pitch, conditions, &bodies, full, scratch) {
         Some(Contact::Woodwork) => {
             let event = report::event(game, EventKind::Woodwork);
             events.push(match game.last_touch {
@@ -108,7 +109,8 @@ fn near_bodies(game: &Match, near: Squad) -> ArrayVec<BallObstacle, BODIES_MAX> 
         // In the box a keeper meets the ball with the hands or not at all.
         let planned = game.play.save[id.team().index()]
             .is_some_and(|save| !save.reaches || save.at_tick != u32::MAX);
-        let by_hand = planned && player.role == Role::GK && foul::in_box(flat, id.team());
+        let by_hand =
+            planned && player.role == Role::GK && foul::in_box(&game.pitch, flat, id.team());
         if !lately && !by_hand {
             bodies.push(BallObstacle {
                 id: id.0,
@@ -130,7 +132,7 @@ fn keep_circle(game: &mut Match) {
         whistle::end_kick_off(game);
         return;
     }
-    let radius = CIRCLE_RADIUS_M as f32;
+    let radius = game.measure(PitchMeasure::Circle);
     game.each(game.squad.of(team.other()), |player| {
         if player.pos.length() < radius {
             player.pos =

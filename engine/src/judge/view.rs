@@ -4,7 +4,7 @@
 use crate::snapshot::{Archive, SnapshotError};
 use crate::state::{Match, PlayerId};
 pub use setpiece_scenario::operators::{player_index, team_of_number};
-use setpiece_scenario::pitch::{PLAYERS_MAX, STEPS_PER_S, TEAM_MAX};
+use setpiece_scenario::pitch::{HALF_LENGTH_M, PLAYERS_MAX, STEPS_PER_S, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Action, Field, GameMode, Owner, Role, StickyAction, Team};
 use setpiece_scenario::{Instr, Program, When};
 use std::ops::Range;
@@ -61,6 +61,8 @@ pub struct MatchView {
     pub step: u32,
     /// The episode is truncated after this many steps.
     pub limit_steps: Option<u32>,
+    /// The goal lines are at x = ± this, metres.
+    pub half_length_m: f32,
 }
 
 impl MatchView {
@@ -89,6 +91,7 @@ impl MatchView {
         dead: false,
         step: 0,
         limit_steps: None,
+        half_length_m: HALF_LENGTH_M as f32,
     };
 
     /// The view of a match's current state.
@@ -112,7 +115,7 @@ impl MatchView {
         match memory {
             ViewMemory::Nothing => Ok(()),
             ViewMemory::ButPlayers => {
-                // The limit is the match's, which a reset has shown.
+                // The limit and the pitch are the match's, which a reset has shown.
                 let MatchView {
                     ball,
                     ball_vel,
@@ -124,6 +127,7 @@ impl MatchView {
                     dead,
                     step,
                     limit_steps,
+                    half_length_m,
                 } = *self;
                 let mut kept = (ball, ball_vel, owner, possession, score, mode, dead, step);
                 archive.value(name, &mut kept)?;
@@ -139,6 +143,7 @@ impl MatchView {
                     dead,
                     step,
                     limit_steps,
+                    half_length_m,
                 };
                 Ok(())
             }
@@ -165,6 +170,7 @@ impl MatchView {
         self.dead = game.dead;
         self.step = game.step;
         self.limit_steps = game.limit_steps;
+        self.half_length_m = game.goal().x;
     }
 
     /// The players on the pitch of a team, or of both, by id.

@@ -6,8 +6,7 @@ use super::{ObserveError, check_size, slot};
 use crate::football::offside;
 use crate::state::{Match, Player, PlayerId};
 use arrayvec::ArrayVec;
-use glam::Vec2;
-use setpiece_scenario::pitch::{HALF_LENGTH_M, TEAM_MAX, X_SCALE_M};
+use setpiece_scenario::pitch::{TEAM_MAX, X_SCALE_M};
 use setpiece_scenario::vocabulary::{Role, StickyAction};
 
 /// The unit of speeds, m/s.
@@ -39,7 +38,7 @@ pub fn egocentric(
     let side = slot.team.side() as f32;
     let mut pen = NumberPen { out, at: 0 };
     let unit = X_SCALE_M as f32;
-    let goal = Vec2::new(HALF_LENGTH_M as f32, 0.0);
+    let goal = game.goal();
     let own = me.pos * side;
 
     let [x, y] = frame.place_of(me.pos);

@@ -7,6 +7,7 @@ use super::predict::places;
 use super::{Ball, Conditions, left_pitch};
 use crate::rows::WIDTH;
 use glam::Vec3;
+use setpiece_scenario::PitchSize;
 use std::ops::Range;
 use wide::f32x4;
 
@@ -43,12 +44,12 @@ impl Forecast {
     }
 
     /// Computes the path of a ball from a tick on.
-    pub fn of(ball: &Ball, conditions: &Conditions, tick: u32) -> Forecast {
+    pub fn of(ball: &Ball, pitch: &PitchSize, conditions: &Conditions, tick: u32) -> Forecast {
         let mut forecast = Forecast { from_tick: tick, ..Forecast::blank() };
         let points = std::iter::once(ball.pos).chain(places(ball, conditions, SPACING_TICKS));
         for (i, point) in (0..POINTS).zip(points) {
             (forecast.x[i], forecast.y[i], forecast.z[i]) = (point.x, point.y, point.z);
-            forecast.off |= u64::from(left_pitch(point).is_some()) << i;
+            forecast.off |= u64::from(left_pitch(pitch, point).is_some()) << i;
         }
         let steps = forecast.x.windows(2).zip(forecast.y.windows(2));
         let squared = |(x, y): (&[f32], &[f32])| (x[1] - x[0]).powi(2) + (y[1] - y[0]).powi(2);

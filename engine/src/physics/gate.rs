@@ -4,14 +4,15 @@
 use super::Ball;
 use super::BallObstacle;
 use super::constants::{BALL_RADIUS, BODY_RADIUS, NEAR, TICK_S};
-use super::scene::{BODIES_MAX, GOAL_BOUNDS};
+use super::scene::{BODIES_MAX, goal_bounds};
 use arrayvec::ArrayVec;
 use glam::Vec2;
+use setpiece_scenario::PitchSize;
 
 /// Whether the ball, carried along its velocity for a tick, comes near the frame or net of a goal.
-pub(super) fn near_goal(ball: &Ball) -> bool {
+pub(super) fn near_goal(ball: &Ball, pitch: &PitchSize) -> bool {
     const MARGIN: f32 = BALL_RADIUS + NEAR;
-    let [low, high] = GOAL_BOUNDS;
+    let [low, high] = goal_bounds(pitch);
     let to = ball.pos + ball.vel * TICK_S;
     // Both goals at once: what matters is the distance from the middle.
     let x_far = ball.pos.x.abs().max(to.x.abs());

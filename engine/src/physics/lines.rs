@@ -2,16 +2,21 @@
 
 use super::constants::BALL_RADIUS;
 use glam::Vec3;
-use setpiece_scenario::pitch;
+use setpiece_scenario::PitchSize;
+use setpiece_scenario::pitch::LINE_HALF_WIDTH_M;
 use setpiece_scenario::vocabulary::Team;
 
-/// Beyond this |x| of its centre the whole ball is over the goal line, m: 55.17.
-pub const OUT_X: f32 = pitch::HALF_LENGTH_M as f32 + pitch::LINE_HALF_WIDTH_M as f32 + BALL_RADIUS;
-/// Beyond this |y| of its centre the whole ball is over a side line, m: 36.17.
-pub const OUT_Y: f32 = pitch::HALF_WIDTH_M as f32 + pitch::LINE_HALF_WIDTH_M as f32 + BALL_RADIUS;
+/// Beyond this |x| of its centre the whole ball is over the goal line, m: 55.17 usually.
+#[inline]
+pub const fn out_x(pitch: &PitchSize) -> f32 {
+    pitch.half_length() as f32 + LINE_HALF_WIDTH_M as f32 + BALL_RADIUS
+}
 
-const MOUTH_HALF: f32 = pitch::GOAL_HALF_WIDTH_M as f32;
-const MOUTH_HEIGHT: f32 = pitch::GOAL_HEIGHT_M as f32;
+/// Beyond this |y| of its centre the whole ball is over a side line, m: 36.17 usually.
+#[inline]
+pub const fn out_y(pitch: &PitchSize) -> f32 {
+    pitch.half_width() as f32 + LINE_HALF_WIDTH_M as f32 + BALL_RADIUS
+}
 
 /// A line that the ball is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,22 +29,24 @@ pub enum Line {
 
 /// Whose goal the whole ball entered between two ticks. Its path must cross the far edge of the
 /// line under the bar and between the posts.
-pub fn crossed_goal_line(before: Vec3, after: Vec3) -> Option<Team> {
+pub fn crossed_goal_line(pitch: &PitchSize, before: Vec3, after: Vec3) -> Option<Team> {
+    let out_x = out_x(pitch);
     let team = if after.x > 0.0 { Team::Right } else { Team::Left };
     let (from, to) = (before.x.abs(), after.x.abs());
-    if to <= OUT_X || from > OUT_X || before.x * after.x < 0.0 {
+    if to <= out_x || from > out_x || before.x * after.x < 0.0 {
         return None;
     }
-    let at = before.lerp(after, (OUT_X - from) / (to - from));
-    (at.y.abs() < MOUTH_HALF && at.z < MOUTH_HEIGHT).then_some(team)
+    let at = before.lerp(after, (out_x - from) / (to - from));
+    let (post, bar) = (pitch.goal_half_width() as f32, pitch.goal_height() as f32);
+    (at.y.abs() < post && at.z < bar).then_some(team)
 }
 
 /// The line that the whole ball is over, if it is off the pitch. At a corner, where it is over
 /// both, the goal line.
-pub fn left_pitch(pos: Vec3) -> Option<Line> {
-    if pos.x.abs() > OUT_X {
+pub fn left_pitch(pitch: &PitchSize, pos: Vec3) -> Option<Line> {
+    if pos.x.abs() > out_x(pitch) {
         Some(Line::Goal(if pos.x > 0.0 { Team::Right } else { Team::Left }))
-    } else if pos.y.abs() > OUT_Y {
+    } else if pos.y.abs() > out_y(pitch) {
         Some(Line::Side)
     } else {
         None
@@ -48,9 +55,37 @@ pub fn left_pitch(pos: Vec3) -> Option<Line> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Line, crossed_goal_line, left_pitch};
+    use super::Line;
     use glam::Vec3;
-    use setpiece_scenario::vocabulary::Team;
+    use setpiece_scenario::PitchSize;
+    use setpiece_scenario::vocabulary::{PitchFigure, Team};
+
+    fn crossed_goal_line(before: Vec3, after: Vec3) -> Option<Team> {
+        super::crossed_goal_line(&PitchSize::USUAL, before, after)
+    }
+
+    fn left_pitch(pos: Vec3) -> Option<Line> {
+        super::left_pitch(&PitchSize::USUAL, pos)
+    }
+
+    #[test]
+    fn lines_and_goals_are_those_of_the_pitch() {
+        let small = PitchSize::with([
+            (PitchFigure::Length, 60.0),
+            (PitchFigure::Width, 40.0),
+            (PitchFigure::Goal, 4.0),
+            (PitchFigure::GoalHeight, 2.0),
+        ]);
+        let crossed = |y: f32, z: f32| {
+            let (before, after) = (Vec3::new(30.0, y, z), Vec3::new(30.3, y, z));
+            super::crossed_goal_line(&small, before, after)
+        };
+        assert_eq!(crossed(1.9, 1.9), Some(Team::Right));
+        assert_eq!(crossed(2.1, 1.0), None);
+        assert_eq!(crossed(1.0, 2.1), None);
+        assert_eq!(super::left_pitch(&small, Vec3::new(30.16, 20.16, 0.1)), None);
+        assert_eq!(super::left_pitch(&small, Vec3::new(0.0, 20.18, 0.1)), Some(Line::Side));
+    }
 
     #[test]
     fn a_goal_counts_when_the_whole_ball_is_over() {

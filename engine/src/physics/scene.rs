@@ -1,7 +1,9 @@
 //! The rapier world of rigid contact: one goal, the ball, and a few players' bodies.
 //!
-//! There is only one goal, the right team's. A ball in the left half is turned by 180° about the
-//! centre spot, simulated with this goal, and turned back. So both ends behave the same to the bit.
+//! There is only one goal, the right team's, at its place on the usual pitch. A ball in the left
+//! half is turned by 180° about the centre spot, simulated with this goal, and turned back. So both
+//! ends behave the same to the bit.
+//! On a longer or shorter pitch everything is moved along by the difference.
 //!
 //! Grass isn't simulated here: [`super::flight`] handles bouncing and rolling in every mode.
 //! Gravity isn't either: all forces are in the ball's velocity before rapier sees it.
@@ -22,21 +24,46 @@ use rapier3d::geometry::{
 };
 use rapier3d::math::Pose;
 use rapier3d::pipeline::PhysicsPipeline;
-use setpiece_scenario::pitch;
+use setpiece_scenario::{PitchSize, pitch};
 
 /// The most bodies of one tick.
 pub(super) const BODIES_MAX: usize = 4;
 
+/// x of the scene's goal line, m: that of the usual pitch, on pitches of every length.
 const GOAL_X: f32 = pitch::HALF_LENGTH_M as f32;
-const POST_Y: f32 = pitch::GOAL_HALF_WIDTH_M as f32;
-const BAR_Z: f32 = pitch::GOAL_HEIGHT_M as f32;
 const DEPTH: f32 = pitch::GOAL_DEPTH_M as f32;
 
+/// How wide and high the goals are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct GoalSize {
+    /// y of a post's centre, m.
+    post_y: f32,
+    /// z of the crossbar's centre, m.
+    bar_z: f32,
+}
+
+impl GoalSize {
+    /// The goals of a pitch.
+    pub(super) const fn of(pitch: &PitchSize) -> GoalSize {
+        GoalSize { post_y: pitch.goal_half_width() as f32, bar_z: pitch.goal_height() as f32 }
+    }
+}
+
+/// How far the right goal stands from its place in the scene, m.
+pub(super) const fn goal_offset(pitch: &PitchSize) -> f32 {
+    pitch.half_length() as f32 - GOAL_X
+}
+
 /// Lowest and highest corner of the hard parts of the right goal, m.
-pub(super) const GOAL_BOUNDS: [Vec3; 2] = [
-    Vec3::new(GOAL_X - FRAME_RADIUS, -POST_Y - FRAME_RADIUS, 0.0),
-    Vec3::new(GOAL_X + DEPTH + NET_HALF, POST_Y + FRAME_RADIUS, BAR_Z + FRAME_RADIUS),
-];
+#[inline]
+pub(super) const fn goal_bounds(pitch: &PitchSize) -> [Vec3; 2] {
+    let GoalSize { post_y, bar_z } = GoalSize::of(pitch);
+    let line = pitch.half_length() as f32;
+    [
+        Vec3::new(line - FRAME_RADIUS, -post_y - FRAME_RADIUS, 0.0),
+        Vec3::new(line + DEPTH + NET_HALF, post_y + FRAME_RADIUS, bar_z + FRAME_RADIUS),
+    ]
+}
 
 /// What else rapier needs: sets that stay empty, and working memory that carries nothing from step
 /// to step.
@@ -87,12 +114,16 @@ pub(super) struct RapierWorld {
 impl RapierWorld {
     /// Builds the world with room for this many bodies, stepped once so that its trees and lists
     /// are laid out.
-    pub(super) fn template(bodies: usize, workspace: &mut Workspace) -> RapierWorld {
+    pub(super) fn template(
+        bodies: usize,
+        size: GoalSize,
+        workspace: &mut Workspace,
+    ) -> RapierWorld {
         let mut rigid = RigidBodySet::new();
         let mut colliders = ColliderSet::new();
         let goal = rigid.insert(RigidBodyBuilder::fixed());
-        colliders.insert_with_parent(frame(), goal, &mut rigid);
-        colliders.insert_with_parent(net(), goal, &mut rigid);
+        colliders.insert_with_parent(frame(size), goal, &mut rigid);
+        colliders.insert_with_parent(net(size), goal, &mut rigid);
         let inertia = Vec3::splat(BALL_INERTIA_SHARE * BALL_MASS * BALL_RADIUS * BALL_RADIUS);
         let ball = rigid.insert(
             RigidBodyBuilder::dynamic()
@@ -188,14 +219,14 @@ fn parameters() -> IntegrationParameters {
 }
 
 /// Posts and crossbar.
-fn frame() -> ColliderBuilder {
+fn frame(GoalSize { post_y, bar_z }: GoalSize) -> ColliderBuilder {
     let bar = |from: Vec3, to: Vec3| (Pose::IDENTITY, SharedShape::capsule(from, to, FRAME_RADIUS));
     let foot = |y: f32| Vec3::new(GOAL_X, y, 0.0);
-    let corner = |y: f32| Vec3::new(GOAL_X, y, BAR_Z);
+    let corner = |y: f32| Vec3::new(GOAL_X, y, bar_z);
     ColliderBuilder::compound(vec![
-        bar(foot(-POST_Y), corner(-POST_Y)),
-        bar(foot(POST_Y), corner(POST_Y)),
-        bar(corner(-POST_Y), corner(POST_Y)),
+        bar(foot(-post_y), corner(-post_y)),
+        bar(foot(post_y), corner(post_y)),
+        bar(corner(-post_y), corner(post_y)),
     ])
     .restitution(FRAME_BOUNCE)
     .restitution_combine_rule(CoefficientCombineRule::Min)
@@ -205,21 +236,21 @@ fn frame() -> ColliderBuilder {
 }
 
 /// Sides, rear and top of the net, tight between the frame and the rear.
-fn net() -> ColliderBuilder {
+fn net(GoalSize { post_y, bar_z }: GoalSize) -> ColliderBuilder {
     let panel = |centre: Vec3, half: Vec3| {
         (Pose::from_translation(centre), SharedShape::cuboid(half.x, half.y, half.z))
     };
     let (middle, reach) = (GOAL_X + 0.5 * DEPTH, 0.5 * DEPTH);
     let side =
-        |y: f32| panel(Vec3::new(middle, y, 0.5 * BAR_Z), Vec3::new(reach, NET_HALF, 0.5 * BAR_Z));
+        |y: f32| panel(Vec3::new(middle, y, 0.5 * bar_z), Vec3::new(reach, NET_HALF, 0.5 * bar_z));
     ColliderBuilder::compound(vec![
-        side(-POST_Y),
-        side(POST_Y),
+        side(-post_y),
+        side(post_y),
         panel(
-            Vec3::new(GOAL_X + DEPTH, 0.0, 0.5 * BAR_Z),
-            Vec3::new(NET_HALF, POST_Y + NET_HALF, 0.5 * BAR_Z + NET_HALF),
+            Vec3::new(GOAL_X + DEPTH, 0.0, 0.5 * bar_z),
+            Vec3::new(NET_HALF, post_y + NET_HALF, 0.5 * bar_z + NET_HALF),
         ),
-        panel(Vec3::new(middle, 0.0, BAR_Z), Vec3::new(reach, POST_Y + NET_HALF, NET_HALF)),
+        panel(Vec3::new(middle, 0.0, bar_z), Vec3::new(reach, post_y + NET_HALF, NET_HALF)),
     ])
     .restitution(NET_BOUNCE)
     .restitution_combine_rule(CoefficientCombineRule::Min)

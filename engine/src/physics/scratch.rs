@@ -6,10 +6,11 @@
 
 use super::Ball;
 use super::constants::{BODY_LENGTH, RIGID_SPIN_MAX};
-use super::scene::{BODIES_MAX, ColliderPart, RapierWorld, Workspace};
+use super::scene::{BODIES_MAX, ColliderPart, GoalSize, RapierWorld, Workspace, goal_offset};
 use super::{BallObstacle, Contact};
 use crate::laps::Laps;
 use glam::{Vec2, Vec3};
+use setpiece_scenario::PitchSize;
 
 /// Memory that one worker lends to one tick: the scratch rapier world, and its templates by number
 /// of bodies.
@@ -17,6 +18,8 @@ use glam::{Vec2, Vec3};
 /// Its contents never affect what a tick computes.
 pub struct Scratch {
     templates: [RapierWorld; BODIES_MAX + 1],
+    /// The goals of the templates.
+    goals: GoalSize,
     live: RapierWorld,
     workspace: Workspace,
     laps: Laps,
@@ -38,16 +41,21 @@ impl Scratch {
 impl Default for Scratch {
     fn default() -> Scratch {
         let mut workspace = Workspace::default();
-        let templates: [RapierWorld; BODIES_MAX + 1] =
-            std::array::from_fn(|bodies| RapierWorld::template(bodies, &mut workspace));
+        let goals = GoalSize::of(&PitchSize::USUAL);
+        let templates = templates(goals, &mut workspace);
         Scratch {
             live: templates[0].clone(),
             templates,
+            goals,
             workspace,
             laps: Laps::default(),
             rigid: 0,
         }
     }
+}
+
+fn templates(goals: GoalSize, workspace: &mut Workspace) -> [RapierWorld; BODIES_MAX + 1] {
+    std::array::from_fn(|bodies| RapierWorld::template(bodies, goals, workspace))
 }
 
 impl std::fmt::Debug for Scratch {
@@ -75,20 +83,37 @@ fn turned(v: Vec3) -> Vec3 {
 impl Scratch {
     /// Moves the ball along its velocity over one tick, rebounding off whatever is hard. At most
     /// [`BODIES_MAX`] bodies.
-    pub(super) fn meet(&mut self, ball: &mut Ball, bodies: &[BallObstacle]) -> Option<RigidTouch> {
+    pub(super) fn meet(
+        &mut self,
+        ball: &mut Ball,
+        pitch: &PitchSize,
+        bodies: &[BallObstacle],
+    ) -> Option<RigidTouch> {
         let before = *ball;
-        let touch = self.carry(ball, bodies)?;
+        let goals = GoalSize::of(pitch);
+        if goals != self.goals {
+            (self.templates, self.goals) = (templates(goals, &mut self.workspace), goals);
+        }
+        let offset = goal_offset(pitch);
+        let touch = self.carry(ball, offset, bodies)?;
         if touch.squeezed {
             // A body's proxy yields to nothing and would press the ball through the net. Here the
             // body gives way.
             *ball = before;
-            let against = self.carry(ball, &[]);
+            let against = self.carry(ball, offset, &[]);
             return Some(RigidTouch { held_up: against.is_some_and(|t| t.held_up), ..touch });
         }
         Some(touch)
     }
 
-    fn carry(&mut self, ball: &mut Ball, bodies: &[BallObstacle]) -> Option<RigidTouch> {
+    /// `offset`: how far the goals stand from their place in the scene, metres.
+    fn carry(
+        &mut self,
+        ball: &mut Ball,
+        offset: f32,
+        bodies: &[BallObstacle],
+    ) -> Option<RigidTouch> {
+        let offset = Vec3::new(offset, 0.0, 0.0);
         let bodies = &bodies[..bodies.len().min(BODIES_MAX)];
         // On the halfway line the ball's direction decides.
         let left_half = ball.pos.x < 0.0 || ball.pos.x == 0.0 && ball.vel.x < 0.0;
@@ -96,14 +121,14 @@ impl Scratch {
         self.rigid += 1;
         self.live.restore(&self.templates[bodies.len()]);
         let given_spin = frame(ball.spin).clamp_length_max(RIGID_SPIN_MAX);
-        self.place(frame(ball.pos), frame(ball.vel), given_spin);
+        self.place(frame(ball.pos) - offset, frame(ball.vel), given_spin);
         for (i, body) in bodies.iter().enumerate() {
-            self.place_body(i, body, left_half);
+            self.place_body(i, body, left_half, offset);
         }
         self.live.step(&mut self.workspace);
         let touch = self.touch(bodies);
         if let Some(moved) = self.live.rigid.get(self.live.ball) {
-            ball.pos = frame(moved.translation());
+            ball.pos = frame(moved.translation() + offset);
             ball.vel = frame(moved.linvel());
             if touch.is_some() {
                 ball.spin += frame(moved.angvel() - given_spin);
@@ -120,11 +145,12 @@ impl Scratch {
         }
     }
 
-    fn place_body(&mut self, place: usize, body: &BallObstacle, left_half: bool) {
+    fn place_body(&mut self, place: usize, body: &BallObstacle, left_half: bool, offset: Vec3) {
         let turn = |v: Vec2| if left_half { -v } else { v };
         let Some(handle) = self.live.bodies[place] else { return };
         if let Some(proxy) = self.live.rigid.get_mut(handle) {
-            proxy.set_translation(turn(body.pos).extend(body.height_m - 0.5 * BODY_LENGTH), true);
+            let middle = turn(body.pos).extend(body.height_m - 0.5 * BODY_LENGTH);
+            proxy.set_translation(middle - offset, true);
             proxy.set_linvel(turn(body.vel).extend(0.0), true);
         }
     }

@@ -4,6 +4,7 @@ use glam::{Vec2, Vec3};
 use setpiece_engine::physics::Conditions;
 use setpiece_engine::start::{Drawn, DrawnAgent, DrawnPlayer};
 use setpiece_engine::state::PlayerId;
+use setpiece_scenario::PitchSize;
 use setpiece_scenario::vocabulary::{Role, Rule, StartKind, Team};
 use setpiece_scenario::{Ai, Others};
 
@@ -134,6 +135,7 @@ pub(crate) fn drawn(layout: Layout, seed: u64) -> Drawn {
         difficulty: [1.0, 0.6],
         rules,
         conditions: Conditions::USUAL,
+        pitch: PitchSize::USUAL,
         limit_steps: Some(3000),
         rounds: 1,
         steps_before: 0,

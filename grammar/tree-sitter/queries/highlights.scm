@@ -43,7 +43,7 @@
   "absent" "adapt" "agents" "ahead" "all" "along" "as" "at" "away" "ball" "behind" "between" "beyond" "by"
   "choose" "current" "delayed" "do" "each" "earlier" "else" "end" "episodes" "expect" "extends" "facing" "failure" "finish" "for" "from" "give" "if" "interrupt"
   "jitter" "keeping" "kickoff" "left" "limit" "maybe" "mirror" "mix" "never" "noise" "observe" "of" "off" "offset" "on" "once" "outfield"
-  "over" "own" "params" "per" "place" "play" "remove" "repeat" "require" "rhai" "right" "rounds" "rules" "script" "second" "seed" "sprinting" "stack" "stage" "start" "substitute" "success"
+  "over" "own" "params" "per" "pitch" "place" "play" "remove" "repeat" "require" "rhai" "right" "rounds" "rules" "script" "second" "seed" "sprinting" "stack" "stage" "start" "substitute" "success"
   "team" "then" "times" "to" "until" "vector" "when" "where" "with" "world"
 ] @keyword.control
 

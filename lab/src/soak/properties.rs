@@ -2,6 +2,7 @@
 
 mod bodies;
 mod film;
+mod goal;
 mod law;
 #[cfg(test)]
 mod tests;

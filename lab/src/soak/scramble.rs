@@ -1,4 +1,5 @@
-//! Random scenarios: teams of any size anywhere, every rule, every start, agents of every kind.
+//! Random scenarios: teams of any size anywhere on pitches of any size, every rule, every start,
+//! agents of every kind.
 
 mod script;
 
@@ -35,6 +36,46 @@ struct Footballer {
     controllable: bool,
 }
 
+/// The pitch of a scenario.
+struct SoakPitch {
+    /// Its length as a multiple of the usual pitch's.
+    along: f32,
+    /// Its width as a multiple of the usual pitch's.
+    across: f32,
+    /// What sets it; empty for the usual one.
+    text: String,
+}
+
+impl SoakPitch {
+    /// Mostly the usual pitch.
+    fn any(random: &mut Stream) -> SoakPitch {
+        if !one_in(random, 4) {
+            return SoakPitch { along: 1.0, across: 1.0, text: String::new() };
+        }
+        let mut from = |low: u32, high: u32| low + random.below(high + 1 - low);
+        // Includes both ends of each range.
+        let (length, width, goal) = (from(20, 120), from(15, 90), from(1, 10));
+        let mut text = format!("    pitch {{ length: {length}m  width: {width}m");
+        if one_in(random, 2) {
+            let _ = write!(text, "  goal: {goal}m  goal_height: {:.1}m", 1.0 + 2.0 * random.unit());
+        }
+        if one_in(random, 3) {
+            let deep = 2.0 + random.unit() * (0.5 * length as f32 - 2.0).min(38.0);
+            let wide = 4.0 + random.unit() * (width as f32 - 4.0);
+            // Downwards, so that it fits.
+            let [deep, wide] = [deep, wide].map(|metres| (10.0 * metres).floor() / 10.0);
+            let _ = write!(text, "  box: {deep:.1}m  box_width: {wide:.1}m");
+        }
+        text.push_str(" }\n");
+        SoakPitch { along: length as f32 / 110.0, across: width as f32 / 72.0, text }
+    }
+
+    /// A normalised place of the usual pitch in proportion on this one.
+    fn place(&self, (x, y): (f32, f32)) -> (f32, f32) {
+        (x * self.along, y * self.across)
+    }
+}
+
 /// A scenario's text.
 pub(super) fn scenario(random: &mut Stream, limit: u32) -> String {
     let mut text = String::new();
@@ -46,11 +87,13 @@ pub(super) fn scenario(random: &mut Stream, limit: u32) -> String {
         kicked_off(&mut text, random, limit);
         return text;
     }
+    let ground = SoakPitch::any(random);
     let sizes = [size(random, 1), size(random, 0)];
-    let teams = [0, 1].map(|team| footballers(random, team, sizes[team]));
+    let teams = [0, 1].map(|team| footballers(random, &ground, team, sizes[team]));
     text.push_str("scenario soak {\n");
+    text.push_str(&ground.text);
     rules(&mut text, random);
-    start(&mut text, random, &teams);
+    start(&mut text, random, &ground, &teams);
     agents(&mut text, random, &teams);
     for (side, team) in SIDES.into_iter().zip(&teams) {
         let _ = writeln!(text, "    team {side} {{\n        difficulty: {:.2}", random.unit());
@@ -78,13 +121,14 @@ fn size(random: &mut Stream, least: u32) -> u32 {
     if one_in(random, 3) { least + random.below(3) } else { least + random.below(12 - least) }
 }
 
-fn footballers(random: &mut Stream, team: usize, size: u32) -> Vec<Footballer> {
+fn footballers(random: &mut Stream, ground: &SoakPitch, team: usize, size: u32) -> Vec<Footballer> {
     let keeper = !one_in(random, 4);
     let side = if team == 0 { -1.0 } else { 1.0 };
     let footballer = |index| {
         let role = if index == 0 && keeper { "GK" } else { ROLES[random.below(9) as usize] };
         let at_home = role == "GK" && !one_in(random, 6);
         let place = if at_home { (side, 0.0) } else { (spread(random), spread(random) * 0.42) };
+        let place = ground.place(place);
         Footballer {
             name: format!("{}{index}", &SIDES[team][..1]),
             role,
@@ -112,7 +156,7 @@ fn rules(text: &mut String, random: &mut Stream) {
     text.push_str(" }\n");
 }
 
-fn start(text: &mut String, random: &mut Stream, teams: &[Vec<Footballer>; 2]) {
+fn start(text: &mut String, random: &mut Stream, ground: &SoakPitch, teams: &[Vec<Footballer>; 2]) {
     let kind = STARTS[random.below(9) as usize];
     let team = usize::from(!teams[1].is_empty() && one_in(random, 2));
     let whose = matches!(kind, "corner" | "goal_kick" | "penalty")
@@ -126,21 +170,22 @@ fn start(text: &mut String, random: &mut Stream, teams: &[Vec<Footballer>; 2]) {
     };
     let _ = writeln!(text, "    start {kind}{whose}{late}");
     match kind {
-        "open" => ball(text, random, teams),
+        "open" => ball(text, random, ground, teams),
         "free_kick" | "throw_in" => {
             let (x, y) = (spread(random) * 0.9, spread(random) * 0.4);
             let y = if kind == "throw_in" { 0.42_f32.copysign(y) } else { y };
-            let _ = writeln!(text, "    ball at ({x:.3}, {y:.3})");
+            let (x, y) = ground.place((x, y));
+            let _ = writeln!(text, "    ball at ({x:.4}, {y:.4})");
         }
         _ => {}
     }
 }
 
-fn ball(text: &mut String, random: &mut Stream, teams: &[Vec<Footballer>; 2]) {
+fn ball(text: &mut String, random: &mut Stream, ground: &SoakPitch, teams: &[Vec<Footballer>; 2]) {
     let owner = teams
         .iter()
         .flatten()
-        .filter(|footballer| footballer.place.0.abs() < 0.95)
+        .filter(|footballer| footballer.place.0.abs() < 0.85 * ground.along)
         .nth(random.below(22) as usize);
     if let Some(footballer) = owner {
         let _ = writeln!(
@@ -152,7 +197,7 @@ fn ball(text: &mut String, random: &mut Stream, teams: &[Vec<Footballer>; 2]) {
         );
         return;
     }
-    let (x, y) = (spread(random), spread(random) * 0.42);
+    let (x, y) = ground.place((spread(random), spread(random) * 0.42));
     let _ = write!(text, "    ball at ({x:.3}, {y:.3})");
     if one_in(random, 2) {
         let mut speed = |most: f32| format!("{:.1}m/s", spread(random) * most);
@@ -257,6 +302,7 @@ fn player(
 
 /// A scenario with the teams of a kick-off, with its own formations.
 fn kicked_off(text: &mut String, random: &mut Stream, limit: u32) {
+    let ground = SoakPitch::any(random);
     let size = size(random, 1);
     let keeper = !one_in(random, 4);
     let roles: Vec<&str> = (0..size)
@@ -267,11 +313,13 @@ fn kicked_off(text: &mut String, random: &mut Stream, limit: u32) {
         for role in &roles {
             let place =
                 if *role == "GK" { (-1.0, 0.0) } else { (-random.unit(), spread(random) * 0.42) };
+            let place = ground.place(place);
             let _ = writeln!(text, "    {role} at ({:.3}, {:.3})", place.0, place.1);
         }
         text.push_str("}\n");
     }
     text.push_str("scenario soak {\n");
+    text.push_str(&ground.text);
     rules(text, random);
     let whose = ["left", "right", "alternate(left, right)", "choice(left, right)"]
         [random.below(4) as usize];

@@ -1,10 +1,44 @@
 //! Named points and regions of the pitch.
 
-use super::words;
-use crate::pitch::{
-    BOX_DEPTH_M, BOX_HALF_WIDTH_M, CIRCLE_RADIUS_M, GOAL_HALF_WIDTH_M, HALF_LENGTH_M, HALF_WIDTH_M,
-    PENALTY_SPOT_M, SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M,
+use super::pitch::PitchMeasure::{
+    self, BoxDepth, BoxHalfWidth, Circle, GoalHalfWidth, HalfLength, HalfMiddle, HalfWidth,
+    PenaltySpot, SixYardDepth, SixYardHalfWidth, Third,
 };
+use super::words;
+
+/// A coordinate of a point of the pitch: one measure less another, 0 where there is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Along {
+    /// What is added to the centre spot's coordinate.
+    pub plus: Option<PitchMeasure>,
+    /// What is taken from it.
+    pub minus: Option<PitchMeasure>,
+}
+
+impl Along {
+    /// At the centre spot.
+    const ZERO: Along = Along { plus: None, minus: None };
+
+    /// Its value; `length` gives that of a measure.
+    pub fn value(self, length: impl Fn(PitchMeasure) -> f64) -> f64 {
+        self.plus.map_or(0.0, &length) - self.minus.map_or(0.0, &length)
+    }
+}
+
+/// Towards +.
+const fn up(to: PitchMeasure) -> Along {
+    Along { plus: Some(to), minus: None }
+}
+
+/// Towards -.
+const fn down(to: PitchMeasure) -> Along {
+    Along { plus: None, minus: Some(to) }
+}
+
+/// So far in front of the left team's goal line.
+const fn ahead(by: PitchMeasure) -> Along {
+    Along { plus: Some(by), minus: Some(HalfLength) }
+}
 
 words! {
     /// A named point of a team's end: `left.goal`, `them.penalty_spot`.
@@ -19,16 +53,16 @@ words! {
 }
 
 impl Landmark {
-    /// The place in metres at the left team's end. The right team's is rotated by 180°, except top
-    /// and bottom.
-    pub fn left_m(self) -> (f64, f64) {
+    /// The place at the left team's end. The right team's is rotated by 180°, except top and
+    /// bottom.
+    pub const fn left(self) -> (Along, Along) {
         match self {
-            Landmark::Goal => (-HALF_LENGTH_M, 0.0),
-            Landmark::PenaltySpot => (PENALTY_SPOT_M - HALF_LENGTH_M, 0.0),
-            Landmark::CornerTop => (-HALF_LENGTH_M, -HALF_WIDTH_M),
-            Landmark::CornerBottom => (-HALF_LENGTH_M, HALF_WIDTH_M),
-            Landmark::PostTop => (-HALF_LENGTH_M, -crate::pitch::GOAL_HALF_WIDTH_M),
-            Landmark::PostBottom => (-HALF_LENGTH_M, crate::pitch::GOAL_HALF_WIDTH_M),
+            Landmark::Goal => (down(HalfLength), Along::ZERO),
+            Landmark::PenaltySpot => (ahead(PenaltySpot), Along::ZERO),
+            Landmark::CornerTop => (down(HalfLength), down(HalfWidth)),
+            Landmark::CornerBottom => (down(HalfLength), up(HalfWidth)),
+            Landmark::PostTop => (down(HalfLength), down(GoalHalfWidth)),
+            Landmark::PostBottom => (down(HalfLength), up(GoalHalfWidth)),
         }
     }
 }
@@ -46,35 +80,44 @@ words! {
     }
 }
 
-/// The shape of a named region, metres at the left team's end.
+/// A rectangle of the pitch, from one corner to the other: x and y of each.
+pub type PitchRect = [(Along, Along); 2];
+
+/// The shape of a named region, at the left team's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RegionShape {
-    /// A rectangle `(x0, y0, x1, y1)`.
-    Rect(f64, f64, f64, f64),
-    /// A disc `(x, y, radius)` less a rectangle.
-    DiscWithout((f64, f64, f64), (f64, f64, f64, f64)),
+    /// A rectangle.
+    Rect(PitchRect),
+    /// A disc, by its centre and radius, less a rectangle.
+    DiscWithout((Along, Along), PitchMeasure, PitchRect),
 }
 
 impl RegionName {
     /// The shape at the left team's end; the right team's is rotated by 180°.
-    pub fn left_shape_m(self) -> RegionShape {
-        let end = |depth: f64, half_width: f64| {
-            (-HALF_LENGTH_M, -half_width, depth - HALF_LENGTH_M, half_width)
-        };
-        let (x0, y0, x1, y1) = match self {
-            RegionName::Box => end(BOX_DEPTH_M, BOX_HALF_WIDTH_M),
-            RegionName::SixYard => end(SIX_YARD_DEPTH_M, SIX_YARD_HALF_WIDTH_M),
-            RegionName::Half => end(HALF_LENGTH_M, HALF_WIDTH_M),
-            RegionName::Third => end(2.0 * HALF_LENGTH_M / 3.0, HALF_WIDTH_M),
-            RegionName::GoalMouth => end(0.0, GOAL_HALF_WIDTH_M),
-            RegionName::Byline => end(0.0, HALF_WIDTH_M),
+    pub const fn left_shape(self) -> RegionShape {
+        RegionShape::Rect(match self {
+            RegionName::Box => end(BoxDepth, BoxHalfWidth),
+            RegionName::SixYard => end(SixYardDepth, SixYardHalfWidth),
+            RegionName::Half => end(HalfLength, HalfWidth),
+            RegionName::Third => end(Third, HalfWidth),
+            RegionName::GoalMouth => line(GoalHalfWidth),
+            RegionName::Byline => line(HalfWidth),
             RegionName::D => {
-                let disc = (PENALTY_SPOT_M - HALF_LENGTH_M, 0.0, CIRCLE_RADIUS_M);
-                return RegionShape::DiscWithout(disc, end(BOX_DEPTH_M, BOX_HALF_WIDTH_M));
+                let spot = (ahead(PenaltySpot), Along::ZERO);
+                return RegionShape::DiscWithout(spot, Circle, end(BoxDepth, BoxHalfWidth));
             }
-        };
-        RegionShape::Rect(x0, y0, x1, y1)
+        })
     }
+}
+
+/// What lies in front of the goal line, so deep and so wide to either side.
+const fn end(depth: PitchMeasure, half_width: PitchMeasure) -> PitchRect {
+    [(down(HalfLength), down(half_width)), (ahead(depth), up(half_width))]
+}
+
+/// A part of the goal line, so wide to either side.
+const fn line(half_width: PitchMeasure) -> PitchRect {
+    [(down(HalfLength), down(half_width)), (down(HalfLength), up(half_width))]
 }
 
 words! {
@@ -92,20 +135,22 @@ words! {
 }
 
 impl PitchRegion {
-    /// The rectangle `(x0, y0, x1, y1)` in metres; `None` for the centre circle, a disc.
-    pub fn rect_m(self) -> Option<(f64, f64, f64, f64)> {
-        let lane = |y0: f64, y1: f64| Some((-HALF_LENGTH_M, y0, HALF_LENGTH_M, y1));
-        match self {
-            PitchRegion::Pitch => lane(-HALF_WIDTH_M, HALF_WIDTH_M),
-            PitchRegion::CentreCircle => None,
+    /// The rectangle; `None` for the centre circle, a disc.
+    pub const fn rect(self) -> Option<PitchRect> {
+        let (from, to) = match self {
+            PitchRegion::CentreCircle => return None,
             PitchRegion::MiddleThird => {
-                Some((-HALF_LENGTH_M / 3.0, -HALF_WIDTH_M, HALF_LENGTH_M / 3.0, HALF_WIDTH_M))
+                let (from, to) = (down(HalfMiddle), up(HalfMiddle));
+                return Some([(from, down(HalfWidth)), (to, up(HalfWidth))]);
             }
-            PitchRegion::FlankTop => lane(-HALF_WIDTH_M, -BOX_HALF_WIDTH_M),
-            PitchRegion::FlankBottom => lane(BOX_HALF_WIDTH_M, HALF_WIDTH_M),
-            PitchRegion::HalfSpaceTop => lane(-BOX_HALF_WIDTH_M, -SIX_YARD_HALF_WIDTH_M),
-            PitchRegion::HalfSpaceBottom => lane(SIX_YARD_HALF_WIDTH_M, BOX_HALF_WIDTH_M),
-            PitchRegion::MiddleLane => lane(-SIX_YARD_HALF_WIDTH_M, SIX_YARD_HALF_WIDTH_M),
-        }
+            PitchRegion::Pitch => (down(HalfWidth), up(HalfWidth)),
+            PitchRegion::FlankTop => (down(HalfWidth), down(BoxHalfWidth)),
+            PitchRegion::FlankBottom => (up(BoxHalfWidth), up(HalfWidth)),
+            PitchRegion::HalfSpaceTop => (down(BoxHalfWidth), down(SixYardHalfWidth)),
+            PitchRegion::HalfSpaceBottom => (up(SixYardHalfWidth), up(BoxHalfWidth)),
+            PitchRegion::MiddleLane => (down(SixYardHalfWidth), up(SixYardHalfWidth)),
+        };
+        // A lane from end to end.
+        Some([(down(HalfLength), from), (up(HalfLength), to)])
     }
 }

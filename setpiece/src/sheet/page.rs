@@ -8,7 +8,6 @@ use super::region::Region;
 use super::{head, words};
 use crate::engine::state::event::Event;
 use crate::film::Film;
-use crate::scenario::pitch::HALF_LENGTH_M;
 use setpiece_render::{Options, Overlays, Renderer};
 use tiny_skia::{Pixmap, PixmapMut, PixmapPaint, Transform};
 
@@ -89,7 +88,6 @@ pub fn frame(film: &Film, moment: usize) -> Option<Pixmap> {
 
 /// The part of the pitch that an episode needs: the ball's path, players near it, a goal nearby.
 fn region(film: &Film) -> Region {
-    let goal = [HALF_LENGTH_M as f32, 0.0];
     Region::around(film.scenes.iter().flat_map(|scene| {
         let ball = [scene.ball.pos[0], scene.ball.pos[1]];
         let within = move |place: [f32; 2], most_m: f32| {
@@ -97,8 +95,9 @@ fn region(film: &Film) -> Region {
         };
         let present = scene.players.iter().filter(|player| player.present);
         let people = present.map(|player| player.pos).filter(move |&pos| within(pos, NEAR_M));
+        let line = 0.5 * scene.pitch.length_m;
         let goals =
-            [goal, [-goal[0], 0.0]].into_iter().filter(move |&goal| within(goal, NEAR_GOAL_M));
+            [[line, 0.0], [-line, 0.0]].into_iter().filter(move |&goal| within(goal, NEAR_GOAL_M));
         std::iter::once((ball, AROUND_BALL_M))
             .chain(people.map(|pos| (pos, AROUND_PERSON_M)))
             .chain(goals.map(|goal| (goal, AROUND_GOAL_M)))

@@ -1,12 +1,14 @@
 //! The part of the pitch that a sheet shows.
 
-use crate::scenario::pitch::{RIM_X_M, RIM_Y_M};
+use crate::scenario::PitchSize;
 use setpiece_render::{Camera, PitchRegion};
 
 /// Least size of a region, metres.
 const LEAST_M: [f32; 2] = [46.0, 40.0];
 /// The narrowest and the widest region: its width over its height.
-const ASPECTS: [f32; 2] = [0.8, (RIM_X_M / RIM_Y_M) as f32];
+const ASPECTS: [f32; 2] = [0.8, (RIM_M.0 / RIM_M.1) as f32];
+/// The usual pitch with its rim, metres from the centre spot; a smaller one lies in the middle.
+const RIM_M: (f64, f64) = PitchSize::USUAL.rim();
 /// A region with more than this share of the pitch's length or width shows all of it.
 const NEARLY_ALL: f32 = 0.8;
 
@@ -22,8 +24,8 @@ pub struct Region {
 impl Region {
     /// The pitch with its rim.
     pub const WHOLE: Region = Region {
-        corner_m: [-RIM_X_M as f32, -RIM_Y_M as f32],
-        size_m: [2.0 * RIM_X_M as f32, 2.0 * RIM_Y_M as f32],
+        corner_m: [-RIM_M.0 as f32, -RIM_M.1 as f32],
+        size_m: [2.0 * RIM_M.0 as f32, 2.0 * RIM_M.1 as f32],
     };
 
     /// The camera that shows it from above.

@@ -2,8 +2,7 @@
 
 use crate::Loaded;
 use crate::render::scene::Id;
-use crate::scenario::Team;
-use crate::scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M};
+use crate::scenario::{PitchSize, Team};
 use crate::scene::team;
 use std::ops::Range;
 
@@ -25,6 +24,7 @@ struct WrittenPlace {
 ///
 /// - `loaded`: the last good scenario.
 /// - `to`: metres, in the world's frame; what lies off the pitch is put on its rim.
+/// - `pitch`: the pitch of the start that is shown.
 ///
 /// # Errors
 /// A sentence for the user, if the place isn't two plain numbers of this text.
@@ -33,11 +33,13 @@ pub(super) fn dragged(
     text: &str,
     player: Option<Id>,
     to: [f64; 2],
+    pitch: &PitchSize,
 ) -> Result<String, String> {
     if to.iter().any(|metres| !metres.is_finite()) {
         return Err("a place is two numbers".to_owned());
     }
-    let to = [to[0].clamp(-HALF_LENGTH_M, HALF_LENGTH_M), to[1].clamp(-HALF_WIDTH_M, HALF_WIDTH_M)];
+    let half = [pitch.half_length(), pitch.half_width()];
+    let to = [to[0].clamp(-half[0], half[0]), to[1].clamp(-half[1], half[1])];
     let main = loaded.sources.iter().next();
     // A text that has changed since the last good one has its statements elsewhere.
     if main.is_some_and(|(_, source)| *source.text != *text) {

@@ -3,7 +3,7 @@
 use super::moment::{MomentReply, RosterReply};
 use crate::dsl::Outline;
 use crate::dsl::report::Diagnostic;
-use crate::render::scene::Id;
+use crate::render::scene::{Id, Pitch};
 use crate::studio::hands::HeldKeys;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -91,6 +91,8 @@ pub enum Reply {
     Episode(Box<Episode>),
     /// A step that a person has played.
     Step {
+        /// The pitch.
+        pitch: Pitch,
         /// Everyone.
         roster: Vec<RosterReply>,
         /// The moments that it led to: where play was stopped, if it was, and the present.
@@ -168,6 +170,8 @@ pub struct SeatReply {
 /// What stands around a start.
 #[derive(Clone, Debug, Serialize)]
 pub struct SketchReply {
+    /// The pitch of this start.
+    pub pitch: Pitch,
     /// The regions: the named ones, then those that something is drawn in.
     pub regions: Vec<RegionReply>,
     /// The requirements on a drawn start.
@@ -234,6 +238,8 @@ pub struct Episode {
     pub watched: bool,
     /// The scenario's name.
     pub name: String,
+    /// The pitch.
+    pub pitch: Pitch,
     /// Everyone, in the order of each moment's players.
     pub roster: Vec<RosterReply>,
     /// The moments, in order.

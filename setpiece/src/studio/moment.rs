@@ -1,7 +1,7 @@
 //! Moments as pages get them: what stays the same once, and what moves in few digits.
 
 use crate::render::Scene;
-use crate::render::scene::{Id, Mode, Posture, Role, ScenePlayer, Side, Term};
+use crate::render::scene::{Id, Mode, Pitch, Posture, Role, ScenePlayer, Side, Term};
 use serde::{Serialize, Serializer};
 
 /// What stays the same of a player.
@@ -13,6 +13,11 @@ pub struct RosterReply {
     pub number: u8,
     /// Their role.
     pub role: Role,
+}
+
+/// The pitch of some scenes of one episode.
+pub fn pitch(scenes: &[Scene]) -> Pitch {
+    scenes.first().map(|scene| scene.pitch).unwrap_or_default()
 }
 
 /// Everyone of some scenes, in the order of their players.

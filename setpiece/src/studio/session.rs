@@ -298,7 +298,8 @@ impl Session {
                 self.is_stale = true;
             }
             Request::Move { player, to } => {
-                let text = dragged(&self.loaded, &self.text, player, to)?;
+                let pitch = self.stage(&self.who)?.pitch((self.seed, self.episode))?;
+                let text = dragged(&self.loaded, &self.text, player, to, &pitch)?;
                 self.take(text, None, pages);
             }
             Request::Cloud { count } => {

@@ -1,7 +1,7 @@
 //! A scenario with its parameters and who plays it: what is shown of it.
 
 use super::message::{Episode, Happened, RegionReply, RequireReply, SketchReply};
-use super::moment::{MomentReply, roster};
+use super::moment::{MomentReply, pitch, roster};
 use super::players::ActingPolicy;
 use crate::engine::batch::EpisodeError;
 use crate::engine::control::agents::Agent;
@@ -12,8 +12,8 @@ use crate::engine::state::event::Event;
 use crate::film::{Film, FilmOptions, film_of};
 use crate::render::Scene;
 use crate::replay::Replay;
-use crate::scenario::{Scenario, Team, Verdict};
-use crate::scene::of_match;
+use crate::scenario::{PitchSize, Scenario, Team, Verdict};
+use crate::scene::{of_match, pitch_of};
 use crate::{Error, Loaded};
 use std::sync::Arc;
 
@@ -95,6 +95,19 @@ impl StudioStage {
         Ok(starts)
     }
 
+    /// The pitch of a start, also of one that doesn't meet its requirements.
+    ///
+    /// # Errors
+    /// A sentence, if the parameters don't fit.
+    pub(super) fn pitch(&self, (seed, episode): (u64, u64)) -> Result<PitchSize, String> {
+        let environment = self.environment()?;
+        let (roster, bindings) = (environment.roster(), environment.bindings());
+        let mut drawer = Drawer::new(&self.scenario);
+        // An attempt that is refused has drawn a pitch, too.
+        let _ = drawer.draw(&self.scenario, bindings, roster, seed, episode);
+        Ok(drawer.pitch(&self.scenario))
+    }
+
     /// The regions of a start, and how often each requirement refuses one.
     ///
     /// `loaded`: where the scenario comes from.
@@ -110,6 +123,7 @@ impl StudioStage {
         let (roster, bindings) = (environment.roster(), environment.bindings());
         let mut drawer = Drawer::new(&self.scenario);
         let drawn = drawer.draw(&self.scenario, bindings, roster, seed, episode);
+        let pitch = pitch_of(&drawer.pitch(&self.scenario));
         let name =
             |span| loaded.sources.text(span).split_whitespace().collect::<Vec<_>>().join(" ");
         let origins = &loaded.origins;
@@ -138,7 +152,7 @@ impl StudioStage {
                 fails: unmet.as_ref() == Some(&require.label),
             }
         });
-        Ok(SketchReply { regions, requires: requires.collect() })
+        Ok(SketchReply { pitch, regions, requires: requires.collect() })
     }
 }
 
@@ -157,6 +171,7 @@ pub(super) fn episode_of(film: Film, (seed, episode): (u64, u64), agent: &str) -
         events,
         outcome: film.outcome.as_ref().map(|outcome| outcome.label.to_string()),
         success: verdict.map(|verdict| verdict == Verdict::Success),
+        pitch: pitch(&film.scenes),
         roster: roster(&film.scenes),
         scenes: film.scenes.iter().map(MomentReply::from).collect(),
     }

@@ -1,7 +1,7 @@
 //! Sends what the session has to say to its pages.
 
 use super::message::{Episode, Reply};
-use super::moment::{MomentReply, roster};
+use super::moment::{MomentReply, pitch, roster};
 use crate::render::Scene;
 use std::sync::Arc;
 use tokio::sync::broadcast;
@@ -17,7 +17,7 @@ pub(super) fn send_all(pages: &broadcast::Sender<Arc<str>>, messages: &[Arc<str>
 /// Moments of a match that is played by hand.
 pub(super) fn step(scenes: &[Scene]) -> Reply {
     let moments = scenes.iter().map(MomentReply::from).collect();
-    Reply::Step { roster: roster(scenes), scenes: moments }
+    Reply::Step { pitch: pitch(scenes), roster: roster(scenes), scenes: moments }
 }
 
 /// An episode as a message.

@@ -9,7 +9,7 @@ use crate::problem::facts::{Calls, Like, Names, Scopes, Types};
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{
-    EventField, Field, Landmark, Owner, PROPERTIES, PitchRegion, RegionName, Role,
+    EventField, Field, Landmark, Owner, PROPERTIES, PitchFigure, PitchRegion, RegionName, Role,
 };
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 
@@ -112,7 +112,8 @@ impl<'w> Lower<'_, 'w> {
     pub(crate) fn zone(&mut self, role: Role, team: Reg) -> (Reg, Reg) {
         let (x, y) = self.world.mirror.role(role).zone();
         let side = self.code.unary(UnaryOp::Side, team);
-        let (x, y) = (self.code.constant(x * X_SCALE_M), self.code.constant(y * Y_SCALE_M));
+        let x = self.in_proportion(x * X_SCALE_M, PitchFigure::Length);
+        let y = self.in_proportion(y * Y_SCALE_M, PitchFigure::Width);
         (self.code.binary(BinaryOp::Mul, x, side), self.code.binary(BinaryOp::Mul, y, side))
     }
 
@@ -125,9 +126,8 @@ impl<'w> Lower<'_, 'w> {
     ) -> Value<'w> {
         let reg = self.reg(team);
         if let Some(landmark) = Landmark::from_name(name) {
-            let (x, y) = landmark.left_m();
             let side = self.code.unary(UnaryOp::Side, reg);
-            let (x, y) = (self.code.constant(x), self.code.constant(y));
+            let (x, y) = self.point_of_pitch(landmark.left());
             let y = self.picture_y(y);
             return Value::two(Ty::Point, (self.code.binary(BinaryOp::Mul, x, side), y));
         }

@@ -8,8 +8,9 @@ use crate::check::types::Ty;
 use crate::origins::RegionOrigin;
 use crate::problem::facts::{Calls, Kind, Names};
 use crate::problem::{Guess, Problem};
-use setpiece_scenario::pitch::CIRCLE_RADIUS_M;
-use setpiece_scenario::vocabulary::{Function, PitchRegion, RegionName, RegionShape};
+use setpiece_scenario::vocabulary::{
+    Function, PitchMeasure, PitchRect, PitchRegion, RegionName, RegionShape,
+};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -66,16 +67,14 @@ impl<'w> Lower<'_, 'w> {
 
     /// A region that belongs to no team.
     pub(super) fn pitch_region(&mut self, region: PitchRegion) -> Value<'w> {
-        if let Some((x0, y0, x1, y1)) = region.rect_m() {
-            let RegionValue::Rect(a, b) = self.constant_rect((x0, y0, x1, y1)) else {
-                return Value::error();
-            };
+        if let Some(rect) = region.rect() {
+            let (a, b) = self.corners(rect);
             return value(RegionValue::Rect(
                 (a.0, self.picture_y(a.1)),
                 (b.0, self.picture_y(b.1)),
             ));
         }
-        let (zero, radius) = (self.code.constant(0.0), self.code.constant(CIRCLE_RADIUS_M));
+        let (zero, radius) = (self.code.constant(0.0), self.pitch_length(PitchMeasure::Circle));
         value(RegionValue::Circle((zero, zero), radius))
     }
 
@@ -91,12 +90,12 @@ impl<'w> Lower<'_, 'w> {
     /// A region of a team's end: the left team's shape, rotated for the right one.
     pub(super) fn team_region(&mut self, region: RegionName, team: Reg) -> Value<'w> {
         let side = self.code.unary(UnaryOp::Side, team);
-        let left = match region.left_shape_m() {
-            RegionShape::Rect(x0, y0, x1, y1) => self.constant_rect((x0, y0, x1, y1)),
-            RegionShape::DiscWithout((x, y, radius), rect) => {
-                let centre = (self.code.constant(x), self.code.constant(y));
-                let disc = RegionValue::Circle(centre, self.code.constant(radius));
-                RegionValue::Difference(Arc::new(disc), Arc::new(self.constant_rect(rect)))
+        let left = match region.left_shape() {
+            RegionShape::Rect(rect) => self.pitch_rect(rect),
+            RegionShape::DiscWithout(centre, radius, rect) => {
+                let centre = self.point_of_pitch(centre);
+                let disc = RegionValue::Circle(centre, self.pitch_length(radius));
+                RegionValue::Difference(Arc::new(disc), Arc::new(self.pitch_rect(rect)))
             }
         };
         value(self.at_side(&left, side))
@@ -116,9 +115,9 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    fn constant_rect(&mut self, (x0, y0, x1, y1): (f64, f64, f64, f64)) -> RegionValue {
-        let (x0, y0) = (self.code.constant(x0), self.code.constant(y0));
-        RegionValue::Rect((x0, y0), (self.code.constant(x1), self.code.constant(y1)))
+    fn pitch_rect(&mut self, rect: PitchRect) -> RegionValue {
+        let (from, to) = self.corners(rect);
+        RegionValue::Rect(from, to)
     }
 
     pub(super) fn region_call(

@@ -1,7 +1,7 @@
 //! What a scenario says in braces about its start: its kind, the ball, the rules.
 
 use crate::ast::{BallStmt, Expr, ExprKind, Field, ScenarioStmtKind, Span};
-use crate::check::options::{BALL, START, WORLD};
+use crate::check::options::{BALL, START};
 use crate::check::types::Ty;
 use crate::lower::value::Repr;
 use crate::lower::{Lower, fields};
@@ -164,7 +164,7 @@ impl<'w> Lower<'_, 'w> {
         let fields = self.world.flat.rules.clone();
         for field in fields {
             let Some(rule) = Rule::from_name(&field.key.node) else {
-                if WORLD.contains(&field.key.node.as_str()) {
+                if fields::block_of(&field.key.node).is_some() {
                     fields::is_known(self, field, &[], "`rules`");
                     continue;
                 }

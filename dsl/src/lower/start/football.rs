@@ -10,8 +10,7 @@ use crate::lower::people::Rostered;
 use crate::lower::team::PlayerOptions;
 use crate::problem::Problem;
 use crate::problem::facts::{Implied, Players, Starts};
-use setpiece_scenario::pitch::{HALF_LENGTH_M, HALF_WIDTH_M, RIM_X_M, RIM_Y_M};
-use setpiece_scenario::vocabulary::{StartKind, Team};
+use setpiece_scenario::vocabulary::{PitchMeasure, StartKind, Team};
 use setpiece_scenario::{BallStart, BinaryOp, Instr, Reg, UnaryOp};
 
 /// Nearer than this two players stand on one spot.
@@ -32,6 +31,7 @@ pub(super) fn check_places(
     if let (Some(ball), Some((kind, span))) = (ball, lower.said_place()) {
         check_ball(lower, (ball.x, ball.y), kind, span);
     }
+    let rim = lower.rim();
     let mut on_pitch = Vec::new();
     let mut apart = Vec::new();
     let situations = situations(lower, places);
@@ -39,9 +39,8 @@ pub(super) fn check_places(
         for (index, place) in situation.iter().enumerate() {
             let Some(player) = lower.world.roster.get(index) else { continue };
             let (shown, span) = (player.shown(), player.place_span());
-            if check_on_pitch(lower, *place, (RIM_X_M, RIM_Y_M), &shown, span) == KnownStart::Later
-            {
-                on_pitch.push((within(lower, *place, (RIM_X_M, RIM_Y_M)), span));
+            if check_on_pitch(lower, *place, rim, &shown, span) == KnownStart::Later {
+                on_pitch.push((within(lower, *place, rim), span));
             }
         }
         for a in 0..situation.len() {
@@ -71,8 +70,13 @@ pub(super) fn check_places(
 
 /// Checks where the ball lies, at a throw-in beside a side line: it is put on it.
 fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, span: Span) {
-    let aside = if kind == StartKind::ThrowIn { NEAR_M } else { 0.0 };
-    let limit = (HALF_LENGTH_M, HALF_WIDTH_M + aside);
+    let line = lower.pitch_length(PitchMeasure::HalfWidth);
+    let near = lower.code.constant(NEAR_M);
+    let aside = match kind {
+        StartKind::ThrowIn => lower.code.binary(BinaryOp::Add, line, near),
+        _ => line,
+    };
+    let limit = (lower.pitch_length(PitchMeasure::HalfLength), aside);
     if check_on_pitch(lower, place, limit, "the ball", span) == KnownStart::Later {
         let inside = within(lower, place, limit);
         lower.imply(inside, &Implied::BallOnPitch, Some(span));
@@ -80,16 +84,15 @@ fn check_ball(lower: &mut Lower<'_, '_>, place: (Reg, Reg), kind: StartKind, spa
     if kind != StartKind::ThrowIn {
         return;
     }
-    let nearest = HALF_WIDTH_M - NEAR_M;
-    match lower.interval(place.1) {
-        Some((low, high)) if low >= nearest || high <= -nearest => {}
-        Some((low, high)) if low > -nearest && high < nearest => {
+    let nearest = lower.code.binary(BinaryOp::Sub, line, near);
+    match (lower.interval(place.1), lower.interval(nearest)) {
+        (Some((low, high)), Some((_, most))) if low >= most || high <= -most => {}
+        (Some((low, high)), Some((least, _))) if low > -least && high < least => {
             lower.report(Problem::new(span, Starts::NoSideLine));
         }
         _ => {
-            let (least, aside) =
-                (lower.code.constant(nearest), lower.code.unary(UnaryOp::Abs, place.1));
-            let beside = lower.code.binary(BinaryOp::Ge, aside, least);
+            let aside = lower.code.unary(UnaryOp::Abs, place.1);
+            let beside = lower.code.binary(BinaryOp::Ge, aside, nearest);
             lower.imply(beside, &Implied::BesideSideLine, Some(span));
         }
     }
@@ -120,41 +123,48 @@ enum KnownStart {
 }
 
 fn check_on_pitch(
-    lower: &Lower<'_, '_>,
+    lower: &mut Lower<'_, '_>,
     place: (Reg, Reg),
-    limit: (f64, f64),
+    limit: (Reg, Reg),
     what: &str,
     span: Span,
 ) -> KnownStart {
     let (x, y) = (lower.interval(place.0), lower.interval(place.1));
     // What is drawn up to the rim and beyond is never drawn on the rim.
     let beyond = |low: f64, high: f64, limit: f64| low > limit || (low >= limit && high > low);
-    let outside = |axis: Option<(f64, f64)>, limit: f64| {
-        axis.is_some_and(|(low, high)| beyond(low, high, limit) || beyond(-high, -low, limit))
+    let (limit_x, limit_y) = (lower.interval(limit.0), lower.interval(limit.1));
+    let outside = |axis: Option<(f64, f64)>, limit: Option<(f64, f64)>| {
+        let Some(((low, high), (_, limit))) = axis.zip(limit) else { return false };
+        beyond(low, high, limit) || beyond(-high, -low, limit)
     };
-    if outside(x, limit.0) || outside(y, limit.1) {
+    if outside(x, limit_x) || outside(y, limit_y) {
         let text = lower.world.text(span);
         let far = |axis: Option<(f64, f64)>| axis.map_or(0.0, |(low, _)| low);
+        let lines = [PitchMeasure::HalfLength, PitchMeasure::HalfWidth];
+        let [length, width] = lines.map(|measure| {
+            let half = lower.pitch_length(measure);
+            lower.interval(half).map_or(measure.usual(), |(_, most)| most)
+        });
         lower.report(Problem::new(
             span,
             Starts::OffPitch {
                 what: what.to_owned(),
                 text,
                 at: (far(x), far(y)),
-                size: (2.0 * HALF_LENGTH_M, 2.0 * HALF_WIDTH_M),
+                size: (2.0 * length, 2.0 * width),
             },
         ));
         return KnownStart::Now;
     }
-    let within = |axis: Option<(f64, f64)>, limit: f64| {
-        axis.is_some_and(|(low, high)| low >= -limit && high <= limit)
+    let within = |axis: Option<(f64, f64)>, limit: Option<(f64, f64)>| {
+        let Some(((low, high), (limit, _))) = axis.zip(limit) else { return false };
+        low >= -limit && high <= limit
     };
-    if within(x, limit.0) && within(y, limit.1) { KnownStart::Now } else { KnownStart::Later }
+    if within(x, limit_x) && within(y, limit_y) { KnownStart::Now } else { KnownStart::Later }
 }
 
-fn within(lower: &mut Lower<'_, '_>, place: (Reg, Reg), limit: (f64, f64)) -> Reg {
-    let mut inside = |value: Reg, limit: f64| {
-        let limit = lower.code.constant(limit);
+fn within(lower: &mut Lower<'_, '_>, place: (Reg, Reg), limit: (Reg, Reg)) -> Reg {
+    let mut inside = |value: Reg, limit: Reg| {
         let size = lower.code.unary(UnaryOp::Abs, value);
         lower.code.binary(BinaryOp::Le, size, limit)
     };

@@ -7,8 +7,7 @@ use crate::lower::mirror::Mirror;
 use crate::lower::value::{LiteralFrame, Scope};
 use crate::problem::facts::{Kind, Names, Starts};
 use crate::problem::{Guess, Problem};
-use setpiece_scenario::pitch::{GOAL_KICK_SPOT_M, HALF_LENGTH_M, HALF_WIDTH_M, PENALTY_SPOT_M};
-use setpiece_scenario::vocabulary::{StartKind, Team};
+use setpiece_scenario::vocabulary::{PitchMeasure, StartKind, Team};
 use setpiece_scenario::{BallStart, BinaryOp, Reg, UnaryOp};
 
 impl Lower<'_, '_> {
@@ -134,10 +133,10 @@ impl Lower<'_, '_> {
             return Some(place);
         }
         let x = match kind {
-            StartKind::Kickoff => 0.0,
-            StartKind::Corner => HALF_LENGTH_M,
-            StartKind::Penalty => HALF_LENGTH_M - PENALTY_SPOT_M,
-            StartKind::GoalKick => GOAL_KICK_SPOT_M - HALF_LENGTH_M,
+            StartKind::Kickoff => self.code.constant(0.0),
+            StartKind::Corner => self.pitch_length(PitchMeasure::HalfLength),
+            StartKind::Penalty => self.less(PitchMeasure::HalfLength, PitchMeasure::PenaltySpot),
+            StartKind::GoalKick => self.less(PitchMeasure::GoalKickSpot, PitchMeasure::HalfLength),
             StartKind::Open | StartKind::FreeKick | StartKind::ThrowIn => {
                 let name = &world.flat.item.name;
                 self.report(Problem::new(
@@ -147,10 +146,11 @@ impl Lower<'_, '_> {
                 return None;
             }
         };
-        let (x, y) = (
-            self.code.constant(x),
-            self.code.constant(if kind == StartKind::Corner { -HALF_WIDTH_M } else { 0.0 }),
-        );
+        let mut y = self.code.constant(0.0);
+        if kind == StartKind::Corner {
+            let aside = self.pitch_length(PitchMeasure::HalfWidth);
+            y = self.code.unary(UnaryOp::Neg, aside);
+        }
         let y = self.picture_y(y);
         Some(match team {
             Some(team) => {
@@ -165,13 +165,16 @@ impl Lower<'_, '_> {
 impl Lower<'_, '_> {
     /// Reports a corner whose place is known and lies elsewhere.
     fn check_place_of_start(
-        &self,
+        &mut self,
         kind: StartKind,
         team: Option<Reg>,
         place: (Reg, Reg),
         span: Span,
     ) {
-        let (Some(x), Some(y)) = (self.code.constant_of(place.0), self.code.constant_of(place.1))
+        let lines = [PitchMeasure::HalfLength, PitchMeasure::HalfWidth];
+        let [line_x, line_y] = lines.map(|measure| self.pitch_length(measure));
+        let [Some(x), Some(y), Some(line_x), Some(line_y)] =
+            [place.0, place.1, line_x, line_y].map(|reg| self.code.constant_of(reg))
         else {
             return;
         };
@@ -180,8 +183,8 @@ impl Lower<'_, '_> {
             Some(1.0) => Team::Right.side(),
             _ => x.signum(),
         };
-        let on_side_line = (y.abs() - HALF_WIDTH_M).abs() <= NEAR_M;
-        let on_byline = (x * side - HALF_LENGTH_M).abs() <= NEAR_M;
+        let on_side_line = (y.abs() - line_y).abs() <= NEAR_M;
+        let on_byline = (x * side - line_x).abs() <= NEAR_M;
         if kind == StartKind::Corner && !(on_side_line && on_byline) {
             let end =
                 if (side > 0.0) == (self.world.mirror != Mirror::Ends) { "right" } else { "left" };

@@ -3,8 +3,8 @@
 
 use crate::lower::value::{Repr, SetValue, Value};
 use setpiece_scenario::{
-    Agents, BallStart, Kickoff, KickoffPlaces, PlayerSlot, PlayerStart, Reg, Require, RuleSetting,
-    SideAgents, Start, WorldSetting,
+    Agents, BallStart, Kickoff, KickoffPlaces, PitchSetting, PlayerSlot, PlayerStart, Reg, Require,
+    RuleSetting, SideAgents, Start, WorldSetting,
 };
 use std::sync::Arc;
 
@@ -69,6 +69,11 @@ pub(super) fn map_start(start: &Start, f: &mut dyn FnMut(Reg) -> Reg) -> Start {
             .world
             .iter()
             .map(|s| WorldSetting { figure: s.figure, value: f(s.value) })
+            .collect(),
+        pitch: start
+            .pitch
+            .iter()
+            .map(|s| PitchSetting { figure: s.figure, value: f(s.value) })
             .collect(),
         limit: start.limit.map(&mut *f),
         rounds: start.rounds.map(&mut *f),

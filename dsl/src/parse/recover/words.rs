@@ -134,6 +134,7 @@ impl Context {
                 "region",
                 "rules",
                 "world",
+                "pitch",
                 "agents",
                 "ball",
                 "team",
@@ -205,6 +206,7 @@ impl Context {
             (Context::Scenario, "let") => "let lane = uniform(-0.2, 0.2)",
             (Context::Scenario, "rules") => "rules { offside: off }",
             (Context::Scenario, "world") => "world { wind: (4m/s, 0m/s) }",
+            (Context::Scenario, "pitch") => "pitch { length: 60m, width: 40m }",
             (Context::Scenario, "agents") => "agents { left: 1 }",
             (Context::Scenario, "ball") => "ball at (0.6, 0)",
             (Context::Scenario, "team") => "team left { CM at (0.5, 0) }",
@@ -249,9 +251,10 @@ impl Context {
             (Context::File, "suite") | (Context::Suite, "each") => Rule::suite_body,
             (Context::File, "check") => Rule::check_body,
             (Context::File, "curriculum") => Rule::curriculum_body,
-            (Context::Scenario, "rules" | "world" | "agents" | "ball" | "start" | "kickoff") => {
-                Rule::fields
-            }
+            (
+                Context::Scenario,
+                "rules" | "world" | "pitch" | "agents" | "ball" | "start" | "kickoff",
+            ) => Rule::fields,
             _ => return None,
         })
     }

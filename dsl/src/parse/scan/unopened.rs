@@ -86,7 +86,7 @@ fn begins_body(line: &[u8], rest: &[u8]) -> bool {
         Some(b"reward") => {
             [&b"give "[..], b"on ", b"state "].iter().any(|word| rest.starts_with(word))
         }
-        Some(b"rules" | b"world" | b"agents") => second.is_none(),
+        Some(b"rules" | b"world" | b"pitch" | b"agents") => second.is_none(),
         _ => false,
     }
 }

@@ -3,6 +3,7 @@
 use super::facts;
 use crate::problem::Code;
 use crate::problem::said::say;
+use setpiece_scenario::vocabulary::PitchFigure;
 
 facts! {
     /// Facts about ranges.
@@ -15,6 +16,13 @@ facts! {
                 }
                 _ => format!("write a value in {shown}"),
             }),
+        /// A penalty box that doesn't fit the pitch.
+        BoxTooLarge { figure: PitchFigure, text: String } = Code::OutOfRange => match figure {
+            PitchFigure::Box => say(format!("`box` is `{text}`, more than half the pitch"), "")
+                .help("write at most half of `length`, or leave it out: it is in proportion then"),
+            _ => say(format!("`{figure}` is `{text}`, more than the pitch is wide"), "")
+                .help("write at most `width`, or leave it out: it is in proportion then"),
+        },
         /// A velocity above the greatest one; `what`: whose.
         TooFast { what: String, most_mps: f64 } = Code::OutOfRange =>
             say(format!("{what} is never faster than {most_mps} m/s"), "").help("write a smaller velocity"),

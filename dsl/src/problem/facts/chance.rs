@@ -4,6 +4,7 @@ use super::{Fact, facts};
 use crate::problem::Code;
 use crate::problem::said::say;
 use crate::source::Span;
+use setpiece_scenario::vocabulary::PitchFigure;
 
 const USE_LET: &str = "use `let` for what is drawn or computed";
 
@@ -25,6 +26,9 @@ facts! {
         /// A constant reads a `let` of the scenario.
         ComputedAtReset { name: String } = Code::NotConstant =>
             say(format!("`{name}` is computed at reset"), "a constant is known before").help(USE_LET),
+        /// A constant reads the size of a pitch that is drawn or depends on parameters.
+        SizeInConstant { figure: PitchFigure } = Code::NotConstant =>
+            say(format!("a constant reads `{figure}` of the pitch, which is computed at reset"), "no constant").help(USE_LET),
         /// The default of a parameter reads what is known later.
         DefaultNotConstant { text: String } = Code::NotConstant =>
             say(format!("`{text}` is not known before the start"), "a default must be a constant").help(USE_LET),

@@ -12,6 +12,8 @@ pub(crate) enum Implied {
     BallOnPitch,
     /// A throw-in is taken from a side line.
     BesideSideLine,
+    /// A penalty box lies in its half.
+    BoxFits,
     /// A point is found in a region that is made of several.
     InRegion { text: String },
     /// The ends of a range are in order.
@@ -32,6 +34,7 @@ impl Implied {
             Implied::PlayersApart => "nobody stands on another's spot".to_owned(),
             Implied::BallOnPitch => "the ball lies on the pitch".to_owned(),
             Implied::BesideSideLine => "the throw-in is taken from a side line".to_owned(),
+            Implied::BoxFits => "the penalty boxes fit the pitch".to_owned(),
             Implied::InRegion { text } => format!("a point lies in {text}"),
             Implied::EndsOrdered { text } => {
                 format!("the lower end of {text} lies below the upper one")
@@ -56,6 +59,9 @@ impl Implied {
             }
             Implied::BallOnPitch => "place it where every draw lies between the lines".to_owned(),
             Implied::BesideSideLine => super::start::SIDE_LINES.to_owned(),
+            Implied::BoxFits => {
+                "draw a smaller box, or leave it out: it is in proportion then".to_owned()
+            }
             Implied::InRegion { .. } => {
                 "draw from a region whose parts have more in common".to_owned()
             }

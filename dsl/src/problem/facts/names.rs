@@ -88,10 +88,11 @@ facts! {
         /// An option that something doesn't have; `whose`: with its article or in backticks.
         NoOption { whose: String, option: String, guess: Guess } = Code::UnknownOption =>
             say(format!("{whose} has no option `{option}`"), "not known").guess(guess, "it has"),
-        /// An option of the world, of something else; `whose`: with its article or in backticks.
-        OfTheWorld { whose: String, option: String } = Code::UnknownOption =>
-            say(format!("{whose} has no option `{option}`"), "an option of `world`")
-                .help(format!("write `world {{ {option}: … }}`")),
+        /// An option of another block, of something else. `whose`: with its article or in
+        /// backticks.
+        OfBlock { whose: String, option: String, block: &'static str } = Code::UnknownOption =>
+            say(format!("{whose} has no option `{option}`"), format!("an option of `{block}`"))
+                .help(format!("write `{block} {{ {option}: … }}`")),
         /// The world has no mass of the ball; `option`: what it was called.
         NoMass { option: String } = Code::UnknownOption =>
             say(format!("`world` has no option `{option}`"), "a ball's mass shows only in the air")

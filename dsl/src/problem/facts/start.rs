@@ -4,6 +4,7 @@ use super::facts;
 use crate::problem::Code;
 use crate::problem::said::say;
 use crate::source::Span;
+use setpiece_scenario::pitch::to_normalised;
 use setpiece_scenario::vocabulary::{StartKind, Team};
 
 facts! {
@@ -70,12 +71,11 @@ facts! {
         } = Code::OffPitch => {
             let ((x, y), (length, width)) = (at, size);
             let said = say(format!("{what} is off the pitch: `{text}` is ({x:.1}m, {y:.1}m)"), "");
-            match in_metres(text, *size) {
-                Some(place) => said.help(format!("are metres meant? Then write `{place}`")),
-                None => said.help(format!(
-                    "the pitch is {length}m by {width}m, or normalised from (-1.01, -0.43) to (1.01, 0.43)"
-                )),
-            }
+            let (x, y) = to_normalised(0.5 * length, 0.5 * width);
+            said.help(in_metres(text, *size).map_or_else(
+                || format!("the pitch is {length}m by {width}m, or normalised from (-{x:.2}, -{y:.2}) to ({x:.2}, {y:.2})"),
+                |place| format!("are metres meant? Then write `{place}`"),
+            ))
         },
         /// The ball is far from its owner.
         OwnerFarAway { name: String, apart_m: f64 } = Code::OutOfRange =>
@@ -99,7 +99,7 @@ fn in_metres(text: &str, (length, width): (f64, f64)) -> Option<String> {
 }
 
 /// Where the side lines are.
-pub(super) const SIDE_LINES: &str = "their y is -0.42 and 0.42: `at (0.3, 0.42)`";
+pub(super) const SIDE_LINES: &str = "write, for example, `at left.corner.top + (20m, 0m)`";
 const START_HERE: &str = "the start is given here";
 const LEAVE_BALL_OUT: &str = "leave `ball …` out; an inherited one goes by `remove ball`";
 

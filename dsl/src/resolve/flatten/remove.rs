@@ -40,6 +40,7 @@ impl<'a> Adding<'a, '_> {
             ("start", _) => flat.start.take().is_some(),
             ("observe", _) => flat.observed.take().is_some(),
             ("world", _) => !std::mem::take(&mut flat.world).is_empty(),
+            ("pitch", _) => !std::mem::take(&mut flat.pitch).is_empty(),
             ("substitute", Some(name)) => {
                 removed(&mut flat.substitutes, |one| who(one) == Some(name))
             }

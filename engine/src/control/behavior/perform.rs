@@ -8,7 +8,6 @@ use crate::football::pace::RUN_MPS;
 use crate::football::shot;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::{GOAL_HALF_WIDTH_M, HALF_LENGTH_M};
 use setpiece_scenario::vocabulary::Action;
 
 /// A player has arrived within this distance, metres.
@@ -173,16 +172,17 @@ impl Legs<'_> {
         }
         let side = self.id.team().side() as f32;
         let from = self.game.ball.pos.truncate();
-        let goal = Vec2::new(HALF_LENGTH_M as f32 * side, 0.0);
+        let (goal, pitch) = (self.game.goal() * side, &self.game.pitch);
         let meant = at.unwrap_or(goal);
         if meant.is_nan() {
             return WishStep::Impossible;
         }
-        let off =
-            |dir: Option<Vec2>| shot::aim_of(from, side, dir.map(|dir| dir * side)).distance(meant);
+        let off = |dir: Option<Vec2>| {
+            shot::aim_of(pitch, from, side, dir.map(|dir| dir * side)).distance(meant)
+        };
         let held = sticky::direction(self.held);
         // Without a point, anything between the posts will do.
-        if at.is_none() && off(held) < GOAL_HALF_WIDTH_M as f32 {
+        if at.is_none() && off(held) < pitch.goal_half_width() as f32 {
             frame.pressed = true;
             return WishStep::Act(Action::Shot);
         }
@@ -254,7 +254,7 @@ impl Legs<'_> {
             return WishStep::Ended;
         };
         let rival = self.game.player(who);
-        let goal = Vec2::new(-(HALF_LENGTH_M as f32) * self.id.team().side() as f32, 0.0);
+        let goal = -self.game.goal() * self.id.team().side() as f32;
         let ahead = rival.pos + rival.vel * MARK_AHEAD_S;
         let spot = ahead + (goal - ahead).clamp_length_max(MARK_M);
         let way = spot - self.pos();

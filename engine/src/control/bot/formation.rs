@@ -6,7 +6,7 @@
 
 use crate::control::bot::TeamView;
 use crate::control::bot::matching::matching;
-use crate::football::block::{HALF, TeamBlock};
+use crate::football::block::TeamBlock;
 use crate::math::{self, mix, share};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -130,7 +130,7 @@ pub struct Outlook {
 impl Outlook {
     /// Computes how a player sees the game.
     pub fn of(game: &Match, view: &TeamView, id: PlayerId) -> Outlook {
-        let action = view.action_at(game);
+        let (action, half) = (view.action_at(game), game.half());
         let urgent = 1.0 - share(action.distance(game.player(id).pos * view.side), 2.0, 30.0);
         let mean = |seconds: f32| view.means.over(seconds) * view.side;
         let ball_x = mean(3.5 * (1.0 - 0.7 * urgent)).x;
@@ -139,9 +139,9 @@ impl Outlook {
         // is unclear.
         let near = share(view.nearness - 0.5, 0.3, 0.7);
         let unclear = 0.6 * (1.0 - (2.0 * near - 1.0).abs());
-        let up = share(ball_x / HALF.x, -0.7, 0.7);
+        let up = share(ball_x / half.x, -0.7, 0.7);
         let attacks = (mix(near, up, unclear) + 0.3 * (view.daring - 0.5)).clamp(0.0, 1.0);
-        let side_x = HALF.x * (0.2 * (2.0 * attacks - 1.0) + 0.8 * view.lately);
+        let side_x = half.x * (0.2 * (2.0 * attacks - 1.0) + 0.8 * view.lately);
         let focus = (mean(2.0) * 0.5 + action * 0.5).lerp(mean(3.0), attacks);
         let low = 0.3 + 0.7 * up;
         let draws = mix(math::eighths::<5>(1.0 - low), math::eighths::<6>(low), attacks);
@@ -151,6 +151,7 @@ impl Outlook {
     /// The player's place in the block if they fill the slot and role of `fills`.
     pub fn place(&self, game: &Match, view: &TeamView, fills: PlayerId) -> Vec2 {
         let Outlook { ball, attacks, side_x, focus, draws } = *self;
+        let half = game.half();
         let filled = game.player(fills);
         let [attack, defence] = wishes(filled.role);
         let both = |with: f32, without: f32| mix(without, with, attacks);
@@ -161,20 +162,20 @@ impl Outlook {
             (attack.by_side - 0.3 + dares).clamp(0.0, 1.0),
             (defence.by_side - dares).clamp(0.0, 1.0),
         );
-        let middle_x = (mix(ball.x, side_x, by_side) - HALF.x * both(attack.back, defence.back))
-            .clamp(-HALF.x, HALF.x);
+        let middle_x = (mix(ball.x, side_x, by_side) - half.x * both(attack.back, defence.back))
+            .clamp(-half.x, half.x);
         let middle_x = middle_x * (0.95 * (1.0 - depth) + 0.05);
-        let middle_y = ball.y.clamp(-HALF.y, HALF.y) * (0.9 * (1.0 - width) + 0.1);
+        let middle_y = ball.y.clamp(-half.y, half.y) * (0.9 * (1.0 - width) + 0.1);
         let (back, front) =
-            ((middle_x - depth * HALF.x).max(view.trap_x), middle_x + depth * HALF.x);
+            ((middle_x - depth * half.x).max(view.trap_x), middle_x + depth * half.x);
         // The action, as attackers and as defenders see it.
-        let ahead = Vec2::new((focus.x + 1.0).min(HALF.x), 0.9 * focus.y);
-        let behind = Vec2::new((focus.x - 2.0).max(-HALF.x).min(-back), 0.9 * focus.y);
-        let follows = share(ball.x / HALF.x, -0.8, 0.8);
+        let ahead = Vec2::new((focus.x + 1.0).min(half.x), 0.9 * focus.y);
+        let behind = Vec2::new((focus.x - 2.0).max(-half.x).min(-back), 0.9 * focus.y);
+        let follows = share(ball.x / half.x, -0.8, 0.8);
         let midfield = 0.7 * both(attack.midfield, defence.midfield) + 0.3 * follows;
         let block = TeamBlock {
             depth: [back, front],
-            half_width: width * HALF.y,
+            half_width: width * half.y,
             middle_y,
             towards_x: (0.0, 0.0),
             towards_y: (ball.y, both(0.5, 0.2)),
@@ -184,6 +185,6 @@ impl Outlook {
             ),
             midfield: (2.0 * midfield - 1.0, MIDFIELD_KEEN),
         };
-        block.place(filled.body.mind.slot).clamp(-HALF, HALF)
+        block.place(filled.body.mind.slot, half).clamp(-half, half)
     }
 }

@@ -1,21 +1,22 @@
 //! The keeper's feet: where they stand, and when they come out. (Their hands are in
 //! `football::keeper`.)
 
-use crate::control::bot::send::{GOAL, send};
+use crate::control::bot::send::send;
 use crate::control::bot::{TeamView, on_ball, press};
 use crate::football::pace::{RUN_MPS, SPRINT_MPS};
 use crate::math::share;
 use crate::state::player::{Intent, Pose};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::pitch::GOAL_HALF_WIDTH_M;
-use setpiece_scenario::vocabulary::Stat;
+use setpiece_scenario::PitchSize;
+use setpiece_scenario::vocabulary::{PitchMeasure, Stat};
 
-/// Beyond this own frame x, metres, a keeper without teammates plays as the only player; chosen.
-const STRAYED_M: f32 = -15.0;
-/// Beyond this own frame x, metres, a keeper goes only for a ball that no opponent can contest;
-/// chosen.
-const FAR_OUT_M: f32 = -30.0;
+/// Beyond this own frame x, metres on the usual pitch, a keeper without teammates plays as the only
+/// player; chosen.
+const STRAYED_M: f64 = -15.0;
+/// Beyond this own frame x, metres on the usual pitch, a keeper goes only for a ball that no
+/// opponent can contest; chosen.
+const FAR_OUT_M: f64 = -30.0;
 /// How far ahead a keeper predicts the ball, ticks. (GRF's.)
 const LOOK_TICKS: u32 = 60;
 /// How far ahead a keeper predicts opponents, seconds. (GRF's.)
@@ -50,7 +51,7 @@ pub fn stands(game: &mut Match, view: &TeamView, id: PlayerId) -> bool {
         return true;
     }
     let lone = game.team(view.team).count() == 1;
-    if lone && player.pos.x * view.side > STRAYED_M {
+    if lone && player.pos.x * view.side > game.pitch.along(STRAYED_M) as f32 {
         return false;
     }
     let called = game.play.rush[view.team.index()] && !view.attacks(game);
@@ -75,15 +76,15 @@ pub fn stands(game: &mut Match, view: &TeamView, id: PlayerId) -> bool {
 /// goal line, or further up while the own team has the ball. They come all the way out to an
 /// opponent that no teammate can stop any more, unless a second opponent waits for that.
 fn post(game: &Match, view: &TeamView, id: PlayerId) -> (Vec2, f32) {
-    let keeper = game.player(id).pos * view.side;
+    let (keeper, goal) = (game.player(id).pos * view.side, game.goal());
     if let Some(spot) = in_the_way(game, view, id) {
         return (spot, SPRINT_MPS);
     }
     let ball = game.play.forecast.at(game.tick + LOOK_TICKS).truncate() * view.side;
     if ball.x > 0.0 {
-        return (Vec2::new(WAIT_M - GOAL.x, 0.0), SPRINT_MPS);
+        return (Vec2::new(WAIT_M - goal.x, 0.0), SPRINT_MPS);
     }
-    let foot = Vec2::new(LINE_M - GOAL.x, middle_of_goal(ball));
+    let foot = Vec2::new(LINE_M - goal.x, middle_of_goal(&game.pitch, ball));
     let mut front = ball;
     let nearness = view.nearness_of(game, id);
     let mut share = UP_SHARE * share(nearness, 1.0, 1.5);
@@ -92,7 +93,7 @@ fn post(game: &Match, view: &TeamView, id: PlayerId) -> (Vec2, f32) {
         let other = game.player(rival);
         let place = (other.pos + other.vel * MEET_S) * view.side;
         front = if theirs.is_some() { ball * 0.6 + place * 0.4 } else { ball * 0.4 + place * 0.6 };
-        let left_m = shooting_m(place, RIVAL_SHOOTS_M);
+        let left_m = shooting_m(place, goal, RIVAL_SHOOTS_M);
         if nearest_mate_m(game, view, id, place, left_m) > left_m + 1.0 {
             share = 1.0 - second_danger(game, view, id, rival, left_m);
         }
@@ -103,58 +104,59 @@ fn post(game: &Match, view: &TeamView, id: PlayerId) -> (Vec2, f32) {
     let way = front - foot;
     let out = ((way.length() - 0.5).max(0.0) * share).max(LINE_M);
     let mut spot = foot + way.normalize_or_zero() * out;
-    spot.x = spot.x.max(0.2 - GOAL.x);
+    spot.x = spot.x.max(0.2 - goal.x);
     // A keeper who goes back on the line between ball and goal keeps facing the ball.
     let on_line = way.normalize_or_zero().perp_dot(keeper - foot).abs() < 1.0;
-    let back = spot.distance(-GOAL) < keeper.distance(-GOAL);
+    let back = spot.distance(-goal) < keeper.distance(-goal);
     (spot, if back && on_line { RUN_MPS } else { SPRINT_MPS })
 }
 
 /// The nearest point on the path of a ball bound for goal, own frame; none for any other ball. A
 /// ball dribbled towards the goal counts too. (GRF's.)
 fn in_the_way(game: &Match, view: &TeamView, id: PlayerId) -> Option<Vec2> {
-    let player = game.player(id);
+    let (player, goal) = (game.player(id), game.goal());
     let at = |ticks: u32| game.play.forecast.at(game.tick + ticks).truncate() * view.side;
     let (ball, soon) = (at(1), at(COURSE_TICKS));
     let way = soon - ball;
-    let rolls_in = at(BOUND_TICKS).x < -GOAL.x && way.x < 0.0;
+    let rolls_in = at(BOUND_TICKS).x < -goal.x && way.x < 0.0;
     if !rolls_in || (player.pos * view.side).distance(at(25)) > BOUND_M {
         return None;
     }
-    let y = ball.y + way.y * (-GOAL.x - ball.x) / way.x;
+    let y = ball.y + way.y * (-goal.x - ball.x) / way.x;
     let reads = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
-    if y.abs() > GOAL_HALF_WIDTH_M as f32 * (1.02 + 0.5 * (1.0 - reads)) {
+    if y.abs() > game.measure(PitchMeasure::GoalHalfWidth) * (1.02 + 0.5 * (1.0 - reads)) {
         return None;
     }
-    let line = Vec2::new(-GOAL.x, y);
+    let line = Vec2::new(-goal.x, y);
     let end = line + (ball - line).normalize_or_zero() * BEFORE_LINE_M;
     let course = end - ball;
     let own = (player.pos + player.vel * 0.05) * view.side - ball;
     let share = (own.dot(course) / course.length_squared().max(1e-3)).clamp(0.0, 1.0);
     let spot = ball + course * share;
-    Some(Vec2::new(spot.x.max(0.2 - GOAL.x), spot.y))
+    Some(Vec2::new(spot.x.max(0.2 - goal.x), spot.y))
 }
 
 /// The own frame y, metres, at which the bisector of the view of the goal from a place meets the
 /// goal line.
-fn middle_of_goal(from: Vec2) -> f32 {
-    let post = |y: f32| (Vec2::new(-GOAL.x, y) - from).normalize_or(Vec2::NEG_X);
-    let half = GOAL_HALF_WIDTH_M as f32;
+fn middle_of_goal(pitch: &PitchSize, from: Vec2) -> f32 {
+    let line = pitch.half_length() as f32;
+    let post = |y: f32| (Vec2::new(-line, y) - from).normalize_or(Vec2::NEG_X);
+    let half = pitch.goal_half_width() as f32;
     let way = post(half) + post(-half);
-    let along = (LINE_M - GOAL.x - from.x) / way.x.min(-0.01);
+    let along = (LINE_M - line - from.x) / way.x.min(-0.01);
     (from.y + way.y * along).clamp(-half, half)
 }
 
 /// How far a place is from where a shot pays, metres; nearer to goal, a shot pays from further out.
-fn shooting_m(place: Vec2, from_m: f32) -> f32 {
-    let away = place.distance(-GOAL);
+fn shooting_m(place: Vec2, goal: Vec2, from_m: f32) -> f32 {
+    let away = place.distance(-goal);
     (away - from_m * (away / (2.0 * from_m)).min(1.0)).max(0.0)
 }
 
 /// The distance of the nearest outfield teammate from the point at which an opponent could shoot,
 /// metres.
 fn nearest_mate_m(game: &Match, view: &TeamView, id: PlayerId, place: Vec2, left_m: f32) -> f32 {
-    let point = place + (-GOAL - place).normalize_or_zero() * left_m;
+    let point = place + (-game.goal() - place).normalize_or_zero() * left_m;
     let mates = game.team(view.team).filter(|(mate, _)| *mate != id);
     mates.fold(f32::MAX, |least, (_, mate)| {
         least.min(((mate.pos + mate.vel * 0.24) * view.side).distance(point))
@@ -165,11 +167,12 @@ fn nearest_mate_m(game: &Match, view: &TeamView, id: PlayerId, place: Vec2, left
 fn second_danger(game: &Match, view: &TeamView, id: PlayerId, rival: PlayerId, left_m: f32) -> f32 {
     let others = game.team(view.team.other()).filter(|(other, _)| *other != rival);
     let place_of = |other: &Player| (other.pos + other.vel * MEET_S) * view.side;
+    let goal = game.goal();
     let near = others.map(|(_, other)| place_of(other)).reduce(|best, next| {
-        if next.distance_squared(-GOAL) < best.distance_squared(-GOAL) { next } else { best }
+        if next.distance_squared(-goal) < best.distance_squared(-goal) { next } else { best }
     });
     let Some(place) = near else { return 0.0 };
-    let second_m = shooting_m(place, SECOND_SHOOTS_M);
+    let second_m = shooting_m(place, goal, SECOND_SHOOTS_M);
     let open = (0.5 * (nearest_mate_m(game, view, id, place, second_m) - second_m)).clamp(0.0, 1.0);
     let nearer = 1.0 - ((second_m / (left_m + 1e-4) - 1.0) / 0.5).clamp(0.0, 1.0);
     open * nearer * 0.7
@@ -193,13 +196,17 @@ fn comes_out(game: &Match, view: &TeamView, id: PlayerId) -> bool {
         .filter(|(mate, _)| *mate != id)
         .fold(f32::MAX, |least, (_, p)| least.min(p.body.meet_s));
     let lone = game.team(view.team).count() == 1;
-    let in_box = meet.x < -39.5 && meet.y.abs() < 19.5;
-    let lead_s = match (lone, in_box, meet.x < FAR_OUT_M) {
+    let (line, pitch) = (game.goal().x, &game.pitch);
+    let edge = line - game.measure(PitchMeasure::BoxDepth) + 1.0;
+    let aside = (pitch.measure(PitchMeasure::BoxHalfWidth) - 0.65) as f32;
+    let in_box = meet.x < -edge && meet.y.abs() < aside;
+    let far_out = meet.x < pitch.along(FAR_OUT_M) as f32;
+    let lead_s = match (lone, in_box, far_out) {
         (true, ..) => -0.05,
         (_, true, _) => 0.25,
         (_, _, true) => 0.8,
         _ => FAR_LEAD_S,
     };
     let theirs_first = player.body.meet_s + lead_s >= rivals;
-    !theirs_first && (player.body.meet_s < mates + 0.3 || in_box && view.ball.x < -44.0)
+    !theirs_first && (player.body.meet_s < mates + 0.3 || in_box && view.ball.x < 11.0 - line)
 }

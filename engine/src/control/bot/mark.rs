@@ -2,7 +2,6 @@
 //! line. (All figures are GRF's.)
 
 use crate::control::bot::TeamView;
-use crate::control::bot::send::GOAL;
 use crate::math::share;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -23,7 +22,7 @@ const NEARER_M: f32 = 4.0;
 /// A late marker runs towards the goal by this share of their delay.
 const LATE: f32 = 0.7;
 /// Distance from the goal of the line behind which nobody falls back; a more daring team keeps it
-/// further out, metres.
+/// further out, metres on the usual pitch.
 const LINE_M: f32 = 30.0;
 const LINE_DARING_M: f32 = 20.0;
 /// The line's least distance from the goal, metres.
@@ -37,12 +36,12 @@ const LINE_ZONE_M: f32 = 2.0;
 /// Assigns a marker to each of the most dangerous opponents, including the one with the ball.
 pub fn assign(game: &mut Match, view: &TeamView) {
     game.each(game.squad.of(view.team), |player| player.body.mind.mark = None);
-    let carrier = view.rival(game);
-    let aim = Vec2::new(2.0 - GOAL.x, 0.0) * 0.8 + view.ball * 0.2;
+    let (carrier, goal) = (view.rival(game), game.goal());
+    let aim = Vec2::new(2.0 - goal.x, 0.0) * 0.8 + view.ball * 0.2;
     let mut marked = 0u32;
     for _ in 0..MARKED {
         let danger = |id: PlayerId| {
-            let far = (game.player(id).pos * view.side).distance(aim) / (2.0 * GOAL.x);
+            let far = (game.player(id).pos * view.side).distance(aim) / (2.0 * goal.x);
             0.95 * (1.0 - far.min(1.0)) + if carrier == Some(id) { 0.05 } else { 0.0 }
         };
         let open =
@@ -72,7 +71,8 @@ fn worth(game: &Match, view: &TeamView, id: PlayerId, rival: PlayerId) -> f32 {
         (player.pos + player.vel * 0.1) * view.side
     };
     let (own, other) = (soon(id), soon(rival));
-    let to_goal = -GOAL - own;
+    let goal = game.goal();
+    let to_goal = -goal - own;
     let reach = to_goal.length().clamp(4.0, 14.0);
     let way = to_goal.normalize_or(Vec2::NEG_X);
     let from = other - (own - way * 0.5);
@@ -83,7 +83,7 @@ fn worth(game: &Match, view: &TeamView, id: PlayerId, rival: PlayerId) -> f32 {
     if before_m <= 0.0 {
         worth *= 0.6;
     }
-    worth * 0.8 + 0.2 * (1.0 - share(own.distance(other), 0.0, 2.0 * GOAL.x))
+    worth * 0.8 + 0.2 * (1.0 - share(own.distance(other), 0.0, 2.0 * goal.x))
 }
 
 /// Where a player goes to mark their opponent, given the place, own frame, where they would be
@@ -94,8 +94,9 @@ pub fn post(game: &Match, view: &TeamView, id: PlayerId, place: Vec2) -> Vec2 {
     let other = game.player(rival);
     let at = (other.pos + other.vel * RIVAL_AHEAD_S) * view.side;
     let from_m = if view.action == Some(rival) { CARRIER_SHOOTS_M } else { OTHER_SHOOTS_M };
-    let to_goal = -GOAL - at;
-    let mut left_m = (to_goal.length() - from_m).clamp(CLOSE_M, GOAL.x);
+    let goal = game.goal();
+    let to_goal = -goal - at;
+    let mut left_m = (to_goal.length() - from_m).clamp(CLOSE_M, goal.x);
     let mut shoots_at = at + to_goal.normalize_or_zero() * left_m;
     if shoots_at.x < view.trap_x && to_goal.x < -1e-3 {
         // The opponent is met no further back than at the line.
@@ -108,7 +109,7 @@ pub fn post(game: &Match, view: &TeamView, id: PlayerId, place: Vec2) -> Vec2 {
     let own = (player.pos + player.vel * OWN_AHEAD_S) * view.side;
     let late_m = own.distance(shoots_at) - left_m;
     if late_m > 0.0 {
-        post += (-GOAL - post).normalize_or_zero() * (late_m * LATE);
+        post += (-goal - post).normalize_or_zero() * (late_m * LATE);
     }
     post
 }
@@ -116,12 +117,13 @@ pub fn post(game: &Match, view: &TeamView, id: PlayerId, place: Vec2) -> Vec2 {
 /// The line, own frame x, metres, behind which nobody falls back, so that opponents are offside. It
 /// retreats with the ball, the opponent on it and the teammates behind it.
 pub fn trap_x(game: &Match, view: &TeamView) -> f32 {
-    let side = view.side;
-    let from_m = LINE_M + LINE_DARING_M * view.daring;
-    let yields_m = 20.0 + 10.0 * (1.0 - view.daring);
+    let (side, goal) = (view.side, game.goal());
+    let along = |usual_m: f32| game.pitch.along(f64::from(usual_m)) as f32;
+    let from_m = along(LINE_M + LINE_DARING_M * view.daring);
+    let yields_m = along(20.0 + 10.0 * (1.0 - view.daring));
     let ball = -view.ball.x;
-    let forced = share(ball, GOAL.x - from_m - yields_m, GOAL.x - LAST_LINE_M);
-    let mut depth = (GOAL.x - from_m).max(ball + yields_m * (1.0 - forced));
+    let forced = share(ball, goal.x - from_m - yields_m, goal.x - LAST_LINE_M);
+    let mut depth = (goal.x - from_m).max(ball + yields_m * (1.0 - forced));
     depth = depth.max(-game.play.forecast.at(game.tick + 70).x * side);
     if let Some(rival) = view.rival(game) {
         let other = game.player(rival);
@@ -139,7 +141,7 @@ pub fn trap_x(game: &Match, view: &TeamView) -> f32 {
             second = x;
         }
     }
-    -depth.max(second.max(ball).clamp(0.0, GOAL.x) - CAUTION_M)
+    -depth.max(second.max(ball).clamp(0.0, goal.x) - CAUTION_M)
 }
 
 /// Moves a place onto the line.

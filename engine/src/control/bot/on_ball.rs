@@ -1,7 +1,6 @@
 //! With the ball: pass, shoot, clear or run on. (The figures are GRF's unless they say otherwise.)
 
 use crate::control::bot::formation::mindset;
-use crate::control::bot::send::GOAL;
 use crate::control::bot::{TeamView, dribbling, odds};
 use crate::football::pace::SPRINT_MPS;
 use crate::football::{kick, noise, touch};
@@ -20,8 +19,10 @@ enum OnBallChoice {
     Clear,
 }
 
-/// How far from the middle of the goal a shot is aimed, metres; chosen.
-const PLACED_M: f32 = 2.9;
+/// How far from the middle of the usual goal a shot is aimed, and where a way for it is looked for,
+/// metres; chosen.
+const PLACED_M: f64 = 2.9;
+const CORNER_M: f64 = 3.6;
 /// The distance from the goal at which shots pay best, metres, and how far from there they are
 /// tried.
 const SHOOTS_FROM_M: f32 = 7.0;
@@ -126,7 +127,8 @@ fn choose(game: &mut Match, view: &TeamView, id: PlayerId) -> Option<OnBallChoic
 fn placed(game: &Match, view: &TeamView, id: PlayerId, nearness: f32) -> f32 {
     let player = game.player(id);
     let ahead = player.pos + Vec2::new(0.5 * SPRINT_MPS * view.side, 0.0);
-    let away = (GOAL - player.pos * view.side).length() / (2.0 * GOAL.x);
+    let goal = game.goal();
+    let away = (goal - player.pos * view.side).length() / (2.0 * goal.x);
     let near = 1.0 - away.min(1.0);
     let sum = odds::free_space(game, view.team, ahead, 0.5) * SPACE_AHEAD
         + odds::free_space(game, view.team, player.pos + player.vel * 0.1, 0.1) * SPACE_AROUND
@@ -201,7 +203,8 @@ fn must_clear(game: &Match, view: &TeamView, id: PlayerId, pass: f32) -> bool {
     if player.role == Role::GK {
         return ahead < KEEPER_CALM;
     }
-    let close = 1.0 - share((player.pos * view.side).distance(-GOAL), PANIC_M.start, PANIC_M.end);
+    let close =
+        1.0 - share((player.pos * view.side).distance(-game.goal()), PANIC_M.start, PANIC_M.end);
     // With a rival at the ball there is no time to swing.
     rival_s > SWING_S && (pass == 0.0 || pass < close) && ahead < 0.9 + 0.8 * close
 }
@@ -210,14 +213,16 @@ fn must_clear(game: &Match, view: &TeamView, id: PlayerId, pass: f32) -> bool {
 fn shot(game: &mut Match, view: &TeamView, id: PlayerId) -> Option<Vec2> {
     let player = *game.player(id);
     let own = player.pos * view.side;
-    let from = Vec2::new(GOAL.x - SHOOTS_FROM_M, 0.0).distance(own);
+    let goal = game.goal();
+    let from = Vec2::new(goal.x - SHOOTS_FROM_M, 0.0).distance(own);
     if ease(1.0 - share(from, 0.0, SHOOTS_WITHIN_M)) <= 0.1 {
         return None;
     }
-    let at = |y: f32| Vec2::new(GOAL.x + 1.0, y);
+    let at = |y: f32| Vec2::new(goal.x + 1.0, y);
     let chance = |y: f32| odds::of_way(game, view, id, at(y), KickKind::Shot, SHOT_SPEED);
     let middle = (chance(0.0), 0.0);
-    let best = [(chance(-3.6), -PLACED_M), (chance(3.6), PLACED_M)];
+    let [corner, placed] = [CORNER_M, PLACED_M].map(|from| game.pitch.in_goal(from) as f32);
+    let best = [(chance(-corner), -placed), (chance(corner), placed)];
     let (odds, y) =
         best.into_iter().fold(middle, |best, next| if next.0 > best.0 { next } else { best });
     let luck = noise::bot_roll(game);
@@ -242,11 +247,12 @@ fn perform(game: &mut Match, view: &TeamView, id: PlayerId, act: OnBallChoice) {
     let from = game.tick + rest_ticks(game, id);
     let plan = |kind: KickKind| KickPlan { until, ..kick::planned(kind, from) };
     let (shot, clearance) = (plan(KickKind::Shot), plan(KickKind::Clear));
+    let goal = game.goal();
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);
     match act {
         OnBallChoice::Shoot(point) => {
-            let far = share((GOAL - body.meet * view.side).length(), 0.0, 32.0);
+            let far = share((goal - body.meet * view.side).length(), 0.0, 32.0);
             let most = 0.6 + 0.4 * far;
             let luck = noise::bot_roll(game);
             let plan = KickPlan {

@@ -1,7 +1,6 @@
 //! Going for the ball, free or an opponent's.
 
 use crate::control::bot::formation::mindset;
-use crate::control::bot::send::GOAL;
 use crate::control::bot::{TeamView, off_ball, on_ball};
 use crate::football::pace::SPRINT_MPS;
 use crate::state::player::Intent;
@@ -126,7 +125,7 @@ pub fn hunt(game: &mut Match, view: &TeamView, id: PlayerId, rival: PlayerId) {
     let own = game.player(id).pos * view.side;
     let place = carrier.pos * view.side;
     let between = place - own;
-    let way = -GOAL - place;
+    let way = -game.goal() - place;
     // The point of the carrier's path that is equally near to both.
     let share = (0.5 * between.length_squared() / between.dot(-way).max(1e-3)).clamp(0.0, 1.0);
     let point =
@@ -138,7 +137,7 @@ pub fn hunt(game: &mut Match, view: &TeamView, id: PlayerId, rival: PlayerId) {
     }
     let near = between.length() < CHALLENGE_M;
     let past = if near {
-        alongside(view, own, &carrier).or_else(|| around(view, own, &carrier))
+        alongside(view, game.goal(), own, &carrier).or_else(|| around(view, own, &carrier))
     } else {
         None
     };
@@ -188,9 +187,9 @@ fn hunt_m(game: &Match, player: &Player) -> f32 {
 
 /// Where a defender runs who sees a running carrier's back, own frame: past the carrier's shoulder.
 /// None if they are beside the carrier.
-fn alongside(view: &TeamView, own: Vec2, carrier: &Player) -> Option<Vec2> {
+fn alongside(view: &TeamView, goal: Vec2, own: Vec2, carrier: &Player) -> Option<Vec2> {
     let place = carrier.pos * view.side;
-    let way = (-GOAL - place).normalize_or(Vec2::NEG_X);
+    let way = (-goal - place).normalize_or(Vec2::NEG_X);
     let from = own - place;
     if from.dot(way) > BESIDE_M || stands(carrier) {
         return None;

@@ -3,7 +3,6 @@
 
 use crate::control::bot::TeamView;
 use crate::control::bot::formation::mindset;
-use crate::football::block::HALF;
 use crate::football::pace::SPRINT_MPS;
 use crate::math::{self, ease, share};
 use crate::state::{Match, PlayerId};
@@ -110,7 +109,7 @@ pub fn place(game: &Match, view: &TeamView, id: PlayerId, base: Vec2) -> Vec2 {
     }
     forces.draw(base, 0.7 * (0.3 + 0.7 * share(base.distance(at), 0.0, 20.0)), DAMPED_M);
     if runs {
-        forces.draw(Vec2::new(HALF.x, 0.5 * at.y), 2.0, DAMPED_M);
+        forces.draw(Vec2::new(game.half().x, 0.5 * at.y), 2.0, DAMPED_M);
     }
     let caution = match role {
         Role::CB | Role::LB | Role::RB => 2.2,
@@ -146,7 +145,7 @@ pub fn place(game: &Match, view: &TeamView, id: PlayerId, base: Vec2) -> Vec2 {
     }
     let mut to = at + forces.mean() * SPRINT_MPS;
     to.x = to.x.min(view.line_x - ONSIDE_M);
-    to.clamp(-HALF, HALF)
+    to.clamp(-game.half(), game.half())
 }
 
 /// Whether a role runs forward at this nearness of its team to the ball.

@@ -1,6 +1,5 @@
 //! Set pieces by the bot: what the taker plays, and when.
 
-use crate::control::bot::send::GOAL;
 use crate::football::kick;
 use crate::football::noise;
 use crate::football::offside;
@@ -47,7 +46,9 @@ pub fn think(game: &mut Match) {
 /// Chooses what the taker plays.
 fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     let side = set_piece.team.side() as f32;
-    let own = set_piece.spot * side;
+    let (own, goal) = (set_piece.spot * side, game.goal());
+    let pitch = game.pitch;
+    let post = |inside_m: f64| (pitch.goal_half_width() - inside_m) as f32;
     let luck = noise::bot_roll(game);
     let spread = noise::bot_roll(game) * 2.0 - 1.0;
     let [short, high, shot] = [KickKind::Short, KickKind::High, KickKind::Shot]
@@ -55,23 +56,25 @@ fn choose(game: &mut Match, set_piece: SetPiece) -> KickPlan {
     let near = |x: f32, y: f32| nearest(game, set_piece.taker, Vec2::new(x, y) * side);
     match set_piece.mode {
         GameMode::Penalty => KickPlan {
-            point: Some(Vec2::new(GOAL.x, spread * 3.2) * side),
+            point: Some(Vec2::new(goal.x, spread * post(0.5)) * side),
             power: 0.3 + 0.5 * luck,
             ..shot
         },
         GameMode::Corner if luck < 0.75 => {
-            let point = Vec2::new(46.5, spread * 7.0);
+            let point = Vec2::new(goal.x - 8.5, spread * 7.0);
             KickPlan { mate: near(point.x, point.y), point: Some(point * side), ..high }
         }
         GameMode::GoalKick if luck < 0.45 => KickPlan { mate: near(5.0, spread * 22.0), ..high },
         GameMode::GoalKick => {
-            KickPlan { mate: near(-35.0, math::sign_or(spread, 1.0) * 18.0), ..short }
+            KickPlan { mate: near(20.0 - goal.x, math::sign_or(spread, 1.0) * 18.0), ..short }
         }
-        GameMode::FreeKick if own.x > 29.0 && own.y.abs() < 16.0 => {
-            KickPlan { point: Some(Vec2::new(GOAL.x, spread * 3.3) * side), power: 0.5, ..shot }
-        }
-        GameMode::FreeKick if own.x > 22.0 => {
-            let point = Vec2::new(46.0, spread * 8.0);
+        GameMode::FreeKick if own.x > goal.x - 26.0 && own.y.abs() < 16.0 => KickPlan {
+            point: Some(Vec2::new(goal.x, spread * post(0.4)) * side),
+            power: 0.5,
+            ..shot
+        },
+        GameMode::FreeKick if own.x > goal.x - 33.0 => {
+            let point = Vec2::new(goal.x - 9.0, spread * 8.0);
             KickPlan { mate: near(point.x, point.y), point: Some(point * side), ..high }
         }
         GameMode::ThrowIn => {

@@ -2,9 +2,9 @@
 
 use super::must;
 use crate::pitch::LabError;
-use setpiece::engine::physics::lines::{OUT_X, OUT_Y};
+use setpiece::engine::physics::lines::{out_x, out_y};
 use setpiece::engine::state::{Match, PlayerId};
-use setpiece::scenario::pitch::{PLAYERS_MAX, RIM_X_M, RIM_Y_M};
+use setpiece::scenario::pitch::PLAYERS_MAX;
 use setpiece::scenario::vocabulary::Role;
 
 /// The fastest possible ball, m/s.
@@ -41,13 +41,14 @@ fn ball(game: &Match) -> Result<(), LabError> {
     })?;
     must(ball.pos.z >= 0.1099, || format!("the ball is in the ground: {ball:?}"))?;
     must(ball.vel.length() < BALL_MPS, || format!("the ball is too fast: {ball:?}"))?;
-    let inside = ball.pos.x.abs() <= OUT_X && ball.pos.y.abs() <= OUT_Y;
+    let pitch = &game.pitch;
+    let inside = ball.pos.x.abs() <= out_x(pitch) && ball.pos.y.abs() <= out_y(pitch);
     must(inside || game.dead, || format!("the ball is out at {:?} and play goes on", ball.pos))
 }
 
 fn player(game: &Match, i: usize) -> Result<(), LabError> {
     let player = &game.players[i];
-    let (x, y) = (RIM_X_M as f32 + 0.001, RIM_Y_M as f32 + 0.001);
+    let (x, y) = (game.rim() + 0.001).into();
     let finite = player.pos.is_finite() && player.vel.is_finite() && player.heading_rad.is_finite();
     must(finite, || format!("player {i}: {:?} {:?}", player.pos, player.vel))?;
     must(player.pos.x.abs() <= x && player.pos.y.abs() <= y, || {

@@ -1,5 +1,6 @@
 //! Checks a step tick by tick: nothing passes through anything, nothing jumps.
 
+use super::goal::GoalPlace;
 use super::{Step, must};
 use crate::pitch::LabError;
 use glam::{Vec2, Vec3};
@@ -7,19 +8,11 @@ use setpiece::engine::control;
 use setpiece::engine::environment::Scratch;
 use setpiece::engine::football::{separation, tick};
 use setpiece::engine::physics::constants::{BALL_RADIUS, FRAME_RADIUS, NET_HALF, TICK_S};
-use setpiece::engine::physics::lines::OUT_X;
 use setpiece::engine::state::event::Events;
 use setpiece::engine::state::player::Pose;
 use setpiece::engine::state::{Match, PlayerId};
-use setpiece::scenario::pitch::{
-    CIRCLE_RADIUS_M, GOAL_DEPTH_M, GOAL_HALF_WIDTH_M, GOAL_HEIGHT_M, HALF_LENGTH_M, PLAYERS_MAX,
-};
-use setpiece::scenario::vocabulary::{Action, Rule};
-
-const GOAL_X: f32 = HALF_LENGTH_M as f32;
-const REAR_X: f32 = (HALF_LENGTH_M + GOAL_DEPTH_M) as f32;
-const POST_Y: f32 = GOAL_HALF_WIDTH_M as f32;
-const BAR_Z: f32 = GOAL_HEIGHT_M as f32;
+use setpiece::scenario::pitch::PLAYERS_MAX;
+use setpiece::scenario::vocabulary::{Action, PitchMeasure, Rule};
 
 // These limits are the largest values measured over some million steps, plus a little.
 
@@ -77,8 +70,9 @@ impl TickMemory {
 
     pub(super) fn tick(&mut self, was: &Match, now: &Match) -> Result<(), LabError> {
         ball(was, now)?;
+        let goal = GoalPlace::of(now);
         for i in (0..PLAYERS_MAX).filter(|&i| was.players[i].active && now.players[i].active) {
-            player(i, was.players[i].pos, now.players[i].pos)?;
+            player(&goal, i, was.players[i].pos, now.players[i].pos)?;
             for j in
                 (i + 1..PLAYERS_MAX).filter(|&j| was.players[j].active && now.players[j].active)
             {
@@ -129,10 +123,12 @@ fn same(again: &Match, judged: &Match) -> Result<(), LabError> {
 /// A free ball flies. It may meet frame and nets from outside, and enters the goal only through its
 /// mouth.
 fn ball(was: &Match, now: &Match) -> Result<(), LabError> {
-    let (from, to) = (was.ball.pos, now.ball.pos);
+    let (from, to, goal) = (was.ball.pos, now.ball.pos, GoalPlace::of(now));
     let held = |game: &Match| game.play.hands.is_some() || game.play.set_piece.is_some();
     let scored = now.score != was.score;
-    must(!scored || through_mouth(from, to), || format!("a goal from {from} to {to}"))?;
+    must(!scored || goal.is_entered(from, to, BALL_RADIUS + NET_HALF - GIVE_M), || {
+        format!("a goal from {from} to {to}")
+    })?;
     if held(was) || held(now) {
         return Ok(());
     }
@@ -142,20 +138,20 @@ fn ball(was: &Match, now: &Match) -> Result<(), LabError> {
     let struck_mps = if struck { KICK_MPS } else { 0.0 };
     let most = was.ball.vel.length().max(now.ball.vel.length()).max(struck_mps) * TICK_S + LIFT_M;
     must(way <= most, || format!("the ball has jumped {way} m: {from} to {to}"))?;
-    if to.x.abs() < GOAL_X - 1.0 || to.y.abs() > POST_Y + 1.0 {
+    if goal.is_far(to.x, to.y) {
         return Ok(());
     }
     let (from, to) = (at_right(from, to), at_right(to, to));
     let reach = BALL_RADIUS + FRAME_RADIUS - GIVE_M;
-    for [foot, head] in FRAME {
+    for [foot, head] in goal.frame() {
         let near = between(from, to, foot, head);
         must(near >= reach, || {
             format!("the ball comes through the frame, {near} m off: {from} to {to}")
         })?;
     }
-    let near = nets(to);
+    let near = goal.net_distance(to);
     must(near >= BALL_RADIUS + NET_HALF - GIVE_M, || format!("the ball is in a net: {to}"))?;
-    must(scored || !in_goal(to), || {
+    must(scored || !goal.contains(to), || {
         format!("the ball is in the goal at {to} and nobody has scored")
     })
 }
@@ -163,39 +159,6 @@ fn ball(was: &Match, now: &Match) -> Result<(), LabError> {
 /// Mirrors a point to the right goal, if `end` is at the left one.
 fn at_right(point: Vec3, end: Vec3) -> Vec3 {
     if end.x < 0.0 { Vec3::new(-point.x, -point.y, point.z) } else { point }
-}
-
-/// Posts and bar of the right goal.
-const FRAME: [[Vec3; 2]; 3] = [
-    [Vec3::new(GOAL_X, -POST_Y, 0.0), Vec3::new(GOAL_X, -POST_Y, BAR_Z)],
-    [Vec3::new(GOAL_X, POST_Y, 0.0), Vec3::new(GOAL_X, POST_Y, BAR_Z)],
-    [Vec3::new(GOAL_X, -POST_Y, BAR_Z), Vec3::new(GOAL_X, POST_Y, BAR_Z)],
-];
-
-/// The distance of a point from the sides and the top of the right goal's net; its rear can't be
-/// reached within a tick.
-fn nets(at: Vec3) -> f32 {
-    let x = (GOAL_X - at.x).max(at.x - REAR_X).max(0.0);
-    let beyond = |past: f32| past.max(0.0);
-    let side = Vec3::new(x, at.y.abs() - POST_Y, beyond(at.z - BAR_Z)).length();
-    let top = Vec3::new(x, beyond(at.y.abs() - POST_Y), at.z - BAR_Z).length();
-    side.min(top)
-}
-
-/// Whether a ball is behind the right goal's line, between its nets.
-fn in_goal(at: Vec3) -> bool {
-    at.x > OUT_X && at.x < REAR_X && at.y.abs() < POST_Y && at.z < BAR_Z
-}
-
-/// Whether a ball crossed a goal line with its whole size inside the mouth.
-fn through_mouth(from: Vec3, to: Vec3) -> bool {
-    let room = BALL_RADIUS + NET_HALF - GIVE_M;
-    let share = (OUT_X - from.x.abs()) / (to.x.abs() - from.x.abs());
-    let at = from.lerp(to, share.clamp(0.0, 1.0));
-    from.x.abs() <= OUT_X
-        && to.x.abs() > OUT_X
-        && at.y.abs() <= POST_Y - room
-        && at.z <= BAR_Z - room
 }
 
 /// The least distance between two segments.
@@ -211,20 +174,15 @@ fn between(a: Vec3, b: Vec3, c: Vec3, d: Vec3) -> f32 {
 }
 
 /// A player runs; they never jump, and never pass through nets.
-fn player(i: usize, from: Vec2, to: Vec2) -> Result<(), LabError> {
+fn player(goal: &GoalPlace, i: usize, from: Vec2, to: Vec2) -> Result<(), LabError> {
     let way = from.distance(to);
     must(way <= STRIDE_M, || format!("player {i} has jumped {way} m: {from} to {to}"))?;
-    if to.x.abs() < GOAL_X - 1.0 || to.y.abs() > POST_Y + 1.0 {
+    if goal.is_far(to.x, to.y) {
         return Ok(());
     }
     let level = |point: Vec2| at_right(point.extend(0.0), to.extend(0.0));
     let (from, to) = (level(from), level(to));
-    let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
-    for [near, far] in [
-        [corner(GOAL_X, -POST_Y), corner(REAR_X, -POST_Y)],
-        [corner(GOAL_X, POST_Y), corner(REAR_X, POST_Y)],
-        [corner(REAR_X, -POST_Y), corner(REAR_X, POST_Y)],
-    ] {
+    for [near, far] in goal.walls() {
         let away = between(from, to, near, far);
         must(away >= NET_M, || {
             format!("player {i} runs into a net, {away} m off: {from} to {to}")
@@ -238,12 +196,11 @@ fn circle(now: &Match) -> Result<(), LabError> {
     let Some(team) = now.play.kick_off.filter(|_| now.rule(Rule::KickoffCircle)) else {
         return Ok(());
     };
+    let radius = now.measure(PitchMeasure::Circle);
     for (i, player) in now.players.iter().enumerate() {
         let keeps = !player.active || PlayerId(i as u8).team() == team;
         let away = player.pos.length();
-        must(keeps || away > CIRCLE_RADIUS_M as f32 - 0.001, || {
-            format!("player {i} is in the circle: {away} m")
-        })?;
+        must(keeps || away > radius - 0.001, || format!("player {i} is in the circle: {away} m"))?;
     }
     Ok(())
 }

@@ -4,9 +4,10 @@ use super::*;
 use crate::pitch::text;
 use glam::{Vec2, Vec3};
 use setpiece::engine::environment::Environment;
-use setpiece::engine::physics::lines::OUT_X;
+use setpiece::engine::physics::lines::out_x;
 use setpiece::engine::state::PlayerId;
 use setpiece::engine::state::player::Pose;
+use setpiece::scenario::PitchSize;
 use setpiece::scenario::vocabulary::{Qualifier, Role, Rule, Team};
 
 const MATCH: &str = "scenario held {
@@ -143,7 +144,7 @@ fn what_goes_through_something_is_seen() {
             "through the mouth, not yet over the line"
         );
         assert_eq!(
-            fly(at(54.8, 0.0, 1.0), at(OUT_X, 0.0, 1.0)),
+            fly(at(54.8, 0.0, 1.0), at(out_x(&PitchSize::USUAL), 0.0, 1.0)),
             "",
             "on the line to the last hair"
         );

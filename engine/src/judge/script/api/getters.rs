@@ -4,7 +4,7 @@ use super::table::{Subject, members};
 use super::{Ctx, Point, SeenBall, SeenEvent, SeenPlayer, SeenScore, SeenTeam, ShownState, Vector};
 use crate::judge::view::{self, MatchView, remaining_s};
 use rhai::{Dynamic, Engine};
-use setpiece_scenario::pitch::{HALF_LENGTH_M, STEPS_PER_S, X_SCALE_M};
+use setpiece_scenario::pitch::{STEPS_PER_S, X_SCALE_M};
 use setpiece_scenario::vocabulary::{Qualifier, Team};
 
 /// A getter of one kind of thing.
@@ -181,7 +181,7 @@ fn team(name: &str) -> Option<Getter<SeenTeam>> {
         "players" => |team| team.0.players(Some(team.1)),
         "goal" => |team| {
             Dynamic::from(Point {
-                metres: [-team.1.side() * HALF_LENGTH_M, 0.0],
+                metres: [-team.1.side() * f64::from(view(team).half_length_m), 0.0],
                 side: team.0.side(),
             })
         },

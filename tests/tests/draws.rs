@@ -8,8 +8,9 @@
 
 use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::scenario::pitch::HALF_LENGTH_M;
-use setpiece::scenario::vocabulary::Role;
+use setpiece::scenario::vocabulary::{Role, Team};
 use setpiece_tests::environment;
+use std::collections::BTreeMap;
 
 const DRAWS: u64 = 6000;
 
@@ -197,6 +198,32 @@ fn formations_of_other_roles_share_the_places_of_a_team() {
         assert_eq!(players().count(), 7);
     }
     assert!((400..500).contains(&threes), "{threes}");
+}
+
+#[test]
+fn three_whole_formations_share_the_eleven_places() {
+    // Together they have thirteen of the roles that no two of them need at once.
+    let loaded = setpiece::load("../examples/drawn_formations.pitch").unwrap();
+    let mut environment = Environment::new(loaded.scenario, EnvironmentOptions::default()).unwrap();
+    let mut seen = BTreeMap::new();
+    for index in 0..200 {
+        environment.reset(Some(1), Some(index)).unwrap();
+        let game = environment.state();
+        for team in [Team::Left, Team::Right] {
+            let players: Vec<_> = game.team(team).map(|(_, player)| player).collect();
+            assert_eq!(players.len(), 11);
+            let of = |role: Role| players.iter().filter(|player| player.role == role).count();
+            let roles = [Role::GK, Role::LB, Role::CB, Role::DM, Role::CM, Role::CF].map(of);
+            *seen.entry(roles).or_insert(0) += 1;
+            // The role decides the place: a wide midfielder of three up front stands there.
+            let wings = players.iter().filter(|player| player.role == Role::LM);
+            let (side, far) = (if team == Team::Left { 1.0 } else { -1.0 }, roles[5] == 1);
+            assert!(wings.into_iter().all(|wing| (wing.pos.x * side > 0.0) == far));
+        }
+    }
+    let whole = [[1, 1, 2, 0, 2, 2], [1, 0, 3, 1, 2, 2], [1, 1, 2, 1, 2, 1]];
+    assert_eq!(seen.len(), 3, "{seen:?}");
+    assert!(whole.iter().all(|roles| seen.get(roles).is_some_and(|count| *count > 60)), "{seen:?}");
 }
 
 #[test]

@@ -14,17 +14,13 @@ use std::ops::RangeInclusive;
 /// Sorts a team's players by their places and numbers the places; the first of a place, then the
 /// others. Gives the number of places.
 pub(super) fn take_seats<'w>(world: &World<'w>, players: &mut Vec<Rostered<'w>>) -> usize {
-    let mut seats: Vec<Vec<Rostered<'w>>> = Vec::new();
-    for player in players.drain(..) {
-        let free = seats.iter_mut().find(|seat| {
-            seat.iter()
-                .all(|other| named_alike(other, &player) && formations_exclude(other, &player))
-        });
-        match free {
-            Some(seat) => seat.push(player),
-            None => seats.push(vec![player]),
-        }
+    let mut seats = by_formations(players.clone());
+    if seats.len() > TEAM_MAX {
+        // The same role in two formations is two players then, and each finds a place of theirs.
+        let single = players.iter().flat_map(Rostered::by_formation).collect();
+        seats = by_formations(single);
     }
+    players.clear();
     if seats.len() > TEAM_MAX {
         seats = close_ranks(world, seats);
     }
@@ -37,6 +33,22 @@ pub(super) fn take_seats<'w>(world: &World<'w>, players: &mut Vec<Rostered<'w>>)
         }));
     }
     number
+}
+
+/// Lets players share whose formations exclude each other.
+fn by_formations(players: Vec<Rostered<'_>>) -> Vec<Vec<Rostered<'_>>> {
+    let mut seats: Vec<Vec<Rostered<'_>>> = Vec::new();
+    for player in players {
+        let free = seats.iter_mut().find(|seat| {
+            seat.iter()
+                .all(|other| named_alike(other, &player) && formations_exclude(other, &player))
+        });
+        match free {
+            Some(seat) => seat.push(player),
+            None => seats.push(vec![player]),
+        }
+    }
+    seats
 }
 
 /// The players of the roster who share the place in the team of one of them, who is the first

@@ -6,8 +6,8 @@ r"""Finds the starts where a policy fails, by MAP-Elites over the parameters of 
 `--policy` is an agent of the command, or an `.onnx` file, which `train_cleanrl.py` writes too. The
 archive has a cell for every pair of values of two parameters (`--over`), and keeps in each the
 other parameters with which the policy scores least. The worst of them are played again from seeds
-that the search has not seen, because the least of many noisy means is too low. Each is printed as a
-level with the command that shows it.
+that the search has not seen, because the least of many noisy means is too low; so are random
+starts, for the mean. Each is printed as a level with the command that shows it.
 
 It needs `ribs` and `matplotlib`. The experiment is that of MADRID (Samvelyan et al. 2024), in one
 file.
@@ -88,7 +88,6 @@ def search(args: argparse.Namespace) -> Found:
     rng = np.random.default_rng(args.seed)
     random = rng.random((4 * args.batch, size))
     rows = scores(args, random, args.episodes, SEARCHED)
-    mean = float(np.mean([row.mean_score.value for row in rows]))
     archive.add(random, [-row.mean_score.value for row in rows], random[:, axes])
     for _ in range(args.rounds):
         asked = scheduler.ask()
@@ -96,6 +95,8 @@ def search(args: argparse.Namespace) -> Found:
         scheduler.tell([-row.mean_score.value for row in rows], asked[:, axes])
     kept = archive.data(["solution", "objective"])
     worst = kept["solution"][np.argsort(-kept["objective"], kind="stable")[: args.worst]]
+    again = scores(args, random, AGAIN, CONFIRMED)
+    mean = float(np.mean([row.mean_score.value for row in again]))
     rows = scores(args, worst, AGAIN, CONFIRMED)
     failures = [Failure(f"{row.entry}#{row.seed}", row.mean_score) for row in rows]
     return Found(mean, sorted(failures, key=lambda it: it.score.value), archive)

@@ -5,9 +5,13 @@
 With `--observation pixels_gray --stack 4` the policy sees pictures, through three convolutions.
 With `--levels learn_3_vs_1` it trains on the levels of a curriculum, or of a suite, and is still
 evaluated on `--scenario`. `--evaluate-every` evaluates it while it trains, and `--until` ends the
-training once it is good enough.
+training once it is good enough. `--repeat 4` decides in every fourth step only, which finds actions
+that have to be held for a while; steps are still those of the environments.
 
-It needs `torch` and `tensorboard`. The log in `--out` has the mean score (goals of the left team
+The policy is saved in `--out` as `policy.pt`, and as `policy.onnx` for `setpiece.Suite.evaluate`,
+for `opponents` and for `find_failures.py`. It takes observations as the environments give them.
+
+It needs `torch`, `tensorboard` and `onnx`. The log in `--out` has the mean score (goals of the left team
 minus those of the right per episode), the mean return and the return of every reward term, over the
 episodes that ended since the last entry, and `evaluation/score`.
 """
@@ -29,10 +33,7 @@ from torch.utils.tensorboard import SummaryWriter
 import setpiece
 
 # The same for every scenario.
-STEPS_OF_ENV = 64  # between two updates
-EPOCHS = 4
 MINIBATCHES = 4
-GAMMA = 0.993
 LAMBDA = 0.95
 CLIP = 0.2
 ENTROPY = 0.01
@@ -44,13 +45,13 @@ HIDDEN = 128
 class Policy(nn.Module):
     """Two networks over the observation: one rates actions, the other predicts the return.
 
-    Pictures first pass through convolutions, which both networks share.
+    Pictures first pass through convolutions, which both networks share. Numbers are standardised.
     """
 
     def __init__(self, shape: tuple[int, ...], actions: int) -> None:
         super().__init__()
-        self.eye = Eye(shape) if len(shape) == 3 else nn.Flatten()
         inputs = HIDDEN if len(shape) == 3 else int(np.prod(shape))
+        self.eye = Eye(shape) if len(shape) == 3 else Standard(inputs)
         self.actor = nn.Sequential(*_body(inputs), _layer(HIDDEN, actions, 0.01))
         self.critic = nn.Sequential(*_body(inputs), _layer(HIDDEN, 1, 1.0))
 
@@ -62,7 +63,46 @@ class Policy(nn.Module):
         logits = self.actor(seen)
         if masks is not None:
             logits = logits.masked_fill(masks == 0, -1e9)
-        return Categorical(logits=logits), self.critic(seen).squeeze(-1)
+        return Categorical(logits=logits, validate_args=False), self.critic(seen).squeeze(-1)
+
+    def save(self, folder: Path, observations: np.ndarray) -> None:
+        """Writes `policy.pt`, and `policy.onnx`: from observations to the logits of the actions."""
+        torch.save(self.state_dict(), folder / "policy.pt")
+        torch.onnx.export(
+            nn.Sequential(self.eye, self.actor),
+            (torch.from_numpy(observations),),
+            folder / "policy.onnx",
+            input_names=["observation"],
+            output_names=["logits"],
+            dynamic_axes={"observation": {0: "batch"}, "logits": {0: "batch"}},
+            dynamo=False,
+        )
+
+
+class Standard(nn.Module):
+    """Standardises numbers by the mean and the variance of all that it has taken so far."""
+
+    mean: Tensor
+    variance: Tensor
+
+    def __init__(self, inputs: int) -> None:
+        super().__init__()
+        self.register_buffer("mean", torch.zeros(inputs))
+        self.register_buffer("variance", torch.ones(inputs))
+        self.taken = 0
+
+    def forward(self, observations: Tensor) -> Tensor:
+        """Returns the standardised numbers, none further from 0 than 10."""
+        away = observations.flatten(1) - self.mean
+        return (away / (self.variance + 1e-8).sqrt()).clamp(-10, 10)
+
+    def take(self, observations: Tensor) -> None:
+        """Takes a batch of observations into the mean and the variance."""
+        variance, mean = torch.var_mean(observations.flatten(1), 0, correction=0)
+        self.taken += len(observations)
+        share, away = len(observations) / self.taken, mean - self.mean
+        self.mean += share * away
+        self.variance += share * (variance - self.variance + (1 - share) * away.square())
 
 
 class Eye(nn.Module):
@@ -142,8 +182,30 @@ def environments(
     )
 
 
+def press(
+    envs: setpiece.FootballVectorEnv, actions: Tensor, times: int, episodes: Episodes
+) -> tuple[np.ndarray, Tensor, Tensor, dict[int, np.ndarray], dict[str, Any]]:
+    """Plays actions for some steps; where an episode ends meanwhile, the next one begins idle.
+
+    Returns the observation, the rewards, whether episodes ended, the last observations of those
+    that a time limit ended, and the infos.
+    """
+    pressed, paid = actions.numpy(), np.zeros(len(actions), np.float32)
+    ended, last = np.zeros(len(actions), bool), {}
+    for _ in range(times):
+        observation, reward, terminated, truncated, infos = envs.step(np.where(ended, 0, pressed))
+        paid += np.where(ended, 0, reward)
+        over = terminated | truncated
+        if over.any():
+            episodes.take(infos["final_info"], over)
+        for one in np.flatnonzero(truncated & ~terminated & ~ended):
+            last[int(one)] = infos["final_obs"][one]
+        ended |= over
+    return observation, torch.from_numpy(paid), torch.from_numpy(ended), last, infos
+
+
 def train(args: argparse.Namespace) -> Policy:
-    """Trains a policy for `args.steps` steps of all environments together."""
+    """Trains a policy for `args.steps` steps of all environments together, and saves it."""
     torch.manual_seed(args.seed)
     named = args.levels in setpiece.suites()
     levels = setpiece.suite(args.levels).levels if named else args.levels
@@ -152,7 +214,7 @@ def train(args: argparse.Namespace) -> Policy:
     policy = Policy(space.shape, int(envs.single_action_space.n))
     optimizer = torch.optim.Adam(policy.parameters(), lr=args.lr, eps=1e-5)
     writer = SummaryWriter(args.out)
-    rows = (STEPS_OF_ENV, args.envs)
+    rows = (args.decisions, args.envs)
     pictures = space.dtype == np.uint8
     observations = torch.zeros(
         *rows, *space.shape, dtype=torch.uint8 if pictures else torch.float32
@@ -164,12 +226,13 @@ def train(args: argparse.Namespace) -> Policy:
     log_probs, rewards, values, following = (torch.zeros(rows) for _ in range(4))
     ended = torch.zeros(rows)
     observation, infos = envs.reset()
-    updates = max(1, args.steps // (STEPS_OF_ENV * args.envs))
+    steps_of_update = args.decisions * args.envs * args.repeat
+    updates = max(1, args.steps // steps_of_update)
     episodes, began = Episodes(), time.monotonic()
     evaluated, reached = 0, getattr(envs.level_source, "stage", None)
     for update in range(updates):
         optimizer.param_groups[0]["lr"] = args.lr * (1 - update / updates)
-        for at in range(STEPS_OF_ENV):
+        for at in range(args.decisions):
             observations[at] = torch.from_numpy(observation)
             if masks is not None:
                 masks[at] = torch.from_numpy(infos["action_mask"])
@@ -177,35 +240,31 @@ def train(args: argparse.Namespace) -> Policy:
                 drawn, values[at] = policy(observations[at], None if masks is None else masks[at])
                 actions[at] = drawn.sample()
                 log_probs[at] = drawn.log_prob(actions[at])
-            observation, reward, terminated, truncated, infos = envs.step(actions[at].numpy())
-            rewards[at] = torch.from_numpy(reward)
-            over = terminated | truncated
-            ended[at] = torch.from_numpy(over)
-            if over.any():
-                episodes.take(infos["final_info"], over)
+            observation, rewards[at], ended[at], last, infos = press(
+                envs, actions[at], args.repeat, episodes
+            )
             # A time limit doesn't end the play: the rest is worth the critic's value of the last
             # observation. `observation` no longer is that one, because the next episode has begun.
             following[at] = 0
-            for one in np.flatnonzero(truncated & ~terminated):
+            for one, seen_last in last.items():
                 with torch.no_grad():
-                    last = torch.from_numpy(infos["final_obs"][one])
-                    following[at, one] = policy(last[None])[1][0]
+                    following[at, one] = policy(torch.from_numpy(seen_last)[None])[1][0]
         with torch.no_grad():
             _, after = policy(torch.from_numpy(observation))
         advantages = torch.zeros(rows)
         advantage = torch.zeros(args.envs)
-        for at in reversed(range(STEPS_OF_ENV)):
+        for at in reversed(range(args.decisions)):
             going_on = 1 - ended[at]
-            then = after if at == STEPS_OF_ENV - 1 else values[at + 1]
-            delta = rewards[at] + GAMMA * (going_on * then + following[at]) - values[at]
-            advantage = delta + GAMMA * LAMBDA * going_on * advantage
+            then = after if at == args.decisions - 1 else values[at + 1]
+            delta = rewards[at] + args.gamma * (going_on * then + following[at]) - values[at]
+            advantage = delta + args.gamma * LAMBDA * going_on * advantage
             advantages[at] = advantage
         returns = advantages + values
         batch = (observations, actions, log_probs, advantages, returns)
         flat = [part.flatten(0, 1) for part in batch]
         flat_masks = None if masks is None else masks.flatten(0, 1)
-        for _ in range(EPOCHS):
-            for rows_of in torch.randperm(STEPS_OF_ENV * args.envs).chunk(MINIBATCHES):
+        for _ in range(args.epochs):
+            for rows_of in torch.randperm(args.decisions * args.envs).chunk(MINIBATCHES):
                 seen, did, was, gained, foreseen = (part[rows_of] for part in flat)
                 drawn, now = policy(seen, None if flat_masks is None else flat_masks[rows_of])
                 ratio = (drawn.log_prob(did) - was).exp()
@@ -219,7 +278,9 @@ def train(args: argparse.Namespace) -> Policy:
                 loss.backward()
                 nn.utils.clip_grad_norm_(policy.parameters(), GRADIENT)
                 optimizer.step()
-        step = (update + 1) * STEPS_OF_ENV * args.envs
+        if isinstance(policy.eye, Standard):
+            policy.eye.take(flat[0])
+        step = (update + 1) * steps_of_update
         if episodes.ended:
             episodes.write(writer, step)
         writer.add_scalar("time/steps_per_second", step / (time.monotonic() - began), step)
@@ -229,47 +290,54 @@ def train(args: argparse.Namespace) -> Policy:
             print(f"stage {stage} begins after {step} steps")
         if args.evaluate_every and step // args.evaluate_every > evaluated:
             evaluated = step // args.evaluate_every
-            score = evaluate(policy, args, sampled=True)
+            score = evaluate(policy, args, 40, 5, sampled=True)
             writer.add_scalar("evaluation/score", score, step)
             if args.until is not None and score >= args.until:
                 print(f"mean score {score:.2f} after {step} steps")
                 break
     print(f"{step} steps in {time.monotonic() - began:.0f} s")
+    policy.save(args.out, observation)
     writer.close()
     envs.close()
     return policy
 
 
 def evaluate(
-    policy: Policy, args: argparse.Namespace, episodes: int = 100, *, sampled: bool = False
+    policy: Policy, args: argparse.Namespace, number: int, each: int = 1, *, sampled: bool = False
 ) -> float:
     """Returns the mean score of the policy's likeliest actions, in episodes not trained on.
 
     With `sampled` actions are drawn as in training.
 
-    Environment k plays seed 1000000 + k, once. Taking the first episodes to end would favour short
-    ones.
+    Environment k of the `number` plays the first `each` episodes of seed 1000000 + k. Taking the
+    first episodes to end would favour short ones.
     """
-    envs = environments(args, episodes)
+    envs = environments(args, number)
     observation, infos = envs.reset(seed=1_000_000)
-    score, playing = np.zeros(episodes), np.ones(episodes, bool)
-    while playing.any():
+    score, played = 0.0, np.zeros(number, int)
+    while (played < each).any():
         with torch.no_grad():
             masks = torch.from_numpy(infos["action_mask"]) if args.masks else None
             drawn, _ = policy(torch.from_numpy(observation), masks)
             actions = drawn.sample() if sampled else drawn.logits.argmax(-1)
-        observation, _, terminated, truncated, infos = envs.step(actions.numpy())
-        over = (terminated | truncated) & playing
-        if over.any():
-            goals = infos["final_info"]["score"]
-            score[over] = (goals[:, 0] - goals[:, 1])[over]
-            playing &= ~over
+        ended = np.zeros(number, bool)
+        for _ in range(args.repeat):
+            observation, _, terminated, truncated, infos = envs.step(
+                np.where(ended, 0, actions.numpy())
+            )
+            over = terminated | truncated
+            counted = over & (played < each)
+            if counted.any():
+                goals = infos["final_info"]["score"][counted]
+                score += float((goals[:, 0] - goals[:, 1]).sum())
+            played += counted
+            ended |= over
     envs.close()
-    return float(score.mean())
+    return score / (number * each)
 
 
 def main(argv: list[str] | None = None) -> float:
-    """Reads the command line, trains, saves and evaluates."""
+    """Reads the command line, trains and evaluates."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -294,10 +362,20 @@ def main(argv: list[str] | None = None) -> float:
     parser.add_argument(
         "--until", type=float, metavar="SCORE", help="end once an evaluation has this mean score"
     )
-    parser.add_argument("--envs", type=int, default=32)
+    parser.add_argument("--envs", type=int, default=128)
     parser.add_argument("--threads", type=int, default=2, help="of the engine and of PyTorch")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--lr", type=float, default=1e-3, help="at the beginning; it falls to 0")
+    parser.add_argument("--lr", type=float, default=7e-4, help="at the beginning; it falls to 0")
+    parser.add_argument("--epochs", type=int, default=3, help="of an update")
+    parser.add_argument(
+        "--gamma", type=float, default=0.997, help="what a reward after the next action is worth"
+    )
+    parser.add_argument(
+        "--decisions", type=int, default=64, help="of an environment between two updates"
+    )
+    parser.add_argument(
+        "--repeat", type=int, default=1, metavar="STEPS", help="how long an action is pressed"
+    )
     parser.add_argument(
         "--masks", action="store_true", help="only draw actions that can change something"
     )
@@ -307,10 +385,9 @@ def main(argv: list[str] | None = None) -> float:
         parser.error("--until needs --evaluate-every")
     torch.set_num_threads(args.threads)
     policy = train(args)
-    torch.save(policy.state_dict(), args.out / "policy.pt")
-    score = evaluate(policy, args)
+    score = evaluate(policy, args, 100)
     print(f"mean score of 100 episodes: {score:.2f}")
-    drawn = evaluate(policy, args, 500, sampled=True)
+    drawn = evaluate(policy, args, 100, 5, sampled=True)
     print(f"mean score of 500 episodes with sampled actions: {drawn:.2f}")
     return score
 

@@ -4,10 +4,14 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-pytest.importorskip("torch")
+import setpiece
+
+torch = pytest.importorskip("torch")
 pytest.importorskip("tensorboard")
+pytest.importorskip("onnx")
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CLOSE = ["--scenario", "academy_empty_goal_close", "--threads", "1"]
@@ -42,6 +46,31 @@ def test_plain_ppo_scores(example: Any, tmp_path: Path) -> None:
     assert score >= 0.9
     assert curves(tmp_path) >= CURVES
     assert (tmp_path / "policy.pt").is_file()
+    pytest.importorskip("onnxruntime")
+    suite = setpiece.suite("suite close { academy_empty_goal_close for 20 episodes }")
+    assert suite.evaluate(tmp_path / "policy.onnx").rows[0].mean_score.value >= 0.9
+
+
+def test_plain_ppo_standardises_by_all_that_it_has_seen(example: Any) -> None:
+    numbers = np.random.default_rng(1).normal(3, [0.01, 2, 0], (500, 3)).astype(np.float32)
+    standard = example("train_cleanrl").Standard(3)
+    for part in np.split(numbers, [100, 350]):
+        standard.take(torch.from_numpy(part))
+    seen = standard(torch.from_numpy(numbers)).numpy()
+    assert np.allclose(seen.mean(0), 0, atol=1e-3)
+    assert np.allclose(seen.std(0), [1, 1, 0], atol=1e-3)
+    assert standard(torch.tensor([[9.0, 3.0, 4.0]])).abs().max() == 10
+
+
+def test_plain_ppo_on_a_curriculum_until_a_score(
+    example: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    options = (
+        "--levels learn_3_vs_1 --envs 16 --repeat 2 --steps 8192 --evaluate-every 1 --until -1"
+    )
+    example("train_cleanrl").main([*CLOSE, *options.split(), "--out", str(tmp_path)])
+    assert " after 2048 steps\n" in capsys.readouterr().out
+    assert curves(tmp_path) >= {"episode/score", "evaluation/score"}
 
 
 def test_plain_ppo_with_masks_and_other_rewards(example: Any, tmp_path: Path) -> None:
@@ -60,7 +89,7 @@ def test_plain_ppo_with_masks_and_other_rewards(example: Any, tmp_path: Path) ->
 
 @pytest.mark.parametrize("observation", ["pixels_gray", "smm"])
 def test_plain_ppo_sees_pictures(example: Any, tmp_path: Path, observation: str) -> None:
-    options = ["--steps", "4096", "--observation", observation, "--stack", "2"]
+    options = ["--steps", "2048", "--envs", "32", "--observation", observation, "--stack", "2"]
     assert -1 <= example("train_cleanrl").main([*CLOSE, *options, "--out", str(tmp_path)]) <= 1
     assert curves(tmp_path) >= CURVES
 

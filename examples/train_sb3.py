@@ -113,7 +113,6 @@ def main(argv: list[str] | None = None) -> float:
         )
     )
     pictures = args.observation.startswith("pixels")
-    # The same settings as `train_cleanrl.py`.
     model = algorithm(
         "CnnPolicy" if pictures else "MlpPolicy",
         envs,

@@ -187,6 +187,8 @@ impl<'a> Compilation<'a> {
         wanted: Option<&ScenarioItem>,
         casting: &'a [Casting<'a>],
     ) {
+        // Without one, nobody in sight could bring what an abstract scenario lacks.
+        let has_child = candidates.iter().any(|(item, _)| item.extends.is_some());
         for &(item, doc) in candidates {
             if item.is_abstract {
                 let before = self.problems.len();
@@ -194,7 +196,8 @@ impl<'a> Compilation<'a> {
                 // What is missing, a child may bring.
                 let found = self.problems.split_off(before);
                 self.problems.extend(found.into_iter().filter(|problem| {
-                    !problem.code().may_be_echo() && !problem.fact().child_may_bring()
+                    let is_late = has_child && problem.fact().child_may_bring();
+                    !problem.code().may_be_echo() && !is_late
                 }));
             } else {
                 let is_wanted = wanted.is_some_and(|wanted| std::ptr::eq(wanted, item));
@@ -213,14 +216,20 @@ impl<'a> Compilation<'a> {
         let (library, scripts, effort) = (self.library, self.scripts, self.effort);
         let flat = flatten(library, nothing, &mut Vec::new());
         let world = World::new(library, &flat, Mirror::Off, &[], scripts, effort);
-        let plans = plan::Planner::new(&world, &mut |item, doc| {
+        let plans = plan::Planner::new(&world, &mut |item, doc, ai| {
             self.played.insert(item.name.span);
-            if let Some((scenario, _)) = self.lowered.get(&item.name.span) {
-                return scenario.clone();
-            }
-            let (scenario, origins) = self.one(item, doc, &[]);
-            self.lowered.insert(item.name.span, (scenario.clone(), origins));
-            scenario
+            let known = self.lowered.get(&item.name.span).map(|(scenario, _)| scenario.clone());
+            let scenario = known.unwrap_or_else(|| {
+                let (scenario, origins) = self.one(item, doc, &[]);
+                self.lowered.insert(item.name.span, (scenario.clone(), origins));
+                scenario
+            });
+            let Some(ai) = ai else { return scenario };
+            let (who, field) = cast::as_option(ai);
+            let targets = cast::of_agents(&scenario).into_iter();
+            let casting: Vec<Casting<'_>> =
+                targets.map(|target| Casting { target, who: &who, field: &field }).collect();
+            self.one(item, doc, &casting).0
         })
         .plans(items);
         self.problems.extend(world.problems.take());

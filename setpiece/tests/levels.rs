@@ -44,6 +44,25 @@ fn setpiece(folder: &Path, args: &[&str]) -> (Option<i32>, String, String) {
 }
 
 #[test]
+fn a_behaviour_of_the_file_plays_a_check() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = r#"
+        behavior finish { do run(0deg) for 0.5s  do shoot }
+        scenario drill extends academy {
+            ball at (45m, 0m)
+            team left { CF at (43m, 0m) }
+        }
+        check "by a behaviour" { play drill with finish for 20 episodes  expect success_rate > 90% }
+        check "by nobody" { play drill with hold for 20 episodes  expect success_rate < 1% }
+    "#;
+    std::fs::write(dir.path().join("by.pitch"), text).unwrap();
+    let (code, out, err) = setpiece(dir.path(), &["test", "by.pitch"]);
+    assert_eq!(code, Some(0), "{out}{err}");
+    let (_, out, _) = setpiece(dir.path(), &["test", "by.pitch", "--format", "json"]);
+    assert!(out.contains("\"finish\"") && out.contains("\"hold\""), "{out}");
+}
+
+#[test]
 fn a_failed_check_leaves_its_worst_episode_and_the_command_that_shows_it() {
     let dir = tempfile::tempdir().unwrap();
     let (code, out, err) = setpiece(dir.path(), &["test"]);

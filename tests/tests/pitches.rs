@@ -190,6 +190,40 @@ fn rewards_endings_and_observations_read_the_pitch_of_the_episode() {
 }
 
 #[test]
+fn formations_are_stretched_over_the_pitch() {
+    let places = |pitch: &str| -> Vec<glam::Vec2> {
+        let text = format!("scenario s extends 11_vs_11_stochastic {{ {pitch} }}");
+        at_start(&text, 0).state().players.iter().map(|player| player.pos).collect()
+    };
+    let (usual, small) = (places(""), places("pitch { length: 55m, width: 36m }"));
+    for (usual, small) in usual.iter().zip(&small) {
+        assert!((usual.x - 2.0 * small.x).abs() < 1e-3, "{usual} {small}");
+        // Whoever kicks off stands at the ball, wherever that is.
+        assert!((usual.y - 2.0 * small.y).abs() < 1e-3 || usual.x.abs() < 2.0, "{usual} {small}");
+    }
+    assert_eq!(places("pitch { length: 110m, width: 72m }"), usual);
+}
+
+#[test]
+fn checkpoints_are_in_proportion_to_the_length() {
+    let paid = |pitch: &str, ball: &str| {
+        let text = format!(
+            "scenario s {{ {pitch} ball at {ball} {{ owner: m }}
+                team left {{ m: CM at {ball} {{ ai: hold }} }}
+                reward checkpoints
+                end limit 3 steps }}"
+        );
+        let mut environment = at_start(&text, 0);
+        environment.step(&[Action::Idle], &mut Scratch::default()).unwrap();
+        environment.rewards()[0]
+    };
+    // Halfway to their goal half of the regions are behind, on every pitch.
+    let usual = paid("", "(27m, 0m)");
+    assert!(usual > 0.3, "{usual}");
+    assert_eq!(paid("pitch { length: 55m, width: 36m }", "(13.5m, 0m)"), usual);
+}
+
+#[test]
 fn a_mirrored_pitch_is_the_same_pitch() {
     let ball = |mirror: &str| {
         let text = format!("mirror: {mirror} {SMALL}");

@@ -1,16 +1,47 @@
 //! Reads the `ai`s that a caller brings from outside, each as a text of its own.
 
-use crate::ast::{Field, FieldValue, Ident, ItemKind, ScenarioStmtKind, TeamStmtKind};
-use crate::cast::{CAST_NAME, Cast};
+use crate::ast::{
+    Expr, ExprKind, Field, FieldValue, Ident, ItemKind, ScenarioStmtKind, TeamStmtKind,
+};
+use crate::cast::{CAST_NAME, Cast, CastTarget};
 use crate::lower::people::Casting;
 use crate::problem::Problem;
 use crate::problem::facts::Whole;
 use crate::resolve::Library;
 use crate::source::{FileId, Source, Span};
+use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::{Instr, Scenario, SideAgents};
 
 /// What stands around the `ai` in its text.
 const BEFORE: &str = "scenario cast { team left { each all { ai: ";
 const AFTER: &str = " } } }";
+
+/// The `all` and the `ai` that play everybody by what a name stands for.
+pub(super) fn as_option(name: &Ident) -> (Ident, Field) {
+    let spanned = |node: &str| Ident { node: node.to_owned(), span: name.span };
+    let value = Expr { span: name.span, kind: ExprKind::Name(name.node.clone()) };
+    (spanned("all"), Field { key: spanned("ai"), value: FieldValue::Expr(value) })
+}
+
+/// The players of a scenario's agents: all of a team whose agents change players.
+pub(super) fn of_agents(scenario: &Scenario) -> Vec<CastTarget> {
+    let of_side = |team: Team| -> Vec<CastTarget> {
+        let side = scenario.agents.sides.get(team.index());
+        match side {
+            Some(SideAgents::Players(players)) => {
+                players.iter().map(|place| CastTarget::Player(team, usize::from(*place))).collect()
+            }
+            Some(SideAgents::Count(number)) => {
+                let none = scenario.start.program.code.get(number.index());
+                let is_none = matches!(none, Some(Instr::Const(value)) if *value == 0.0);
+                if is_none { Vec::new() } else { vec![CastTarget::Team(team)] }
+            }
+            Some(SideAgents::All) => vec![CastTarget::Team(team)],
+            None => Vec::new(),
+        }
+    };
+    Team::ALL.iter().flat_map(|team| of_side(*team)).collect()
+}
 
 /// The text that is read in a cast's place.
 pub(super) fn source(cast: &Cast) -> Source {

@@ -17,17 +17,21 @@ use crate::lower::{Lower, World};
 use crate::problem::facts::Plans as Facts;
 use crate::problem::{Guess, Problem};
 use setpiece_scenario::plan::{self, EPISODES_MAX, Plans};
-use setpiece_scenario::vocabulary::AGENTS;
+use setpiece_scenario::vocabulary::{AGENTS, Primitive};
 use setpiece_scenario::{Bindings, Scenario};
 use std::sync::Arc;
 
 /// Suites of a file may have this many entries together, every `each` written out.
 const ENTRIES_MAX: usize = 4_096;
+/// What plays players without a behaviour.
+const BUILT_IN: [&str; 2] = ["hold", "lazy"];
 /// The greatest seed: the greatest whole number that every format keeps exactly.
 const SEED_MAX: u64 = (1 << 53) - 1;
 
-/// Compiles the scenario of an item, once for all of its uses.
-pub(super) type CompileItem<'c, 'w> = dyn FnMut(&'w ScenarioItem, &'w str) -> Arc<Scenario> + 'c;
+/// Compiles the scenario of an item, once for all of its uses; or once more for a check in which
+/// what an `ai` may be plays the agents.
+pub(super) type CompileItem<'c, 'w> =
+    dyn FnMut(&'w ScenarioItem, &'w str, Option<&'w Ident>) -> Arc<Scenario> + 'c;
 
 /// Turns the plans of a file into data.
 pub(super) struct Planner<'c, 'w> {
@@ -86,7 +90,7 @@ impl<'c, 'w> Planner<'c, 'w> {
                         }
                         return;
                     }
-                    entries.extend(self.episodes(episodes, scope));
+                    entries.extend(self.episodes(episodes, scope, None));
                 }
                 SuiteStmtKind::Sweep { name, values, body } => {
                     for value in values {
@@ -114,8 +118,9 @@ impl<'c, 'w> Planner<'c, 'w> {
         &mut self,
         written: &'w EpisodesExpr,
         scope: &Scope<'w>,
+        ai: Option<&'w Ident>,
     ) -> Option<plan::PlannedEpisodes> {
-        let played = self.played(&written.scenario, scope);
+        let played = self.played(&written.scenario, scope, ai);
         let count = self.whole(&written.count, scope, "the number of episodes", 1, EPISODES_MAX);
         let seed = match &written.seed {
             Some(seed) => self.whole(seed, scope, "the seed", 0, SEED_MAX),
@@ -124,8 +129,13 @@ impl<'c, 'w> Planner<'c, 'w> {
         Some(plan::PlannedEpisodes { played: played?, count: count?, seed: seed? })
     }
 
-    fn played(&mut self, written: &'w Ref, scope: &Scope<'w>) -> Option<plan::Played> {
-        let scenario = self.scenario(written)?;
+    fn played(
+        &mut self,
+        written: &'w Ref,
+        scope: &Scope<'w>,
+        ai: Option<&'w Ident>,
+    ) -> Option<plan::Played> {
+        let scenario = self.scenario(written, ai)?;
         let mut bindings = Bindings::defaults(&scenario.params);
         let found = self.world.found();
         self.arguments(written, &scenario, scope, &mut bindings);
@@ -133,7 +143,7 @@ impl<'c, 'w> Planner<'c, 'w> {
     }
 
     /// The scenario that a reference names.
-    fn scenario(&mut self, written: &'w Ref) -> Option<Arc<Scenario>> {
+    fn scenario(&mut self, written: &'w Ref, ai: Option<&'w Ident>) -> Option<Arc<Scenario>> {
         let (name, span) = (written.name.node.as_str(), written.name.span);
         let library = self.world.library;
         let found = library.find(span.file, name);
@@ -161,7 +171,7 @@ impl<'c, 'w> Planner<'c, 'w> {
             return None;
         }
         let doc = found.map_or("", |found| found.item.doc.as_str());
-        Some((self.compile)(item, doc))
+        Some((self.compile)(item, doc, ai))
     }
 
     fn check(&mut self, item: &'w CheckItem, span: Span) -> Option<plan::Check> {
@@ -180,11 +190,12 @@ impl<'c, 'w> Planner<'c, 'w> {
             }
             return None;
         };
+        let ai = agent.filter(|agent| !AGENTS.contains(&agent.node.as_str()));
         let agent = match agent {
             Some(agent) => self.agent(agent),
             None => Some("bot".to_owned()),
         };
-        let episodes = self.episodes(episodes, &scope())?;
+        let episodes = self.episodes(episodes, &scope(), ai.filter(|_| agent.is_some()))?;
         let scenario = episodes.played.scenario.clone();
         let mut expectations = Vec::new();
         for stmt in &item.body {
@@ -209,11 +220,24 @@ impl<'c, 'w> Planner<'c, 'w> {
         })
     }
 
+    /// A ready-made agent, or what may stand behind `ai:`.
     fn agent(&mut self, name: &Ident) -> Option<String> {
-        if AGENTS.contains(&name.node.as_str()) {
+        let library = self.world.library;
+        let is_behavior = |kind: &ItemKind| matches!(kind, ItemKind::Behavior(_));
+        let found = library.find(name.span.file, &name.node);
+        if AGENTS.contains(&name.node.as_str())
+            || BUILT_IN.contains(&name.node.as_str())
+            || Primitive::from_name(&name.node).is_some()
+            || found.is_some_and(|found| is_behavior(&found.item.kind))
+        {
             return Some(name.node.clone());
         }
-        let guess = Guess::similar_or_all(&name.node, &AGENTS);
+        let behaviors = library
+            .visible(name.span.file)
+            .filter(|(_, found)| is_behavior(&found.item.kind))
+            .map(|(name, _)| name);
+        let known: Vec<&str> = AGENTS.into_iter().chain(behaviors).collect();
+        let guess = Guess::similar_or_all(&name.node, &known);
         self.report(name.span, Facts::NoAgent { name: name.node.clone(), guess });
         None
     }
@@ -276,7 +300,7 @@ impl<'c, 'w> Planner<'c, 'w> {
             let named = LocalName::Expr { expr: from, scope: begun, ty: None, now: None, at };
             scope.bind(&name.node, named);
         }
-        let played = self.played(written, &scope)?;
+        let played = self.played(written, &scope, None)?;
         let how = match how {
             StageRule::Forever => plan::StageHow::Forever,
             StageRule::Until(goals) => plan::StageHow::Until(

@@ -23,7 +23,7 @@ use crate::check::types::Ty;
 use crate::problem::Problem;
 use crate::problem::facts::{Calls, Instead, Operand, Scopes, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
-use setpiece_scenario::vocabulary::Unit;
+use setpiece_scenario::vocabulary::{PitchFigure, Unit};
 use setpiece_scenario::{BinaryOp, Reg, UnaryOp as WorldOp};
 
 /// Whether an expression is written as `(x, y)`, signs and brackets aside.
@@ -167,9 +167,14 @@ impl<'w> Lower<'_, 'w> {
         }
     }
 
-    /// Normalised coordinates in metres.
+    /// Normalised coordinates in metres. A formation is as large as the pitch.
     pub(super) fn in_metres(&mut self, x: Reg, y: Reg) -> (Reg, Reg) {
-        let (sx, sy) = (self.code.constant(X_SCALE_M), self.code.constant(Y_SCALE_M));
+        let (sx, sy) = if self.scope.players_of.is_some() {
+            let along = self.in_proportion(X_SCALE_M, PitchFigure::Length);
+            (along, self.in_proportion(Y_SCALE_M, PitchFigure::Width))
+        } else {
+            (self.code.constant(X_SCALE_M), self.code.constant(Y_SCALE_M))
+        };
         (self.code.binary(BinaryOp::Mul, x, sx), self.code.binary(BinaryOp::Mul, y, sy))
     }
 

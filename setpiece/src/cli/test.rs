@@ -163,7 +163,9 @@ fn one(args: &TestArgs, path: &Path, check: &Check) -> Result<PlayedCheck, Error
     let mut played = PlayedCheck {
         file: path.display().to_string(),
         check: check.name.clone(),
-        agent: agent.name().to_owned(),
+        agent: args
+            .agent
+            .map_or_else(|| check.agent.clone(), |agent| agent.agent().name().to_owned()),
         episodes: check.episodes.count,
         seed: check.episodes.seed,
         seconds: begin.elapsed().as_secs_f64(),

@@ -256,6 +256,7 @@ pub(super) const HABITS: &[Habit] = &[
         "^ | gravity¦wind¦drag¦swerve¦spin_decay¦bounce¦friction =¦:",
         "write `world { {1}: … }`",
     ),
+    row(Fields, "spin | decay", "write `spin_decay: …`"),
     row(Scenario, "^ | rounds :¦= 9", "write `rounds {2} when …`"),
     row(Scenario, "^ | formation :¦= _", "it stands in a team: `team left { formation: {2} }`"),
     row(Scenario, "^ | formation :¦=", "it stands in a team: `team left { formation: … }`"),
@@ -301,6 +302,8 @@ pub(super) const HABITS: &[Habit] = &[
     row(Scenario, "param … , | in", "no comma stands before a parameter's range: `= 0.2 in 0..1`"),
     row(Scenario, "start _ | left¦right", "write `start {1} for {2}`"),
     row(Scenario, "end limit | :", "write `end limit 400 steps`"),
+    row(Scenario, "end after¦at | 9a", "write `end limit {2}`"),
+    row(Scenario, "^ | time limit 9a", "write `end limit {1}`"),
     row(Scenario, "end when … | success¦failure", "write `end {1} when …`"),
     row(
         Scenario,
@@ -318,6 +321,11 @@ pub(super) const HABITS: &[Habit] = &[
     row(Scenario, "remove world | _", "an inherited figure is written again: `world { {1}: … }`"),
     row(Scenario, "remove rounds | 9", "write `remove rounds`"),
     row(Scenario, "remove | _", "write `remove reward {1}`, `remove end {1}` or the like"),
+    row(
+        Scenario,
+        "^ | gravity¦wind¦drag¦swerve¦spin_decay¦bounce¦friction",
+        "write `world { {1}: … }`",
+    ),
     row(Reward, "once | per", "`per second` stands before `once`"),
     row(Anywhere, "as | _", "write `as \"{1}\"`"),
     row(Anywhere, "has | *", "write `has ball`"),
@@ -325,6 +333,9 @@ pub(super) const HABITS: &[Habit] = &[
     // Conditions.
     row(Behavior, "if … | then", "write `if … { … } else { … }`"),
     row(Anywhere, "in | if … then … else", "here it stands in brackets: `(if c then a else b)`"),
+    row(Reward, "^ | if … } else", "in a reward write `when … { … } else { … }`"),
+    row(Team, "^ | if", "a player stands there on a condition: `CM at (0.1, 0) when …`"),
+    row(Behavior, "^ | when", "in a behavior write `if … { … }`"),
     row(Anywhere, "| if … else", "write `if c then a else b`"),
     row(Scenario, "end … | if", "write `when …`"),
     row(Scenario, "rounds 9 | on¦until¦if", "write `rounds {1} when …`"),
@@ -385,7 +396,10 @@ pub(super) const HABITS: &[Habit] = &[
     row(Reward, "give … | for EVENT", "write `give 1 on {1}`"),
     row(Reward, "give … | for _", "who receives it stands behind `to`: `give 1 to {1}`"),
     row(Reward, "give … | for [", "who receives it stands behind `to`: `give 1 to […]`"),
+    row(Anywhere, "| ±", "what is seen inexactly has `noise` behind it: `… noise normal(0, 0.3m)`"),
     // Loops, functions, classes.
+    row(Anywhere, "sum¦mean¦max¦min of … | over", "write `{1}(… for p in …)`"),
+    row(Anywhere, "( … | over _ in", "write `for {1} in …`"),
     row(
         Anywhere,
         "for | ( _ , _ ) in",

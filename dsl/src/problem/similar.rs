@@ -11,6 +11,9 @@ const CANDIDATES_MAX: usize = 1_000;
 /// How alike two names must be, from 0 to 1.
 const LIKENESS_MIN: f64 = 0.6;
 
+/// How alike a name is to one that says more: `goal_width` to `goal`.
+const LIKENESS_OF_MORE: f64 = 0.72;
+
 /// The candidate most like `found`, if it is like enough (similarity above 0.6).
 pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if found.len() > SIMILAR_BYTES_MAX {
@@ -20,6 +23,11 @@ pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -
     let mut best = (LIKENESS_MIN, None);
     for candidate in candidates.into_iter().take(CANDIDATES_MAX) {
         let lowered = candidate.to_lowercase();
+        let more = found.strip_prefix(&lowered).is_some_and(|rest| rest.starts_with('_'));
+        if more && !lowered.is_empty() && best.0 < LIKENESS_OF_MORE {
+            best = (LIKENESS_OF_MORE, Some(candidate));
+            continue;
+        }
         if lowered.len() > SIMILAR_BYTES_MAX || likeness_at_most(&found, &lowered) <= best.0 {
             continue;
         }

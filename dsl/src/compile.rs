@@ -8,6 +8,7 @@ mod unused;
 
 use crate::ast::{Ident, Item, ItemKind, ScenarioItem, Span};
 use crate::cast::Cast;
+use crate::index::Index;
 use crate::lower::loaded_scripts::LoadedScripts;
 use crate::lower::mirror::Mirror;
 use crate::lower::param_info::ParamInfo;
@@ -25,7 +26,7 @@ use setpiece_scenario::Scenario;
 use setpiece_scenario::bounds::{self, Excess, Part};
 use setpiece_scenario::plan::Plans;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use unused::Unused;
 
 /// What a caller may choose.
@@ -43,6 +44,8 @@ pub struct CompileOptions<'a> {
     pub plans_suffice: bool,
     /// Whether the start program also computes the regions, for [`Origins::regions`].
     pub regions: bool,
+    /// Whether the facts for editors are gathered: [`CompileOutcome::index`].
+    pub index: bool,
 }
 
 /// What came out.
@@ -60,6 +63,8 @@ pub struct CompileOutcome {
     pub inputs: Vec<String>,
     /// Where the parts of the scenario stand.
     pub origins: Origins,
+    /// What is known of places of the text, if that was asked for.
+    pub index: Index,
     /// The behaviours that the root file sees and that need no argument, by name.
     pub behaviors: Vec<String>,
 }
@@ -98,6 +103,7 @@ pub fn compile(
     let mut problems = Vec::new();
     let texts: Vec<Source> = options.cast.iter().map(cast::source).collect();
     let (mut library, guests) = load(&root, loader, options.prelude, &texts, &mut problems);
+    library.index = options.index.then(Mutex::default);
     let mut scripts = LoadedScripts::new(options.scripts);
     scripts::load(&mut library, &mut scripts, loader, &mut problems);
     let casting = cast::read(options.cast, &guests, &library, &mut problems);
@@ -157,6 +163,7 @@ pub fn compile(
         behaviors,
         scenario,
         plans: (!failed).then_some(plans),
+        index: library.index.and_then(|index| index.into_inner().ok()).unwrap_or_default(),
         problems,
         inputs: library.inputs.clone(),
         sources: library.sources,

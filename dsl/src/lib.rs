@@ -9,6 +9,7 @@ mod check;
 pub mod compile;
 pub mod format;
 mod habit;
+pub mod index;
 mod lower;
 mod origins;
 mod outline;

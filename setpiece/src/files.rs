@@ -4,12 +4,12 @@ use crate::error::{Error, FileFault};
 use crate::stdlib;
 use setpiece_dsl::CAST_NAME;
 use setpiece_dsl::source::{LoadError, Source, SourceLoader};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// Largest source file, bytes; a typical scenario has a few kilobytes.
@@ -174,12 +174,21 @@ pub fn path_of(name: &str) -> PathBuf {
 pub struct FileLoader {
     /// The folder that files must be in, except the library's; none if any file may be read.
     within: Option<PathBuf>,
+    /// Texts that stand for files, by the path an import of them resolves to.
+    texts: BTreeMap<PathBuf, Arc<str>>,
 }
 
 impl FileLoader {
     /// Reads any file.
     pub fn anywhere() -> FileLoader {
-        FileLoader { within: None }
+        FileLoader::default()
+    }
+
+    /// Takes these texts for the files of their paths: an editor's, which may not be saved.
+    #[must_use]
+    pub fn with_texts(mut self, texts: BTreeMap<PathBuf, Arc<str>>) -> FileLoader {
+        self.texts = texts;
+        self
     }
 
     /// Reads only files in a root file's folder and below. A text from memory uses the working
@@ -187,7 +196,7 @@ impl FileLoader {
     pub fn beside(root: &str) -> FileLoader {
         let root_path = path_of(root);
         let folder = root_path.parent().filter(|_| !root.starts_with('<')).unwrap_or(Path::new(""));
-        FileLoader { within: Some(folder.to_owned()) }
+        FileLoader { within: Some(folder.to_owned()), ..FileLoader::default() }
     }
 
     /// Whether a file may be read, by its written path and by the target of its links.
@@ -232,6 +241,9 @@ impl SourceLoader for FileLoader {
                 "`{path}` lies outside of the scenario's folder, and `--allow-outside` isn't given"
             );
             return Err(LoadError { message, similar: Vec::new(), awaited: None });
+        }
+        if let Some(text) = self.texts.get(&full) {
+            return Ok(Source { name: name_of(&full), text: text.clone() });
         }
         match read_text(&full, SOURCE_MAX_BYTES) {
             Ok(text) => Ok(Source { name: name_of(&full), text: text.into() }),

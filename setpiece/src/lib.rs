@@ -11,6 +11,7 @@ pub mod cli;
 pub mod curves;
 pub mod doc;
 pub mod drawing;
+pub mod editor;
 pub mod error;
 pub mod evaluate;
 pub mod explain;

@@ -337,7 +337,7 @@ fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, E
 }
 
 /// The options of a compilation. The library's prelude is read once per process.
-fn compile_options() -> CompileOptions<'static> {
+pub(crate) fn compile_options() -> CompileOptions<'static> {
     static PRELUDE: OnceLock<Prelude> = OnceLock::new();
     let prelude = PRELUDE.get_or_init(|| Prelude::load(&FileLoader::anywhere()));
     CompileOptions {
@@ -347,6 +347,7 @@ fn compile_options() -> CompileOptions<'static> {
         cast: &[],
         plans_suffice: false,
         regions: false,
+        index: false,
     }
 }
 

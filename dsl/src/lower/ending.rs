@@ -144,7 +144,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
                 lower.report(Problem::new(reference.name.span, fact));
                 return None;
             };
-            lower.world.mark_used(at);
+            lower.world.refer(reference.name.span, at);
             let mut scope = Scope::new(false, LiteralFrame::World);
             lower.bind_params(
                 &item.name.node,

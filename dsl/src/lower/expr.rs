@@ -20,6 +20,7 @@ use super::value::{LiteralFrame, Repr, Value};
 use super::{DEPTH_MAX, Lower};
 use crate::ast::{Expr, ExprKind, PrefixOp, Span};
 use crate::check::types::Ty;
+use crate::index::{Index, ValueFact};
 use crate::problem::Problem;
 use crate::problem::facts::{Calls, Instead, Operand, Scopes, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
@@ -53,7 +54,21 @@ impl<'w> Lower<'_, 'w> {
             self.expr_kind(expr)
         };
         self.depth -= 1;
+        if !value.is_error() {
+            let note = |index: &mut Index| index.value(expr.span, self.value_fact(&value));
+            self.world.library.note(note);
+        }
         value
+    }
+
+    /// What an editor shows of a value.
+    fn value_fact(&self, value: &Value<'w>) -> ValueFact {
+        let constants = value.regs().into_iter().map(|reg| self.code.constant_of(reg));
+        ValueFact {
+            ty: value.ty.noun(),
+            constants: constants.collect::<Option<_>>().unwrap_or_default(),
+            is_point: value.ty == Ty::Point,
+        }
     }
 
     fn expr_kind(&mut self, expr: &'w Expr) -> Value<'w> {

@@ -133,7 +133,13 @@ impl<'w> World<'w> {
         self.circular.borrow().contains(&declaration)
     }
 
-    /// Notes that a declaration is referred to.
+    /// Notes that a declaration is referred to, by the name at `at`.
+    pub(crate) fn refer(&self, at: Span, declaration: Span) {
+        self.mark_used(declaration);
+        self.library.refer(at, declaration);
+    }
+
+    /// Notes that a declaration is used where no name stands.
     pub(crate) fn mark_used(&self, declaration: Span) {
         self.used.borrow_mut().insert(declaration);
     }

@@ -4,12 +4,13 @@ use crate::ast::{
     CheckStmtKind, CurriculumStmtKind, File, FileId, Ident, Item, ItemKind, ParamDecl, Ref, Span,
     SuiteStmt, SuiteStmtKind,
 };
+use crate::index::Index;
 use crate::parse::parse;
 use crate::problem::Problem;
 use crate::problem::facts::{Files, ImportLimit, Names};
 use crate::source::{Source, SourceLoader, Sources};
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// The file whose names every other file sees without an import.
 const PRELUDE: &str = "std/prelude.pitch";
@@ -38,6 +39,8 @@ pub(crate) struct Library {
     /// Files of such scenarios, loaded because one of them is extended.
     extended: Vec<FileId>,
     seen: Vec<BTreeMap<String, Vec<ItemAt>>>,
+    /// What editors want to know, if somebody asks. (A lock, because a prelude is shared.)
+    pub(crate) index: Option<Mutex<Index>>,
 }
 
 #[derive(Clone)]
@@ -297,7 +300,29 @@ impl Library {
             prelude: None,
             extended: Vec::new(),
             seen: Vec::new(),
+            index: None,
         }
+    }
+
+    /// Notes something for editors, if one asks.
+    pub(crate) fn note(&self, note: impl FnOnce(&mut Index)) {
+        if let Some(index) = &self.index
+            && let Ok(mut index) = index.lock()
+        {
+            note(&mut index);
+        }
+    }
+
+    /// Notes that the name at `at` refers to a declaration. What isn't that name, such as a script
+    /// that reads it, is left out.
+    pub(crate) fn refer(&self, at: Span, declaration: Span) {
+        self.note(|index| {
+            let (used, name) = (self.sources.text(at), self.sources.text(declaration));
+            let head = used.strip_suffix(name);
+            if head.is_some_and(|head| head.is_empty() || head.ends_with('.')) {
+                index.refer(at, declaration);
+            }
+        });
     }
 
     /// An item that a file sees under a name.

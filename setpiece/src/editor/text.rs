@@ -1,0 +1,97 @@
+//! Places in a text as editors count them: lines, and columns in UTF-16 units, both from 0.
+
+use std::ops::Range;
+
+/// A place between two characters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// The line, from 0.
+    pub line: u32,
+    /// The column in UTF-16 units, from 0.
+    pub column: u32,
+}
+
+/// Where the lines of a text begin.
+#[derive(Clone, Debug)]
+pub struct Lines {
+    starts: Vec<usize>,
+}
+
+impl Lines {
+    /// Those of a text.
+    pub fn of(text: &str) -> Lines {
+        let ends = text.match_indices('\n').map(|(at, _)| at + 1);
+        Lines { starts: std::iter::once(0).chain(ends).collect() }
+    }
+
+    /// The place of a byte of the text; of the text's end if it lies beyond.
+    pub fn position(&self, text: &str, offset: usize) -> Position {
+        let mut offset = offset.min(text.len());
+        while !text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let line = self.starts.partition_point(|start| *start <= offset).saturating_sub(1);
+        let start = self.starts.get(line).copied().unwrap_or_default();
+        let before = text.get(start..offset).unwrap_or_default();
+        Position { line: line as u32, column: before.encode_utf16().count() as u32 }
+    }
+
+    /// The byte of a place. Beyond the end of a line it is the line's end, beyond the last line the
+    /// text's.
+    pub fn offset(&self, text: &str, Position { line, column }: Position) -> usize {
+        let Some(&start) = self.starts.get(line as usize) else { return text.len() };
+        let rest = text.get(start..).unwrap_or_default();
+        let mut units = 0;
+        for (at, char) in rest.char_indices() {
+            if char == '\n' || (char == '\r' && rest[at..].starts_with("\r\n")) || units >= column {
+                return start + at;
+            }
+            units += char.len_utf16() as u32;
+        }
+        text.len()
+    }
+}
+
+/// The word around a byte of a text: letters, digits and underscores.
+pub fn word_at(text: &str, offset: usize) -> Range<usize> {
+    let is_word = |char: char| char.is_alphanumeric() || char == '_';
+    let (before, after) = text.split_at_checked(offset).unwrap_or((text, ""));
+    let start = before.trim_end_matches(is_word).len();
+    let end = before.len() + after.len() - after.trim_start_matches(is_word).len();
+    start..end
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_count_utf16_units() {
+        let text = "a\n😀é x\r\n\nlast";
+        let lines = Lines::of(text);
+        let at = |line, column| Position { line, column };
+        for (offset, position) in [
+            (0, at(0, 0)),
+            (1, at(0, 1)),
+            (2, at(1, 0)),
+            (6, at(1, 2)),
+            (8, at(1, 3)),
+            (12, at(2, 0)),
+            (17, at(3, 4)),
+        ] {
+            assert_eq!(lines.position(text, offset), position, "{offset}");
+            assert_eq!(lines.offset(text, position), offset, "{position:?}");
+        }
+        assert_eq!(lines.offset(text, at(1, 99)), 10, "the end of the line");
+        assert_eq!(lines.offset(text, at(99, 0)), text.len());
+        assert_eq!(lines.position(text, 4), at(1, 0), "within a character");
+    }
+
+    #[test]
+    fn a_word_is_found_from_either_end() {
+        assert_eq!(word_at("ball at x_1", 8), 8..11);
+        assert_eq!(word_at("ball at x_1", 11), 8..11);
+        assert_eq!(word_at("ball at", 4), 0..4);
+        assert_eq!(word_at("a + b", 2), 2..2);
+    }
+}

@@ -1,0 +1,85 @@
+//! The words of the language with what they mean, from the tables that the compiler checks against.
+
+use crate::scenario::vocabulary::{
+    Action, EventKind, Function, GameMode, Landmark, PROPERTIES, PitchFigure, PitchRegion,
+    Primitive, Qualifier, RegionName, Role, Rule, StartKind, Stat, Type, WorldFigure,
+};
+
+/// What kind of word it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WordKind {
+    /// A football role.
+    Role,
+    /// An event of the match.
+    Event,
+    /// What an event may be: `completed`.
+    Qualifier,
+    /// A function.
+    Function,
+    /// A property of a player, the ball or the match.
+    Property,
+    /// A place or an area of the pitch.
+    Place,
+    /// A key of `rules`, `world` or `pitch`.
+    Option,
+    /// A number of `stats`.
+    Stat,
+    /// What a player of a behaviour does.
+    Act,
+    /// An action of an agent.
+    Action,
+    /// A kind of start, or a mode of the game.
+    Mode,
+    /// A type of a parameter.
+    Type,
+}
+
+/// A word of the language.
+#[derive(Clone, Copy, Debug)]
+pub struct Word {
+    /// The word.
+    pub name: &'static str,
+    /// What it means, in a line.
+    pub doc: &'static str,
+    /// What it is.
+    pub kind: WordKind,
+    /// The page of the reference, under `docs/language/`.
+    pub page: &'static str,
+}
+
+/// Every word, by kind. A word may be of several kinds.
+pub fn all() -> impl Iterator<Item = Word> {
+    macro_rules! table {
+        ($name:ident, $kind:ident, $page:literal) => {
+            $name::ALL.iter().map(|word| Word {
+                name: word.name(),
+                doc: word.doc(),
+                kind: WordKind::$kind,
+                page: $page,
+            })
+        };
+    }
+    let properties = PROPERTIES.iter().map(|property| Word {
+        name: property.name,
+        doc: property.doc,
+        kind: WordKind::Property,
+        page: "expression.md",
+    });
+    table!(Role, Role, "team.md")
+        .chain(table!(EventKind, Event, "event.md"))
+        .chain(table!(Qualifier, Qualifier, "event.md"))
+        .chain(table!(Function, Function, "expression.md"))
+        .chain(properties)
+        .chain(table!(Landmark, Place, "place.md"))
+        .chain(table!(RegionName, Place, "region.md"))
+        .chain(table!(PitchRegion, Place, "region.md"))
+        .chain(table!(Rule, Option, "start.md"))
+        .chain(table!(WorldFigure, Option, "world.md"))
+        .chain(table!(PitchFigure, Option, "pitch.md"))
+        .chain(table!(Stat, Stat, "team.md"))
+        .chain(table!(Primitive, Act, "behavior.md"))
+        .chain(table!(Action, Action, "expression.md"))
+        .chain(table!(GameMode, Mode, "expression.md"))
+        .chain(table!(StartKind, Mode, "start.md"))
+        .chain(table!(Type, Type, "param.md"))
+}

@@ -10,6 +10,7 @@ mod explain;
 mod fmt;
 mod live;
 mod log;
+mod lsp;
 mod out;
 mod play;
 mod playing;
@@ -92,6 +93,8 @@ enum Command {
         #[arg(value_name = "CODE")]
         code: Option<String>,
     },
+    /// Answer an editor over the Language Server Protocol, on standard input and output
+    Lsp,
     /// Describe a scenario in Markdown: parameters, players, rewards, endings, rules, and a picture
     /// of a start
     #[command(after_help = "Examples:
@@ -212,6 +215,7 @@ fn run(args: Args) -> u8 {
         Command::Build { source, output, format } => build(&source, &output, format, &out),
         Command::Fmt(args) => Ok(fmt::fmt(&args, &out)),
         Command::Explain { code } => Ok(explain::explain(code.as_deref(), &out)),
+        Command::Lsp => Ok(lsp::serve()),
         Command::Doc(args) => doc::doc(&args, &out),
         Command::Run(args) => play::run_command(&args, &out),
         Command::Test(args) => test::test(&args, &out),

@@ -3,6 +3,7 @@
 //! Questions and answers are plain data, without a protocol: [`Workspace`] has the open texts, and
 //! each question is a file. `setpiece lsp` speaks for it over the Language Server Protocol.
 
+mod actions;
 mod analysis;
 mod complete;
 mod hover;
@@ -11,6 +12,7 @@ mod symbols;
 pub mod text;
 mod words;
 
+pub use actions::Fix;
 pub use analysis::Analysis;
 pub use complete::{Completion, CompletionKind};
 pub use hover::Hover;

@@ -177,8 +177,8 @@ impl Server<'_> {
     fn answer(&mut self, request: Request) {
         let id = request.id.clone();
         let answer = match self.result_of(request) {
-            Ok(result) => Response { id, result: Some(result), error: None },
-            Err(error) => Response { id, result: None, error: Some(error) },
+            Ok(result) => Response::new_ok(id, result),
+            Err(error) => Response::new_err(id, error.code, error.message),
         };
         let _ = self.connection.sender.send(answer.into());
     }
@@ -392,6 +392,8 @@ fn shown_symbol(analysis: &Analysis, symbol: &Symbol) -> lsp::DocumentSymbol {
     lsp::DocumentSymbol {
         name: symbol.name.clone(),
         detail: None,
+        tags: None,
+        deprecated: None,
         kind: match symbol.kind {
             Kind::Scenario => lsp::SymbolKind::Class,
             Kind::Reward | Kind::Ending => lsp::SymbolKind::Event,
@@ -405,6 +407,5 @@ fn shown_symbol(analysis: &Analysis, symbol: &Symbol) -> lsp::DocumentSymbol {
         range: range(&symbol.whole),
         selection_range: range(&symbol.range),
         children: (!inside.is_empty()).then_some(inside),
-        ..lsp::DocumentSymbol::default()
     }
 }

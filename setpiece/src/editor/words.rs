@@ -7,7 +7,7 @@ use crate::scenario::vocabulary::{
 
 /// What kind of word it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WordKind {
+pub(super) enum WordKind {
     /// A football role.
     Role,
     /// An event of the match.
@@ -36,19 +36,19 @@ pub enum WordKind {
 
 /// A word of the language.
 #[derive(Clone, Copy, Debug)]
-pub struct Word {
+pub(super) struct Word {
     /// The word.
-    pub name: &'static str,
+    pub(super) name: &'static str,
     /// What it means, in a line.
-    pub doc: &'static str,
+    pub(super) doc: &'static str,
     /// What it is.
-    pub kind: WordKind,
+    pub(super) kind: WordKind,
     /// The page of the reference, under `docs/language/`.
-    pub page: &'static str,
+    pub(super) page: &'static str,
 }
 
 /// Every word, by kind. A word may be of several kinds.
-pub fn all() -> impl Iterator<Item = Word> {
+pub(super) fn all() -> impl Iterator<Item = Word> {
     macro_rules! table {
         ($name:ident, $kind:ident, $page:literal) => {
             $name::ALL.iter().map(|word| Word {

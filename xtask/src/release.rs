@@ -135,8 +135,18 @@ fn read(file: &str) -> Result<String, String> {
 mod tests {
     use super::*;
 
-    const CHANGELOG: &str =
-        "# Changelog\n\n## 9.1.0 - 2026-01-02\n\n### Added\n\n- A.\n\n## 9.0.0 - unreleased\n\n- B.\n";
+    const CHANGELOG: &str = "# Changelog
+
+## 9.1.0 - 2026-01-02
+
+### Added
+
+- A.
+
+## 9.0.0 - unreleased
+
+- B.
+";
 
     #[test]
     fn a_section_ends_at_the_next_version() {

@@ -73,7 +73,7 @@ fn empty(folder: &str) -> Result<PathBuf, String> {
         fs::remove_dir_all(&path).map_err(|why| format!("{folder}: {why}"))?;
     }
     fs::create_dir_all(&path).map_err(|why| format!("{folder}: {why}"))?;
-    path.canonicalize().map_err(|why| format!("{folder}: {why}"))
+    Ok(path)
 }
 
 fn copy(from: &Path, to: &Path) -> Result<(), String> {

@@ -2,14 +2,17 @@
 //! others.
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
+mod archive;
 mod ci;
 mod fuzz;
 mod grammar;
 mod pictures;
+mod release;
 mod shell;
 mod studio;
 mod tidy;
 mod transfer;
+mod workflows;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
 use std::process::ExitCode;
@@ -50,6 +53,12 @@ enum Command {
     Deny,
     /// Generate the parser of grammar/tree-sitter and have it read the repository's files
     Grammar,
+    /// Check the workflows of .github with actionlint
+    Workflows,
+    /// Check that everything names one version, and what else a release needs
+    Release(release::ReleaseArgs),
+    /// Pack the command of a target into target/archives
+    Archive(archive::ArchiveArgs),
     /// Write docs/pitchc.schema.json
     Schema,
     /// Compare the game's figures with those measured in Google Research Football
@@ -96,6 +105,9 @@ fn main() -> ExitCode {
         Command::Studio { shots, .. } => ("studio", studio::drive(shots)),
         Command::Deny => ("deny", ci::deny()),
         Command::Grammar => ("grammar", grammar::grammar()),
+        Command::Workflows => ("workflows", workflows::workflows()),
+        Command::Release(args) => ("release", release::release(&args)),
+        Command::Archive(args) => ("archive", archive::archive(&args)),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
         Command::Soak { args } => ("soak", ci::lab("soak", &args)),

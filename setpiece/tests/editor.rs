@@ -181,7 +181,7 @@ fn completion_knows_the_place() {
         (
             scenario("reward r { give 1 when distance(me, ‸"),
             &["striker", "far", "ball", "distance"],
-            &["offside"],
+            &["import"],
         ),
         (scenario("rules { ‸ }"), &["offside", "half_time"], &["GK"]),
         (scenario("reward r { give 0.1 on ‸ }"), &["pass", "shot", "goal"], &[]),

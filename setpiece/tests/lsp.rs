@@ -153,8 +153,13 @@ fn every_capability_is_answered() {
         ("inlayHintProvider", "textDocument/inlayHint", within.clone(), "p:"),
         ("codeLensProvider", "textDocument/codeLens", within.clone(), "setpiece.run"),
         ("codeActionProvider", "textDocument/codeAction", within.clone(), "scoring"),
-        ("documentFormattingProvider", "textDocument/formatting", within.clone(), "[]"),
-        ("documentRangeFormattingProvider", "textDocument/rangeFormatting", within.clone(), "[]"),
+        ("documentFormattingProvider", "textDocument/formatting", within.clone(), "newText"),
+        (
+            "documentRangeFormattingProvider",
+            "textDocument/rangeFormatting",
+            within.clone(),
+            "newText",
+        ),
         (
             "documentOnTypeFormattingProvider",
             "textDocument/onTypeFormatting",

@@ -151,9 +151,10 @@ fn meant(analysis: &Analysis, path: &Path, report: &Report) -> Vec<Try> {
     }
     for text in quoted(help) {
         let unit = text.trim_start_matches(|sign: char| sign.is_ascii_digit() || sign == '.');
-        if is_number(marked) && unit.len() < text.len() && !unit.is_empty() && is_example {
+        let has_unit = unit.len() < text.len() && unit.starts_with(char::is_alphabetic);
+        if has_unit && is_number(marked) {
             tries.push(write(range.clone(), format!("{marked}{unit}")));
-        } else if !is_example {
+        } else if !has_unit && !is_example {
             tries.push(write(range.clone(), text.to_owned()));
             if let [sign] = text.as_bytes()
                 && sign.is_ascii_punctuation()

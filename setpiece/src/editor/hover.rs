@@ -45,7 +45,12 @@ impl Workspace {
         if let Some(declaration) = declaration {
             parts.extend(analysis.declared(&declaration));
         } else {
-            parts.extend(words::all().filter(|known| known.name == word).map(about));
+            let begins =
+                before.trim_end_matches([' ', '\t']).ends_with(['\n', '{']) || before.is_empty();
+            parts.extend(keyword(before, word).filter(|_| begins));
+            if parts.is_empty() {
+                parts.extend(words::all().filter(|known| known.name == word).map(about));
+            }
             if parts.is_empty() {
                 parts.extend(keyword(before, word));
             }

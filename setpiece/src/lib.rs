@@ -46,7 +46,7 @@ pub mod video;
 pub mod watch;
 
 /// The address of the documentation.
-pub const DOCS: &str = "https://setpiece-rl.github.io/setpiece";
+pub const DOCS: &str = env!("CARGO_PKG_HOMEPAGE");
 
 pub use error::Error;
 pub use level::Level;

@@ -13,6 +13,7 @@ mod log;
 mod out;
 mod play;
 mod playing;
+mod reference;
 #[cfg(feature = "render")]
 mod render;
 mod replay;
@@ -30,6 +31,8 @@ use common::{ColourChoice, FAULT, FINE, MessageFormat};
 use out::{Out, StyledText};
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
+
+pub use reference::reference;
 
 /// Football scenarios from text files, and the engine that runs them.
 #[derive(Parser, Debug)]

@@ -30,7 +30,13 @@ def main() -> int:
         return built.returncode
     site = Site(OUT)
     questions = json.loads((ROOT / "site/questions.json").read_text("utf-8"))
-    faults = [*site.broken(), *site.unsearchable(), *site.far(questions)]
+    codes = [path.stem for path in sorted((ROOT / "docs/errors").glob("SP*.md"))]
+    faults = [
+        *site.broken(),
+        *site.missing(f"errors/{code}/" for code in codes),
+        *site.unsearchable(),
+        *site.far(questions),
+    ]
     if faults:
         return report(faults)
     print(

@@ -101,6 +101,10 @@ class Site:
                     faults.append(f"{name}: {link} has no such anchor")
         return faults
 
+    def missing(self, addresses: Iterable[str]) -> list[str]:
+        """Returns the addresses without a page; reports and editors link to those of codes."""
+        return [f"no page at {it}" for it in addresses if f"{it}index.html" not in self.pages]
+
     def unsearchable(self, words: Iterable[str] = SEARCHED) -> list[str]:
         """Returns the words that the search's index lacks."""
         items = json.loads((self.folder / "search.json").read_text("utf-8"))["items"]

@@ -88,6 +88,7 @@ def test_what_is_broken_is_found(tmp_path: Path) -> None:
         "far/index.html: ../index.html#no has no such anchor",
         "near/index.html: far/ leads nowhere",
     ]
+    assert site.missing(["near/", "nowhere/"]) == ["no page at nowhere/"]
     assert site.unsearchable(["success_rate", "a < b"]) == []
     assert site.unsearchable(["code"]) == ["the search doesn't find `code`"]
     assert site.clicks(2) == {"index.html": 0, "near/index.html": 1, "far/index.html": 2}

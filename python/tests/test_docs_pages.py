@@ -34,7 +34,7 @@ def test_every_block_of_a_page_works(
 def test_the_first_text_is_that_of_the_examples() -> None:
     text = (DOCS / "README.md").read_text(encoding="utf-8")
     first = next(block for block in blocks(text) if block.language == "pitch")
-    assert first.text == (ROOT / "examples/two_on_one.pitch").read_text(encoding="utf-8")
+    assert first.text == (ROOT / "examples/breakaway.pitch").read_text(encoding="utf-8")
 
 
 def test_the_picture_is_what_its_command_draws(tmp_path: Path) -> None:
@@ -46,7 +46,7 @@ def test_the_picture_is_what_its_command_draws(tmp_path: Path) -> None:
         elif "render" in block.text:
             page.console(block.text)
     assert not page.faults
-    drawn, kept = ((folder / "two_on_one.png").read_bytes() for folder in (tmp_path, DOCS))
+    drawn, kept = ((folder / "breakaway.png").read_bytes() for folder in (tmp_path, DOCS))
     assert size(drawn) == size(kept)
 
 

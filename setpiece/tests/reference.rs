@@ -1,5 +1,5 @@
-//! `docs/reference/` and `docs/errors.md` are what the tables of the language, the registry of codes
-//! and the declarations of the command say. `SETPIECE_BLESS=1` writes them.
+//! `docs/reference/` and `docs/errors.md` are what the tables of the language, the registry of
+//! codes and the declarations of the command say. `SETPIECE_BLESS=1` writes them.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -31,12 +31,29 @@ fn hold(page: &str, wanted: &str) {
     assert!(found == wanted, "docs/{page} says something else: SETPIECE_BLESS=1 writes it");
 }
 
+/// Prose in lines of at most 100 columns.
+fn wrapped(text: &str) -> String {
+    let (mut lines, mut line) = (String::new(), String::new());
+    for word in text.split_whitespace() {
+        if line.chars().count() + word.chars().count() >= 100 {
+            let _ = writeln!(lines, "{line}");
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    lines + &line
+}
+
 /// A table of words, each with an anchor.
 fn table(text: &mut String, group: &Group) {
     let _ = write!(text, "\n## {}\n\n", group.title);
     let see: Vec<String> =
         group.pages.iter().map(|(title, page)| format!("[{title}](../{page})")).collect();
-    let _ = write!(text, "{} Explained in {}.\n\n", group.about, see.join(" and "));
+    let about = format!("{} Explained in {}.", group.about, see.join(" and "));
+    let _ = write!(text, "{}\n\n", wrapped(&about));
     let _ = writeln!(text, "| {} |\n|{}", group.head.join(" | "), "---|".repeat(group.head.len()));
     for (word, cells) in &group.rows {
         let anchor = group.anchor(word);

@@ -1,4 +1,5 @@
-//! The docs site: `site/build.py` gathers the pages, has Zensical build them, and checks the result.
+//! The docs site: `site/build.py` gathers the pages, has Zensical build them, and checks what came
+//! out.
 
 use crate::ci::{install_wheel, venv, wheel};
 use crate::shell::run;

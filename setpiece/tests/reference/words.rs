@@ -241,12 +241,7 @@ fn events() -> Vec<Group> {
     ]
 }
 
-fn properties(
-    owner: Owner,
-    title: &'static str,
-    kind: &'static str,
-    about: &'static str,
-) -> Group {
+fn properties(owner: Owner, title: &'static str, kind: &'static str, about: &'static str) -> Group {
     Group {
         title,
         kind,
@@ -263,12 +258,7 @@ fn properties(
 
 fn values() -> Vec<Group> {
     vec![
-        properties(
-            Owner::Ball,
-            "Properties of the ball",
-            "property of the ball",
-            "After `ball.`.",
-        ),
+        properties(Owner::Ball, "Properties of the ball", "property of the ball", "After `ball.`."),
         properties(
             Owner::Player,
             "Properties of a player",

@@ -1,5 +1,7 @@
 """The lexer for Pygments, over every `.pitch` text of the repository."""
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -102,3 +104,16 @@ def test_comments_and_strings_over_lines_end_where_they_end() -> None:
     assert parts['\\"'] is Token.Literal.String.Escape
     comment = "".join(part for kind, part in found if kind in Token.Comment)
     assert comment.replace(" ", "") == "/*ascenario*/"
+
+
+def test_without_pygments_only_the_lexer_is_missing() -> None:
+    text = (
+        "import sys; sys.modules['pygments'] = sys.modules['pygments.lexer'] = None\n"
+        "import setpiece\n"
+        "try: import setpiece.pygments_lexer\n"
+        "except setpiece.MissingPackageError as error: print(error.help)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", text], capture_output=True, text=True, check=False, timeout=300
+    )
+    assert done.stdout == "pip install 'setpiece[pygments]'\n", done.stderr

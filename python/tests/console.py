@@ -133,10 +133,11 @@ def outside(command: str) -> None:
         project = (ROOT / "python/pyproject.toml").read_text(encoding="utf-8")
         table = project.partition("[project.optional-dependencies]\n")[2].partition("\n\n")[0]
         extras = re.findall(r"^(\w+) = ", table, re.MULTILINE)
+        tested = (ROOT / "python/requirements-full.txt").read_text(encoding="utf-8")
         for word in words[2:]:
             found = re.fullmatch(r"\./python(?:\[(\w+)])?", word)
-            assert found, command
-            assert found[1] is None or found[1] in extras, command
+            assert found or re.search(rf"^{word}>=", tested, re.MULTILINE), f"{command}: {word}"
+            assert not found or found[1] is None or found[1] in extras, f"{command}: {word}"
         return
     assert words[0] == "python", command
     assert words[1].startswith("examples/"), command

@@ -44,7 +44,8 @@ fn wrapped(text: &str) -> String {
         }
         line.push_str(word);
     }
-    lines + &line
+    lines.push_str(&line);
+    lines
 }
 
 /// A table of words, each with an anchor.

@@ -14,6 +14,7 @@ mod lsp;
 mod out;
 mod play;
 mod playing;
+mod reference;
 #[cfg(feature = "render")]
 mod render;
 mod replay;
@@ -31,6 +32,8 @@ use common::{ColourChoice, FAULT, FINE, MessageFormat};
 use out::{Out, StyledText};
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
+
+pub use reference::reference;
 
 /// Football scenarios from text files, and the engine that runs them.
 #[derive(Parser, Debug)]

@@ -4,6 +4,7 @@
 
 mod archive;
 mod ci;
+mod docs;
 mod fuzz;
 mod grammar;
 mod pictures;
@@ -83,6 +84,8 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "OPTIONS")]
         args: Vec<String>,
     },
+    /// Build the docs site into target/site, and check its links, its search and its start page
+    Docs,
     /// Draw the pictures of docs/examples.md
     Pictures,
     /// Try random inputs; see fuzz/README.md
@@ -98,7 +101,7 @@ fn main() -> ExitCode {
     let (name, result) = match command {
         Command::Ci => ("ci", ci::ci()),
         Command::Test => ("test", ci::rust_tests()),
-        Command::Python { full: false } => ("python", ci::python()),
+        Command::Python { full: false } => ("python", ci::python().map(drop)),
         Command::Python { full: true } => ("python", ci::python_full()),
         Command::Tidy => ("tidy", tidy::tidy()),
         Command::Studio { drive: false, shots: false } => ("studio", studio::build()),
@@ -112,6 +115,7 @@ fn main() -> ExitCode {
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
         Command::Soak { args } => ("soak", ci::lab("soak", &args)),
         Command::Transfer { args } => ("transfer", transfer::transfer(&args)),
+        Command::Docs => ("docs", docs::docs()),
         Command::Pictures => ("pictures", pictures::pictures()),
         Command::Fuzz(args) => ("fuzz", fuzz::fuzz(&args)),
     };

@@ -139,6 +139,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         )
         self._part = Picker(len(agents), mine[0] if len(mine) == 1 else mine)
         self.agents = tuple(agents[at].id for at in mine)
+        self.teams = tuple(agents[at].team for at in mine)
         self.single_observation_space = observation_space(
             self._batch, options.observation, [agents[at] for at in mine]
         )

@@ -17,10 +17,11 @@ pub(super) fn tracking(tracking: &Tracking) -> String {
             moment.in_play,
             moment.possession.map_or("", team),
         );
-        let ([x, y, z], [vx, vy, vz]) = (moment.ball, moment.ball_mps);
+        let ([x, y, z], [vx, vy, vz]) =
+            (moment.ball.map(number), moment.ball_mps.map(number));
         let _ = writeln!(table, "{shared},ball,,{x},{y},{z},{vx},{vy},{vz}");
         for it in &moment.players {
-            let ([x, y], [vx, vy]) = (it.at, it.mps);
+            let ([x, y], [vx, vy]) = (it.at.map(number), it.mps.map(number));
             let (id, team) = (quoted(tracking.name(it.slot)), team(it.slot.team()));
             let _ = writeln!(table, "{shared},{id},{team},{x},{y},,{vx},{vy},");
         }
@@ -55,16 +56,21 @@ pub(super) fn events(tracking: &Tracking) -> String {
             to.map(name).unwrap_or_default(),
             received.map(seconds).unwrap_or_default(),
             to.map(|to| team(to.team())).unwrap_or_default().to_owned(),
-            event.at[0].to_string(),
-            event.at[1].to_string(),
-            event.end.map(|([x, _], _)| x.to_string()).unwrap_or_default(),
-            event.end.map(|([_, y], _)| y.to_string()).unwrap_or_default(),
+            number(event.at[0]),
+            number(event.at[1]),
+            event.end.map(|([x, _], _)| number(x)).unwrap_or_default(),
+            event.end.map(|([_, y], _)| number(y)).unwrap_or_default(),
             event.body.unwrap_or_default().to_owned(),
             related.join(";"),
         ];
         let _ = writeln!(table, "{}", fields.join(","));
     }
     table
+}
+
+/// A number with the digits that it has in the other form; a table's reader gets the same one.
+fn number(value: f32) -> String {
+    serde_json::to_string(&value).unwrap_or_default()
 }
 
 fn seconds(time_ms: u32) -> String {

@@ -23,6 +23,7 @@ from setpiece._levels import LevelsArgument
 from setpiece._optional import need
 from setpiece._options import check_flag
 from setpiece._source import Source
+from setpiece._spaces import one_observation_space
 from setpiece._vector import FootballVectorEnv
 from setpiece._vector_levels import Params
 
@@ -122,10 +123,8 @@ class FootballTensorEnv(EnvBase):
     def _of_agents(self, size: tuple[int, ...]) -> tuple[dict[str, Any], Any, Any]:
         """The specs of what agents see, do and are paid, with these leading axes."""
         vector, device = self.vector, self.device
-        # The space of several agents has their axis first.
-        box = vector.single_observation_space
-        assert isinstance(box, spaces.Box)
-        low, high = (one[0] if self._many else one for one in (box.low, box.high))
+        box = one_observation_space(vector)
+        low, high = box.low, box.high
         shape = (*size, *low.shape)
         dtype = torch.uint8 if low.dtype == np.uint8 else torch.float32
         if np.isfinite(low).all() and np.isfinite(high).all():

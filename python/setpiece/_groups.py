@@ -18,7 +18,7 @@ from setpiece._errors import ActionError, ParameterError, SetpieceError, Unavail
 from setpiece._options import check_count
 from setpiece._reset import read_seeds
 from setpiece._source import Source
-from setpiece._vector import ENVS_MAX, FootballVectorEnv
+from setpiece._vector import ENVS_MAX, FootballVectorEnv, read_mode
 from setpiece._vector_levels import Params
 
 if TYPE_CHECKING:
@@ -84,6 +84,7 @@ class FootballGroups:
                 name="opponents",
                 help="play both teams: `left='all', right='all'`",
             )
+        autoreset_mode = read_mode(autoreset_mode)
         if autoreset_mode == AutoresetMode.DISABLED:
             raise UnavailableError(
                 "groups begin their next episodes themselves", name="autoreset_mode"

@@ -7,7 +7,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
-from environment_texts import text
+from environment_texts import SCRIPTED
 
 import setpiece
 from setpiece import ActionError, ParameterError, ScriptError, UnavailableError
@@ -28,7 +28,7 @@ def test_an_environment_plays_what_it_plays_in_a_vector(mode: str, agents: str |
     rng = np.random.default_rng(2)
     ended = 0
     with groups_of(THREE, 6, groups=3, **options) as envs:
-        assert envs.num_envs, envs.batch_size == (6, 2)
+        assert (envs.num_envs, envs.batch_size) == (6, 2)
         assert envs.action_space.shape == (2, *vector.action_space.shape[1:])  # type: ignore[index]
         envs.async_reset(seed=11)
         rewards, over, infos = np.zeros(vector.action_space.shape), np.zeros(6, bool), {}  # type: ignore[arg-type, var-annotated]
@@ -102,9 +102,11 @@ def test_a_reset_drops_what_is_being_played() -> None:
 
 
 def test_a_failing_script_names_its_environment(tmp_path: Path) -> None:
-    (tmp_path / "fail.rhai").write_text("fn step(s) { if s.steps >= 2 { throw \"enough\"; } }")
-    path = tmp_path / "fail.pitch"
-    path.write_text(text("fail", script="fail.rhai"))
+    (tmp_path / "mine.rhai").write_text(
+        "fn reward(ctx, now, prev, events) { if ctx.step >= 2 { throw \"enough\"; } 0.0 }"
+    )
+    path = tmp_path / "scripted.pitch"
+    path.write_text(SCRIPTED)
     with groups_of(path, 4, groups=2) as envs:
         envs.async_reset(seed=1)
         failed = []

@@ -1,9 +1,9 @@
 """Draws a recorded episode with kloppy and mplsoccer: its frames, and its passes and shots.
 
-    pip install setpiece[kloppy] mplsoccer
-    setpiece run academy_run_pass_and_shoot_with_keeper --agent bot --record replays
-    setpiece replay replays/….pitchr --format cdf -o episode
-    python draw_tracking.py episode episode.png
+pip install setpiece[kloppy] mplsoccer
+setpiece run academy_run_pass_and_shoot_with_keeper --agent bot --record replays
+setpiece replay replays/….pitchr --format cdf -o episode
+python draw_tracking.py episode episode.png
 """
 
 from __future__ import annotations
@@ -50,7 +50,11 @@ def draw(folder: Path, picture: Path) -> None:
         for player, data in frame.players_data.items():
             at = data.coordinates
             paths.setdefault(player.player_id, []).append((at.x + middle_x, at.y + middle_y))
-    teams = {player.player_id: team.team_id for team in tracking.metadata.teams for player in team.players}
+    teams = {
+        player.player_id: team.team_id
+        for team in tracking.metadata.teams
+        for player in team.players
+    }
     for player_id, points in paths.items():
         x, y = zip(*points, strict=True)
         colour = COLOURS[teams[player_id]]

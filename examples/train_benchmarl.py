@@ -1,7 +1,7 @@
 """Trains MAPPO of BenchMARL: every player of a team is an agent.
 
-    pip install setpiece[benchmarl]
-    python train_benchmarl.py academy_3_vs_1_with_keeper --iterations 50
+pip install setpiece[benchmarl]
+python train_benchmarl.py academy_3_vs_1_with_keeper --iterations 50
 """
 
 from __future__ import annotations

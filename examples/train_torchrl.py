@@ -1,7 +1,7 @@
 """Trains PPO with TorchRL's collector, loss and advantage.
 
-    pip install setpiece[torchrl]
-    python train_torchrl.py academy_empty_goal_close --frames 200000
+pip install setpiece[torchrl]
+python train_torchrl.py academy_empty_goal_close --frames 200000
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def train(
             flat = rollout.reshape(-1)
             for rows in torch.randperm(len(flat)).split(MINIBATCH):
                 terms = loss(flat[rows])
-                total = sum(terms[key] for key in terms.keys() if key.startswith("loss_"))
+                total = sum(terms[key] for key in terms.keys() if key.startswith("loss_"))  # noqa: SIM118
                 optimizer.zero_grad()
                 total.backward()
                 nn.utils.clip_grad_norm_(loss.parameters(), 0.5)

@@ -2,10 +2,11 @@
 
     python benches/groups.py
 
-It measures steps of all matches per second of the clock, with a policy of a given size: a vector
-that waits for the policy, and `setpiece.make_groups`. Both have one thread for the matches, and the
-policy has one. `overlap` is the share of the shorter of both times (of the matches, of the policy)
-that the groups hide.
+It measures steps of all matches per second of the clock: a vector that waits for the policy, and
+`setpiece.make_groups`. Both have one thread for the matches. The policies are networks on one
+thread of the processor, which need a free core, and one that only waits, like a thread whose policy
+is on another device. `overlap` is the share of the shorter of both times (of the matches, of the
+policy) that the groups hide.
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ import argparse
 import statistics
 import time
 from collections.abc import Callable
+from typing import Any
 
+import numpy as np
 import torch
 from torch import nn
 
@@ -23,20 +26,30 @@ import setpiece
 SCENARIO = "academy_3_vs_1_with_keeper"
 
 
-def policy_of(width: int) -> Callable[[object], object]:
+def policy_of(width: int) -> Callable[[Any], Any]:
     """A network with two hidden layers that picks actions."""
     network = nn.Sequential(
         nn.Linear(115, width), nn.Tanh(), nn.Linear(width, width), nn.Tanh(), nn.Linear(width, 19)
     )
 
     @torch.inference_mode()
-    def policy(observations: object) -> object:
+    def policy(observations: Any) -> Any:
         return network(torch.as_tensor(observations)).argmax(-1).numpy()
 
     return policy
 
 
-def vector_s(scenario: str, n: int, policy: Callable[[object], object], steps: int) -> float:
+def wait_of(ms: float, n: int) -> Callable[[Any], Any]:
+    """A policy that waits so long for `n` rows, and in proportion for fewer, as for a device."""
+
+    def policy(observations: Any) -> Any:
+        time.sleep(ms / 1000 * len(observations) / n)
+        return np.zeros(len(observations), np.int64)
+
+    return policy
+
+
+def vector_s(scenario: str, n: int, policy: Callable[[Any], Any], steps: int) -> float:
     """Seconds of `steps` steps of a vector, one after the other."""
     envs = setpiece.make_vec(scenario, n, threads=1)
     observations, _ = envs.reset(seed=1)
@@ -48,7 +61,7 @@ def vector_s(scenario: str, n: int, policy: Callable[[object], object], steps: i
     return took
 
 
-def groups_s(scenario: str, n: int, policy: Callable[[object], object], steps: int) -> float:
+def groups_s(scenario: str, n: int, policy: Callable[[Any], Any], steps: int) -> float:
     """Seconds of `steps` steps of two groups that alternate."""
     with setpiece.make_groups(scenario, n, groups=2, threads=1) as envs:
         envs.async_reset(seed=1)
@@ -60,7 +73,7 @@ def groups_s(scenario: str, n: int, policy: Callable[[object], object], steps: i
         return time.perf_counter() - began
 
 
-def policy_s(n: int, policy: Callable[[object], object], steps: int) -> float:
+def policy_s(n: int, policy: Callable[[Any], Any], steps: int) -> float:
     """Seconds that the policy alone takes for `steps` batches."""
     observations = torch.randn(n, 115)
     began = time.perf_counter()
@@ -79,9 +92,10 @@ def main() -> None:
     given = parser.parse_args()
     torch.set_num_threads(1)
     n, steps = given.num_envs, given.steps
-    print("width  policy ms  vector steps/s  groups steps/s   gain  overlap")
-    for width in (64, 512, 1024, 2048):
-        policy = policy_of(width)
+    print("policy         ms  vector steps/s  groups steps/s   gain  overlap")
+    policies = [(f"width {width}", policy_of(width)) for width in (64, 512, 1024, 2048)]
+    policies += [(f"wait {ms} ms", wait_of(ms, n)) for ms in (2, 6, 20)]
+    for name, policy in policies:
         # Alternating, because other load on the machine comes and goes.
         runs = [
             (
@@ -94,7 +108,7 @@ def main() -> None:
         thinks, alone, grouped = (statistics.median(column) for column in zip(*runs, strict=True))
         hidden = (alone - grouped) / max(1e-9, min(thinks, alone - thinks))
         print(
-            f"{width:5}  {1000 * thinks / steps:9.2f}  {n * steps / alone:14.0f}  "
+            f"{name:10}  {1000 * thinks / steps:5.2f}  {n * steps / alone:14.0f}  "
             f"{n * steps / grouped:14.0f}  {alone / grouped:5.2f}  {hidden:6.0%}"
         )
 

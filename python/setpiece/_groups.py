@@ -163,9 +163,7 @@ class FootballGroups:
         array = array_of(actions)
         if array is None or array.shape != self.action_space.shape:
             found = repr(actions) if array is None else f"shape {array.shape}"
-            raise ActionError(
-                f"expected actions of shape {self.action_space.shape}, found {found}"
-            )
+            raise ActionError(f"expected actions of shape {self.action_space.shape}, found {found}")
         # The caller may reuse the array while the group is played.
         array = array.copy()
         self._waiting.remove(at)
@@ -232,9 +230,7 @@ class FootballGroups:
 
     def _check_open(self) -> None:
         if self.closed:
-            raise gymnasium.error.ClosedEnvironmentError(
-                "the environments are closed: make others"
-            )
+            raise gymnasium.error.ClosedEnvironmentError("the environments are closed: make others")
 
 
 def _begun(vector: FootballVectorEnv, seeds: list[int | None] | None) -> Received:

@@ -346,7 +346,7 @@ class ManyMatches(Protocol):
     def single_observation_space(self) -> spaces.Space[Any]: ...
 
 
-def one_observation_space(envs: ManyMatches) -> spaces.Box:
+def box_of_one_agent(envs: ManyMatches) -> spaces.Box:
     """Returns what one agent sees in a vector; the space of several has their axis first."""
     space = envs.single_observation_space
     # A vector stacks arrays only.

@@ -51,17 +51,17 @@ class FootballTask(TaskClass):
 
     def supports_continuous_actions(self) -> bool:
         """Every scenario has them, unless the task names the keys."""
-        return self.config.get("action_set", "continuous") == "continuous"
+        return bool(self.config.get("action_set", "continuous") == "continuous")
 
     def supports_discrete_actions(self) -> bool:
         """Every scenario has keys."""
-        return self.config.get("action_set") != "continuous"
+        return bool(self.config.get("action_set") != "continuous")
 
-    def max_steps(self, env: EnvBase) -> int:
+    def max_steps(self, env: EnvBase) -> int:  # noqa: ARG002
         """The most steps of an evaluation's episode."""
         return int(self.config["max_steps"])
 
-    def has_render(self, env: EnvBase) -> bool:
+    def has_render(self, env: EnvBase) -> bool:  # noqa: ARG002
         """Nothing is drawn: record episodes instead, and draw them later."""
         return False
 
@@ -83,11 +83,11 @@ class FootballTask(TaskClass):
         """What agents do."""
         return env.full_action_spec_unbatched
 
-    def state_spec(self, env: EnvBase) -> Composite | None:
+    def state_spec(self, env: EnvBase) -> Composite | None:  # noqa: ARG002
         """There is none: each agent's observation has the whole match."""
         return None
 
-    def info_spec(self, env: EnvBase) -> Composite | None:
+    def info_spec(self, env: EnvBase) -> Composite | None:  # noqa: ARG002
         """There is none."""
         return None
 

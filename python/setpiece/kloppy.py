@@ -286,7 +286,10 @@ def _frame_of_rows(rows: list[dict[str, str]], match: _Match) -> Frame:
         ball["possession"] or None,
         (float(ball["x"]), float(ball["y"]), float(ball["z"])),
         speed,
-        [(one["id"], float(one["x"]), float(one["y"]), _length(one, "vx", "vy")) for one in players],
+        [
+            (one["id"], float(one["x"]), float(one["y"]), _length(one, "vx", "vy"))
+            for one in players
+        ],
     )
 
 

@@ -26,7 +26,7 @@ from setpiece._groups import FootballGroups
 from setpiece._native import Scenario
 from setpiece._optional import need
 from setpiece._source import Source
-from setpiece._spaces import one_observation_space
+from setpiece._spaces import box_of_one_agent
 from setpiece._vector import FootballVectorEnv
 from setpiece._vector_levels import Params
 
@@ -57,12 +57,11 @@ class FootballPuffer(pufferlib.PufferEnv):
         threads: int | None = None,
         params: Params = None,
         buf: Any = None,
-        seed: int | None = None,
         **arguments: Unpack[VectorArguments],
     ) -> None:
         """Makes the matches.
 
-        - `buf` and `seed` are PufferLib's: its buffers, and the seed of the first `reset`.
+        - `buf`: PufferLib's buffers; it also passes `seed`, that of the first `reset`.
         - The rest is as in `setpiece.make_vec`.
         """
         self.vector = FootballVectorEnv(
@@ -71,12 +70,11 @@ class FootballPuffer(pufferlib.PufferEnv):
             threads=threads,
             autoreset_mode=AutoresetMode.SAME_STEP,
             params=params,
-            seed=seed,
             **arguments,
         )
         self.n_agents = len(self.vector.agents)
         self.num_agents = num_envs * self.n_agents
-        self.single_observation_space = one_observation_space(self.vector)
+        self.single_observation_space = box_of_one_agent(self.vector)
         self.single_action_space = _one_action_space(self.vector)
         super().__init__(buf)
 
@@ -125,7 +123,7 @@ class FootballPufferGroups:
         self.n_agents = len(groups.agents)
         self.num_agents = groups.num_envs * self.n_agents
         self.agents_per_batch = groups.batch_size * self.n_agents
-        self.single_observation_space = one_observation_space(groups)
+        self.single_observation_space = box_of_one_agent(groups)
         self.single_action_space = _one_action_space(groups)
         joint = pufferlib.spaces.joint_space
         self.observation_space = joint(self.single_observation_space, self.agents_per_batch)
@@ -213,7 +211,7 @@ def _one_action_space(envs: FootballVectorEnv | FootballGroups) -> spaces.Space[
     """The actions of one agent."""
     space = envs.single_action_space
     if isinstance(space, spaces.MultiDiscrete):
-        return spaces.Discrete(int(space.nvec[0]))
+        return spaces.Discrete(int(space.nvec.flat[0]))
     if isinstance(space, spaces.Box) and len(envs.agents) > 1:
         return spaces.Box(space.low[0], space.high[0], dtype=np.float32)
     return space

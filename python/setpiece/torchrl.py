@@ -23,7 +23,7 @@ from setpiece._levels import LevelsArgument
 from setpiece._optional import need
 from setpiece._options import check_flag
 from setpiece._source import Source
-from setpiece._spaces import one_observation_space
+from setpiece._spaces import box_of_one_agent
 from setpiece._vector import FootballVectorEnv
 from setpiece._vector_levels import Params
 
@@ -123,7 +123,7 @@ class FootballTensorEnv(EnvBase):
     def _of_agents(self, size: tuple[int, ...]) -> tuple[dict[str, Any], Any, Any]:
         """The specs of what agents see, do and are paid, with these leading axes."""
         vector, device = self.vector, self.device
-        box = one_observation_space(vector)
+        box = box_of_one_agent(vector)
         low, high = box.low, box.high
         shape = (*size, *low.shape)
         dtype = torch.uint8 if low.dtype == np.uint8 else torch.float32
@@ -143,7 +143,7 @@ class FootballTensorEnv(EnvBase):
 
     def _reset(self, tensordict: TensorDictBase | None, **_: Any) -> TensorDictBase:
         options: dict[str, Any] = {}
-        if tensordict is not None and "_reset" in tensordict.keys():
+        if tensordict is not None and "_reset" in tensordict.keys():  # noqa: SIM118 (a TensorDict has no `in`)
             mask = tensordict["_reset"].reshape(self.batch_size).cpu().numpy()
             if not mask.all():
                 options["reset_mask"] = mask
@@ -236,7 +236,9 @@ def make(
     if groups is not None:
         check_flag("groups", groups)
     if arguments.get("copy") is False:
-        raise ParameterError("tensors keep the arrays, so `copy=False` would change them", name="copy")
+        raise ParameterError(
+            "tensors keep the arrays, so `copy=False` would change them", name="copy"
+        )
     vector = FootballVectorEnv(
         scenario,
         num_envs,

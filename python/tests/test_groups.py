@@ -22,7 +22,11 @@ def groups_of(*arguments: Any, **options: Any) -> setpiece.FootballGroups:
 @pytest.mark.parametrize("mode", ["next_step", "same_step"])
 @pytest.mark.parametrize("agents", [None, "all"])
 def test_an_environment_plays_what_it_plays_in_a_vector(mode: str, agents: str | None) -> None:
-    options: dict[str, Any] = {"autoreset_mode": mode, "left": agents, "rewards": "scoring,checkpoints"}
+    options: dict[str, Any] = {
+        "autoreset_mode": mode,
+        "left": agents,
+        "rewards": "scoring,checkpoints",
+    }
     vector = setpiece.make_vec(THREE, 6, **options)
     observed, _ = vector.reset(seed=11)
     rng = np.random.default_rng(2)
@@ -103,7 +107,7 @@ def test_a_reset_drops_what_is_being_played() -> None:
 
 def test_a_failing_script_names_its_environment(tmp_path: Path) -> None:
     (tmp_path / "mine.rhai").write_text(
-        "fn reward(ctx, now, prev, events) { if ctx.step >= 2 { throw \"enough\"; } 0.0 }"
+        'fn reward(ctx, now, prev, events) { if ctx.step >= 2 { throw "enough"; } 0.0 }'
     )
     path = tmp_path / "scripted.pitch"
     path.write_text(SCRIPTED)

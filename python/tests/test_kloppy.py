@@ -111,7 +111,9 @@ def test_passes_and_shots_are_what_the_engine_reports(replay: Replay, tmp_path: 
     ):
         word = kind.value.lower()
         ours = [event for event in events if event.event_type == kind]
-        struck = [it for it in told if it["kind"] == word and it["qualifier"] in (None, "attempted")]
+        struck = [
+            it for it in told if it["kind"] == word and it["qualifier"] in (None, "attempted")
+        ]
         assert len(ours) == len(struck)
         ended = [event for event in ours if event.result == result]
         assert len(ended) == len(
@@ -174,7 +176,7 @@ def test_slips_of_the_command(
 def test_slips_in_python(replay: Replay, tmp_path: Path) -> None:
     with pytest.raises(setpiece.ParameterError, match="cdf"):
         replay.export(tmp_path, "xml")
-    with pytest.raises(FileNotFoundError, match="tracking.csv"):
+    with pytest.raises(FileNotFoundError, match=r"tracking\.csv"):
         load_tracking(tmp_path)
 
 

@@ -1,6 +1,5 @@
 """The environment for TorchRL, and the example that trains on it."""
 
-from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -46,7 +45,10 @@ scenario short extends academy_empty_goal_close {
 def test_specs_are_right(options: dict[str, Any], groups: dict[str, Any]) -> None:
     env = setpiece.torchrl.make(THREE, 3, **options)
     check_env_specs(env, seed=2)
-    found = {name: agents if groups[name] == agents else len(agents) for name, agents in env.group_map.items()}
+    found = {
+        name: agents if groups[name] == agents else len(agents)
+        for name, agents in env.group_map.items()
+    }
     assert found == groups
     # The scenario's limit ends episodes after 400 steps at the latest.
     rollout = env.rollout(401, break_when_any_done=False)
@@ -139,14 +141,9 @@ def test_slips() -> None:
         setpiece.torchrl.FootballTensorEnv(setpiece.make_vec(THREE, 2))
 
 
-@pytest.fixture
-def example(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+def test_the_example_trains(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(EXAMPLES))
-    yield import_module
-
-
-def test_the_example_trains(example: Any) -> None:
-    train = example("train_torchrl").train
+    train = import_module("train_torchrl").train
     updates = list(train("academy_empty_goal_close", num_envs=4, frames=4 * 64 * 3))
     assert len(updates) == 3
     assert all(np.isfinite(update["loss"]) for update in updates)

@@ -17,8 +17,7 @@ pub(super) fn tracking(tracking: &Tracking) -> String {
             moment.in_play,
             moment.possession.map_or("", team),
         );
-        let ([x, y, z], [vx, vy, vz]) =
-            (moment.ball.map(number), moment.ball_mps.map(number));
+        let ([x, y, z], [vx, vy, vz]) = (moment.ball.map(number), moment.ball_mps.map(number));
         let _ = writeln!(table, "{shared},ball,,{x},{y},{z},{vx},{vy},{vz}");
         for it in &moment.players {
             let ([x, y], [vx, vy]) = (it.at.map(number), it.mps.map(number));

@@ -41,6 +41,7 @@ mod stdlib;
 #[cfg(feature = "studio")]
 pub mod studio;
 pub mod suite;
+pub mod tracking;
 #[cfg(feature = "video")]
 pub mod video;
 pub mod watch;

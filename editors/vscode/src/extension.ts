@@ -1,0 +1,72 @@
+// The extension: starts the server, and registers what is done on this side.
+
+import { execFile } from "node:child_process";
+import * as vscode from "vscode";
+import {
+  LanguageClient, type LanguageClientOptions, type ServerOptions,
+} from "vscode-languageclient/node";
+import { INSTALL, missingText } from "./missing";
+import { Preview } from "./preview";
+import { Tasks, command, lensCommands } from "./tasks";
+
+let client: LanguageClient | undefined;
+
+/** Called by VS Code when a scenario is opened. */
+export async function activate(context: vscode.ExtensionContext): Promise<void> {
+  const preview = new Preview(() => client);
+  context.subscriptions.push(
+    preview,
+    vscode.commands.registerCommand("setpiece.preview", () => preview.open()),
+    vscode.commands.registerCommand("setpiece.restart", restart),
+    vscode.tasks.registerTaskProvider("setpiece", new Tasks()),
+    vscode.workspace.onDidChangeConfiguration((change) => {
+      if (change.affectsConfiguration("setpiece.path")) void restart();
+    }),
+    ...lensCommands(),
+  );
+  await restart();
+}
+
+/** Called by VS Code when it leaves. */
+export async function deactivate(): Promise<void> {
+  await client?.stop();
+}
+
+/** Starts the server; one that runs is stopped first. */
+async function restart(): Promise<void> {
+  await client?.dispose();
+  client = undefined;
+  const fault = await faultOf(command());
+  if (fault) {
+    await reportMissing(fault);
+    return;
+  }
+  const server: ServerOptions = { command: command(), args: ["lsp"] };
+  const options: LanguageClientOptions = {
+    documentSelector: ["file", "untitled"].map((scheme) => ({ scheme, language: "pitch" })),
+    synchronize: {
+      // Scripts and tables are read from disk.
+      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{pitch,rhai,csv}"),
+    },
+  };
+  client = new LanguageClient("setpiece", "Setpiece", server, options);
+  await client.start();
+}
+
+/** Why the command can't be run; nothing if it can. */
+function faultOf(name: string): Promise<string | undefined> {
+  return new Promise((resolve) => {
+    execFile(name, ["--version"], (error) => {
+      resolve(error ? String(error.code ?? error.message) : undefined);
+    });
+  });
+}
+
+async function reportMissing(why: string): Promise<void> {
+  const [copy, settings] = ["Copy the install command", "Open the setting"];
+  const chosen = await vscode.window.showErrorMessage(missingText(command(), why), copy, settings);
+  if (chosen === copy) await vscode.env.clipboard.writeText(INSTALL);
+  if (chosen === settings) {
+    await vscode.commands.executeCommand("workbench.action.openSettings", "setpiece.path");
+  }
+}

@@ -31,7 +31,7 @@ if (!tests) {
 /** The licences of the packages that the bundle's files come from. */
 function notices(inputs) {
   const folders = inputs.map((path) => /^node_modules\/(@[^/]+\/)?[^/]+/.exec(path)?.[0]);
-  const packages = [...new Set(folders)].filter(Boolean).sort();
+  const packages = [...new Set(folders)].filter(Boolean);
   return packages.map((folder) => {
     const { name, version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
     const file = readdirSync(folder).find((it) => /^licen[cs]e/i.test(it));

@@ -6,48 +6,81 @@
 mod actions;
 mod analysis;
 mod complete;
+mod declared;
+mod edits;
+mod fixes;
+mod fold;
+mod hierarchy;
+mod hints;
 mod hover;
+mod keywords;
+mod layout;
+mod lenses;
+mod links;
 mod names;
+mod preview;
+mod report;
+mod script;
+mod select;
+mod signature;
 mod symbols;
 pub mod text;
+mod tokens;
 mod words;
 
-pub use actions::Fix;
+pub use actions::{Action, ActionKind};
 pub use analysis::Analysis;
 pub use complete::{Completion, CompletionKind};
+pub use edits::Edit;
+pub use fold::{Fold, FoldKind};
+pub use hierarchy::{Call, Node};
+pub use hints::Hint;
 pub use hover::Hover;
-pub use names::{Edit, FilePlace, RenameError};
+pub use lenses::{Lens, LensKind};
+pub use links::Link;
+pub use names::{FilePlace, RenameError};
+pub use preview::Preview;
+pub use report::Report;
+pub use signature::Signature;
 pub use symbols::{Symbol, SymbolKind};
+pub use tokens::{Token, TokenKind};
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The texts that are open in an editor, over the files on disk.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Workspace {
     texts: BTreeMap<PathBuf, Arc<str>>,
-    /// What was found out about a text as it is now; dropped when any open text changes.
+    /// What was found out about a text as it is now; dropped when a file that it reads changes.
     known: BTreeMap<PathBuf, Arc<Analysis>>,
 }
 
 impl Workspace {
     /// Opens a text, or takes its new content.
     pub fn set(&mut self, path: &Path, text: &str) {
+        if self.text(path).is_some_and(|known| **known == *text) {
+            return;
+        }
         self.texts.insert(path.to_owned(), text.into());
-        // A file that imports this one says something else now.
-        self.known.clear();
+        self.forget(path);
     }
 
     /// Closes a text: its file on disk counts again.
     pub fn close(&mut self, path: &Path) {
         self.texts.remove(path);
-        self.known.clear();
+        self.forget(path);
     }
 
     /// Forgets what was read of files that are not open: they have changed on disk.
     pub fn refresh(&mut self) {
         self.known.clear();
+    }
+
+    /// Forgets what follows from a file.
+    fn forget(&mut self, path: &Path) {
+        self.known.retain(|known, analysis| known != path && !analysis.inputs.contains(path));
     }
 
     /// The paths of the open texts, in order.
@@ -60,14 +93,19 @@ impl Workspace {
         self.texts.get(path)
     }
 
-    /// What is known of an open text; none if it isn't open.
+    /// What is known of a text, open or not; none if there is no such file.
     pub fn analysis(&mut self, path: &Path) -> Option<Arc<Analysis>> {
         if let Some(known) = self.known.get(path) {
             return Some(known.clone());
         }
-        let text = self.texts.get(path)?.clone();
+        let text = self.file_text(path)?;
         let analysis = Arc::new(Analysis::of(path, text, &self.texts));
         self.known.insert(path.to_owned(), analysis.clone());
         Some(analysis)
     }
+}
+
+/// Whether a path is of a file of the library, which nobody edits.
+fn is_in_library(path: &Path) -> bool {
+    path.starts_with("std")
 }

@@ -184,6 +184,12 @@ impl FileLoader {
         FileLoader::default()
     }
 
+    /// The files of the library that can be imported: their names and texts.
+    pub(crate) fn library_texts() -> impl Iterator<Item = (String, Arc<str>)> {
+        let sources = stdlib::paths().filter_map(stdlib::file);
+        sources.map(|source| (source.name, source.text))
+    }
+
     /// Takes these texts for the files of their paths: an editor's, which may not be saved.
     #[must_use]
     pub fn with_texts(mut self, texts: BTreeMap<PathBuf, Arc<str>>) -> FileLoader {
@@ -267,7 +273,7 @@ impl SourceLoader for FileLoader {
 }
 
 /// Resolves `path` relative to the file `from`.
-fn beside(from: &Path, path: &Path) -> PathBuf {
+pub(crate) fn beside(from: &Path, path: &Path) -> PathBuf {
     let folder = from.parent().unwrap_or(Path::new(""));
     let mut full = PathBuf::new();
     for part in folder.join(path).components() {

@@ -11,6 +11,7 @@ pub mod cli;
 pub mod curves;
 pub mod doc;
 pub mod drawing;
+#[cfg(feature = "editor")]
 pub mod editor;
 pub mod error;
 pub mod evaluate;
@@ -21,6 +22,8 @@ pub mod level;
 pub mod levels;
 pub mod live;
 pub mod load;
+#[cfg(feature = "editor")]
+pub mod lsp;
 pub mod measure;
 pub mod picture;
 pub mod pixels;
@@ -41,6 +44,9 @@ pub mod suite;
 #[cfg(feature = "video")]
 pub mod video;
 pub mod watch;
+
+/// The address of the documentation.
+pub const DOCS: &str = "https://setpiece-rl.github.io/setpiece";
 
 pub use error::Error;
 pub use level::Level;

@@ -247,7 +247,6 @@ pub fn check_with(
         Err(Error::Compile(failure)) => failure,
         Err(error) => return Err(error),
     };
-    let errors = || failure.problems.iter().filter(|problem| problem.severity() == Severity::Error);
     let root = failure.sources.iter().next().map(|(_, source)| source.clone());
     if let Some(root) = root.clone().filter(|_| failure.lacks_scenario()) {
         let outcome = compiled(root, options, true);
@@ -259,16 +258,33 @@ pub fn check_with(
             });
         }
     }
-    let only_parts = errors().all(|problem| problem.code() == Code::NoScenario)
-        && !root.as_ref().is_some_and(|root| root.name.contains('"'));
-    let parts = root.as_ref().and_then(|root| setpiece_dsl::parts(&root.text));
-    let (Some(root), Some(formations), true) = (root, parts, only_parts) else {
-        return Ok(Checked {
-            problems: failure.problems,
-            sources: failure.sources,
-            inputs: failure.inputs,
-        });
+    let loader = root.as_ref().map(|root| loader(&root.name, options));
+    let user = root
+        .zip(loader)
+        .and_then(|(root, loader)| user_of_parts(&root, &loader, &failure.problems));
+    let (problems, sources) = match user {
+        Some(user) => (user.problems, user.sources),
+        None => (failure.problems, failure.sources),
     };
+    Ok(Checked { problems, sources, inputs: failure.inputs })
+}
+
+/// Compiles what uses every part of a root that has rewards or formations alone, for the problems
+/// of the parts. None if it has something else, or if more is wrong with it than that it has
+/// nothing to run.
+///
+/// - `problems`: those of the root by itself.
+pub(crate) fn user_of_parts(
+    root: &Source,
+    loader: &FileLoader,
+    problems: &[Problem],
+) -> Option<CompileOutcome> {
+    let mut errors = problems.iter().filter(|problem| problem.severity() == Severity::Error);
+    let only_parts = errors.all(|problem| problem.code() == Code::NoScenario);
+    if !only_parts || root.name.contains('"') {
+        return None;
+    }
+    let formations = setpiece_dsl::parts(&root.text)?;
     let mut user = format!("import \"{}\"\n", root.name);
     let teams = formations.iter().map(|name| format!("team left {{ formation: {name} }}"));
     for (index, team) in teams.chain(["team left { CM at (-0.1, 0) }".to_owned()]).enumerate() {
@@ -276,10 +292,8 @@ pub fn check_with(
             "scenario part_{index} {{ ball at centre  {team}  end limit 1 step }}\n"
         ));
     }
-    let loader = loader(&root.name, options);
     let source = Source { name: "<check>".to_owned(), text: user.into() };
-    let outcome = compile(source, &loader, &compile_options());
-    Ok(Checked { problems: outcome.problems, sources: outcome.sources, inputs: failure.inputs })
+    Some(compile(source, loader, &compile_options()))
 }
 
 /// The loader of the files that a root imports.

@@ -23,6 +23,16 @@ const COLOURS: [[&str; 3]; 2] =
 /// `names`: everybody's label, by their
 /// [index](crate::engine::state::PlayerId::index); a role as a name is left out.
 pub fn svg(title: &str, names: &[String; PLAYERS_MAX], scene: &Scene) -> String {
+    svg_over(title, names, scene, "")
+}
+
+/// The same, with some elements between the pitch and the players, in metres.
+pub(crate) fn svg_over(
+    title: &str,
+    names: &[String; PLAYERS_MAX],
+    scene: &Scene,
+    beneath: &str,
+) -> String {
     let [x, y] = half(&scene.pitch).map(|half| half + MARGIN_M);
     let (width, height) = (2.0 * x, 2.0 * y);
     let mut text = format!(
@@ -36,6 +46,7 @@ pub fn svg(title: &str, names: &[String; PLAYERS_MAX], scene: &Scene) -> String 
     );
     lawn(&mut text, &scene.pitch);
     lines(&mut text, &scene.pitch);
+    text.push_str(beneath);
     for one in scene.players.iter().filter(|player| player.present) {
         let name = names.get(player_id(one.id).index()).map_or("", String::as_str);
         player(&mut text, one, name);

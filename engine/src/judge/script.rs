@@ -29,7 +29,9 @@ mod scan;
 mod terms;
 mod words;
 
-pub use api::{Argument, HookScene, Member, Params, Perspective, Subject, functions, members};
+pub use api::{
+    Argument, HookScene, Member, Params, Perspective, Subject, functions, interface, members,
+};
 pub(crate) use api::{EpisodeNames, Shelf};
 pub use check::{ScriptFault, ScriptFaultKind, ScriptNames, check_script, script_imports};
 

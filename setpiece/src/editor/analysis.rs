@@ -1,14 +1,17 @@
 //! What the compiler finds out about one text.
 
 use super::text::Lines;
-use crate::dsl::ast::{File, ItemKind, Span};
+use super::{FilePlace, Report};
+use crate::Loaded;
+use crate::dsl::ast::{File, Span};
 use crate::dsl::index::Index;
-use crate::dsl::problem::{Code, Problem};
-use crate::dsl::source::{FileId, Source, Sources};
+use crate::dsl::problem::Code;
+use crate::dsl::source::{FileId, Source, SourceLoader, Sources};
 use crate::dsl::{CompileOptions, compile, parse};
-use crate::files::{FileLoader, name_of};
-use crate::load::compile_options;
-use std::collections::BTreeMap;
+use crate::files::{FileLoader, name_of, path_of};
+use crate::load::{compile_options, user_of_parts};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -22,11 +25,15 @@ pub struct Analysis {
     /// Its syntax tree.
     pub tree: File,
     /// What is wrong with it and with what it imports, by file and place.
-    pub problems: Vec<Problem>,
+    pub reports: Vec<Report>,
     /// The files that were read; the text is the first.
     pub sources: Sources,
     /// What names refer to, and the types of expressions.
     pub index: Index,
+    /// The last scenario of the text, if nothing is wrong with it.
+    pub loaded: Option<Loaded>,
+    /// The files that were read or looked for.
+    pub(super) inputs: BTreeSet<PathBuf>,
 }
 
 impl Analysis {
@@ -35,26 +42,82 @@ impl Analysis {
         let source = Source { name: name_of(path), text: text.clone() };
         let tree = parse::parse(&source, FileId(0), &mut Vec::new());
         let loader = FileLoader::beside(&source.name).with_texts(texts.clone());
-        let options = CompileOptions { index: true, plans_suffice: true, ..compile_options() };
-        let mut outcome = compile(source, &loader, &options);
-        // A file of rewards or formations alone is for others to import.
-        let is_scenario = |kind: &ItemKind| matches!(kind, ItemKind::Scenario(_));
-        let has_items = tree.items.iter().any(|item| !matches!(item.kind, ItemKind::Import { .. }));
-        if has_items && !tree.items.iter().any(|item| is_scenario(&item.kind)) {
-            outcome.problems.retain(|problem| problem.code() != Code::NoScenario);
+        let mut outcome = compile(source.clone(), &loader, &options(None));
+        let mut reports = Report::all(&outcome.problems, &outcome.sources);
+        let mut inputs: BTreeSet<PathBuf> = outcome.inputs.iter().map(|it| path_of(it)).collect();
+        if reports.iter().any(|report| report.code == Code::NoScenario)
+            && let Some(user) = user_of_parts(&source, &loader, &outcome.problems)
+        {
+            reports = Report::all(&user.problems, &user.sources);
+            reports.retain(|report| !report.place.path.starts_with("<check>"));
+            inputs.extend(user.inputs.iter().map(|it| path_of(it)));
         }
+        let loaded = outcome.scenario.take().map(|scenario| Loaded {
+            scenario: scenario.into(),
+            warnings: Vec::new(),
+            sources: outcome.sources.clone(),
+            origin: outcome.origins.scenario,
+            origins: outcome.origins,
+            inputs: Vec::new(),
+            behaviors: outcome.behaviors,
+        });
         Analysis {
             lines: Lines::of(&text),
             text,
             tree,
-            problems: outcome.problems,
+            reports,
             sources: outcome.sources,
             index: outcome.index,
+            loaded,
+            inputs,
         }
     }
 
     /// The bytes of a span of this text; none if it is of another file.
-    pub(super) fn own(&self, span: Span) -> Option<std::ops::Range<usize>> {
+    #[allow(clippy::unused_self, reason = "a span belongs to the files of an analysis")]
+    pub(super) fn own(&self, span: Span) -> Option<Range<usize>> {
         (span.file == FileId(0)).then_some(span.start as usize..span.end as usize)
     }
+
+    /// A place in one of its files.
+    pub(super) fn place(&self, span: Span) -> Option<FilePlace> {
+        FilePlace::of(span, &self.sources)
+    }
+}
+
+/// A scenario of a text, of which the whole is sound; none otherwise.
+pub(super) fn scenario_of(
+    path: &Path,
+    text: &Arc<str>,
+    texts: &BTreeMap<PathBuf, Arc<str>>,
+    name: &str,
+) -> Option<Loaded> {
+    let source = Source { name: name_of(path), text: text.clone() };
+    let loader = FileLoader::beside(&source.name).with_texts(texts.clone());
+    let outcome = compile(source, &loader, &options(Some(name.to_owned())));
+    Some(Loaded {
+        scenario: outcome.scenario?.into(),
+        warnings: Vec::new(),
+        sources: outcome.sources,
+        origin: outcome.origins.scenario,
+        origins: outcome.origins,
+        inputs: Vec::new(),
+        behaviors: outcome.behaviors,
+    })
+}
+
+fn options(scenario: Option<String>) -> CompileOptions<'static> {
+    CompileOptions {
+        index: true,
+        plans_suffice: true,
+        regions: true,
+        scenario,
+        ..compile_options()
+    }
+}
+
+/// The text of a file that isn't open: one of the library, or on disk.
+pub(super) fn closed_text(path: &Path) -> Option<Arc<str>> {
+    let loader = FileLoader::anywhere();
+    loader.load(&name_of(path), "").ok().map(|source| source.text)
 }

@@ -1,13 +1,17 @@
 //! What may stand at a place of a text.
 
+use super::keywords::{Block, KEYWORDS, Keyword};
+use super::report::{is_scenario, is_script};
+use super::symbols::flat;
 use super::text::word_at;
 use super::words::{self, WordKind};
-use super::{Analysis, Symbol, SymbolKind, Workspace};
+use super::{Analysis, Symbol, SymbolKind, Workspace, script};
 use crate::dsl::ast::{Item, ItemKind};
 use crate::dsl::parse::parse;
 use crate::dsl::source::{FileId, SourceLoader};
 use crate::files::FileLoader;
 use crate::scenario::vocabulary::{EventField, Owner, PROPERTIES, Team, Unit};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Something that may be written.
@@ -19,6 +23,8 @@ pub struct Completion {
     pub detail: String,
     /// What it means; may be empty.
     pub doc: String,
+    /// What is written instead, with `${1:places}` to fill in; empty if it is the text.
+    pub snippet: String,
     /// Its kind.
     pub kind: CompletionKind,
 }
@@ -61,65 +67,29 @@ enum Context<'a> {
     Inside,
 }
 
-const ITEMS: &[&str] = &[
-    "abstract",
-    "behavior",
-    "check",
-    "const",
-    "curriculum",
-    "ending",
-    "fn",
-    "formation",
-    "import",
-    "region",
-    "reward",
-    "scenario",
-    "suite",
-    "table",
-];
-const IN_SCENARIO: &[&str] = &[
-    "agents",
-    "ball",
-    "const",
-    "end",
-    "kickoff",
-    "let",
-    "mirror",
-    "observe",
-    "param",
-    "pitch",
-    "record",
-    "region",
-    "remove",
-    "require",
-    "reward",
-    "rounds",
-    "rules",
-    "start",
-    "substitute",
-    "team",
-    "world",
-];
-const IN_TEAM: &[&str] = &["absent", "difficulty", "each", "formation", "maybe", "place"];
-const IN_REWARD: &[&str] = &["give", "let", "on", "state", "when"];
-const IN_BEHAVIOR: &[&str] =
-    &["choose", "do", "else", "if", "interrupt", "let", "repeat", "state", "wait", "when"];
-
 impl Workspace {
     /// What may stand at a byte of a text, in no order; the editor chooses by what is typed.
     pub fn complete(&mut self, path: &Path, offset: usize) -> Vec<Completion> {
+        let Some(text) = self.file_text(path) else { return Vec::new() };
+        let start = word_at(&text, offset).start;
+        let before = text.get(..start.min(offset)).unwrap_or_default();
+        let typed = text.get(start..offset).unwrap_or_default();
+        if is_script(path) {
+            let names = self.named_beside(path);
+            return script::complete(before, &names);
+        }
         let Some(analysis) = self.analysis(path) else { return Vec::new() };
-        let start = word_at(&analysis.text, offset).start;
-        let before = analysis.text.get(..start.min(offset)).unwrap_or_default();
-        let typed = analysis.text.get(start..offset).unwrap_or_default();
+        if let Some(inside) = inline_script(before) {
+            return script::complete(inside, &analysis.own_names());
+        }
         match context(before, typed) {
             Context::Nothing => Vec::new(),
-            Context::Import => library_files(),
+            Context::Import => self.files(path),
             Context::Member(of) => members(of),
             Context::Unit => {
                 Unit::ALL.iter().map(|unit| word(unit.name(), unit.doc(), "unit")).collect()
             }
-            Context::TopLevel => keywords(ITEMS),
+            Context::TopLevel => keywords(Block::File),
             Context::Statement(block) => analysis.statements(block),
             Context::Key(block) => keys(block),
             Context::After(what) => analysis.after(what),
@@ -204,19 +174,38 @@ fn block_around(before: &str) -> &str {
     ""
 }
 
-/// Whether a word begins an item or a statement with a block.
-fn is_head(word: &str) -> bool {
-    ITEMS.contains(&word) || IN_SCENARIO.contains(&word)
+/// The kind of block at the end of a text.
+pub(super) fn block_of(before: &str) -> Block {
+    match block_around(before) {
+        "" => Block::File,
+        "scenario" => Block::Scenario,
+        "team" | "formation" => Block::Team,
+        "reward" | "on" | "when" => Block::Reward,
+        "behavior" | "repeat" | "choose" | "interrupt" => Block::Behavior,
+        "check" => Block::Check,
+        "curriculum" => Block::Curriculum,
+        _ => Block::Within,
+    }
 }
 
-fn keywords(words: &[&str]) -> Vec<Completion> {
-    let keyword = |word: &&str| Completion {
-        text: (*word).to_owned(),
+/// Whether a word begins an item or a statement with a block.
+fn is_head(word: &str) -> bool {
+    KEYWORDS
+        .iter()
+        .any(|known| known.name == word && matches!(known.block, Block::File | Block::Scenario))
+}
+
+/// The keywords that begin a statement in a block.
+fn keywords(block: Block) -> Vec<Completion> {
+    let known = KEYWORDS.iter().filter(|known| known.block == block);
+    let completion = |known: &Keyword| Completion {
+        text: known.name.to_owned(),
         detail: "statement".to_owned(),
-        doc: String::new(),
+        doc: known.doc.to_owned(),
+        snippet: known.snippet.to_owned(),
         kind: CompletionKind::Keyword,
     };
-    words.iter().map(keyword).collect()
+    known.map(completion).collect()
 }
 
 fn word(text: &str, doc: &str, detail: &str) -> Completion {
@@ -224,6 +213,7 @@ fn word(text: &str, doc: &str, detail: &str) -> Completion {
         text: text.to_owned(),
         detail: detail.to_owned(),
         doc: doc.to_owned(),
+        snippet: String::new(),
         kind: CompletionKind::Word,
     }
 }
@@ -307,35 +297,60 @@ fn keys(block: &str) -> Vec<Completion> {
         .collect()
 }
 
-/// The files of the library.
-fn library_files() -> Vec<Completion> {
-    let mut files: Vec<String> =
-        FileLoader::anywhere().scenarios().into_iter().map(|(_, path)| path).collect();
-    files.sort();
-    files.dedup();
-    let file = |path: String| Completion {
-        text: path,
-        detail: "of the library".to_owned(),
-        doc: String::new(),
-        kind: CompletionKind::File,
-    };
-    files.into_iter().map(file).collect()
+impl Workspace {
+    /// The files that can be imported: beside the text, and of the library.
+    fn files(&self, path: &Path) -> Vec<Completion> {
+        let folder = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
+        let on_disk = folder.into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
+        let open = self.paths().filter(|it| it.parent() == path.parent()).map(Path::to_owned);
+        let mut beside: Vec<String> = on_disk
+            .chain(open)
+            .filter(|it| it != path && is_scenario(it))
+            .filter_map(|it| Some(it.file_name()?.to_str()?.to_owned()))
+            .collect();
+        beside.sort();
+        beside.dedup();
+        let file = |text: String, detail: &str| Completion {
+            text,
+            detail: detail.to_owned(),
+            doc: String::new(),
+            snippet: String::new(),
+            kind: CompletionKind::File,
+        };
+        let beside = beside.into_iter().map(|name| file(name, "beside this file"));
+        let library = FileLoader::library_texts().map(|(name, _)| file(name, "of the library"));
+        beside.chain(library).collect()
+    }
+
+    /// What the texts that use a script name.
+    fn named_beside(&mut self, path: &Path) -> Vec<Completion> {
+        let roots = self.roots(path);
+        roots.iter().filter_map(|root| self.analysis(root)).flat_map(|it| it.own_names()).collect()
+    }
+}
+
+/// The part of an inline script before the end of a text, if it ends in one.
+pub(super) fn inline_script(before: &str) -> Option<&str> {
+    const MARK: &str = "\"\"\"";
+    let at = before.rfind(MARK)?;
+    let is_open = before.matches(MARK).count() % 2 == 1;
+    is_open.then(|| before.get(at + MARK.len()..)).flatten()
 }
 
 impl Analysis {
     /// What a statement of this block begins with.
     fn statements(&self, block: &str) -> Vec<Completion> {
         match block {
-            "scenario" => keywords(IN_SCENARIO),
+            "scenario" => keywords(Block::Scenario),
             "team" | "formation" => {
-                keywords(IN_TEAM).into_iter().chain(words_of(&[WordKind::Role])).collect()
+                keywords(Block::Team).into_iter().chain(words_of(&[WordKind::Role])).collect()
             }
-            "reward" | "on" | "when" => keywords(IN_REWARD),
+            "reward" | "on" | "when" => keywords(Block::Reward),
             "behavior" | "repeat" | "choose" | "interrupt" => {
-                keywords(IN_BEHAVIOR).into_iter().chain(words_of(&[WordKind::Act])).collect()
+                keywords(Block::Behavior).into_iter().chain(words_of(&[WordKind::Act])).collect()
             }
-            "check" => keywords(&["expect", "play"]),
-            "curriculum" => keywords(&["mix", "stage"]),
+            "check" => keywords(Block::Check),
+            "curriculum" => keywords(Block::Curriculum),
             "suite" => self.after("extends"),
             _ => self.values(),
         }
@@ -360,14 +375,15 @@ impl Analysis {
                 text: name,
                 detail: "a scenario of the library".to_owned(),
                 doc: String::new(),
+                snippet: String::new(),
                 kind: CompletionKind::Name,
             }));
         }
         found
     }
 
-    /// What may stand in an expression.
-    fn values(&self) -> Vec<Completion> {
+    /// The parameters, players and values of the text's scenarios.
+    fn own_names(&self) -> Vec<Completion> {
         let name = |symbol: &Symbol| {
             let kind = match symbol.kind {
                 SymbolKind::Parameter => "a parameter",
@@ -380,16 +396,18 @@ impl Analysis {
                 text: symbol.name.clone(),
                 detail: kind.to_owned(),
                 doc: String::new(),
+                snippet: String::new(),
                 kind: CompletionKind::Name,
             })
         };
-        let mut own = Vec::new();
         let symbols = self.symbols();
-        for symbol in &symbols {
-            let inside = symbol.inside.iter();
-            let deeper = symbol.inside.iter().flat_map(|inner| &inner.inside);
-            own.extend(inside.chain(deeper).filter_map(name));
-        }
+        let inside = symbols.iter().flat_map(|symbol| flat(&symbol.inside));
+        inside.filter_map(name).collect()
+    }
+
+    /// What may stand in an expression.
+    fn values(&self) -> Vec<Completion> {
+        let mut own = self.own_names();
         let is_value = |kind: &ItemKind| {
             matches!(
                 kind,
@@ -407,12 +425,26 @@ impl Analysis {
             ("me", "the agent's player, or the player of the behaviour"),
             ("mates", "the own team without the player"),
             ("ball", "the ball"),
+            ("event", "the event, inside `on`"),
             ("nobody", "no player"),
         ] {
             own.push(word(text, doc, "in the match"));
         }
-        use WordKind::{Event, Function, Mode, Place, Qualifier, Role};
-        own.extend(words_of(&[Function, Event, Qualifier, Place, Role, Mode]));
+        own.extend(words_of(&[
+            WordKind::Function,
+            WordKind::Event,
+            WordKind::Qualifier,
+            WordKind::Place,
+            WordKind::Role,
+            WordKind::Mode,
+        ]));
+        own.extend(
+            keywords(Block::Within)
+                .into_iter()
+                .map(|known| Completion { detail: "in a statement".to_owned(), ..known }),
+        );
+        let mut seen = BTreeSet::new();
+        own.retain(|known| seen.insert((known.text.clone(), known.kind == CompletionKind::Name)));
         own
     }
 
@@ -440,6 +472,7 @@ fn named(item: &Item) -> Option<Completion> {
         text: name.node.clone(),
         detail: item.kind.noun().to_owned(),
         doc: item.doc.trim().to_owned(),
+        snippet: String::new(),
         kind: CompletionKind::Name,
     })
 }

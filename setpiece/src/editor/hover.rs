@@ -1,10 +1,17 @@
 //! What is said about the thing under the cursor.
 
-use super::text::word_at;
+use super::complete::{block_of, inline_script};
+use super::keywords::KEYWORDS;
+use super::report::is_script;
+use super::text::{brackets, word_at};
 use super::words::{self, Word};
-use super::{Analysis, FilePlace, Workspace};
+use super::{Analysis, FilePlace, Workspace, script};
 use crate::dsl::index::ValueFact;
-use crate::scenario::pitch::to_normalised;
+use crate::engine::environment::{Environment, EnvironmentOptions};
+use crate::film;
+use crate::render::Scene;
+use crate::scenario::pitch::{HALF_LENGTH_M, to_normalised};
+use crate::scene::of_match;
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
@@ -21,18 +28,32 @@ pub struct Hover {
 impl Workspace {
     /// What is known of the name, word or expression at a byte of a text.
     pub fn hover(&mut self, path: &Path, offset: usize) -> Option<Hover> {
+        let text = self.file_text(path)?;
+        let word = word_at(&text, offset);
+        let before = text.get(..word.start).unwrap_or_default();
+        let of_script = if is_script(path) { Some(before) } else { inline_script(before) };
+        if let Some(before) = of_script {
+            let about = script::about(before, text.get(word.clone())?)?;
+            return Some(Hover { text: about, range: word });
+        }
         let declaration = self.declaration(path, offset);
         let analysis = self.analysis(path)?;
         let range = word_at(&analysis.text, offset);
         let word = analysis.text.get(range.clone()).unwrap_or_default();
         let fact = analysis.value_around(offset);
         let mut parts: Vec<String> = Vec::new();
-        match declaration {
-            Some(declaration) => parts.extend(analysis.declared(&declaration)),
-            None => parts.extend(words::all().filter(|known| known.name == word).map(about)),
+        if let Some(declaration) = declaration {
+            parts.extend(analysis.declared(&declaration));
+        } else {
+            parts.extend(words::all().filter(|known| known.name == word).map(about));
+            if parts.is_empty() {
+                parts.extend(keyword(before, word));
+            }
         }
         if let Some((_, value)) = &fact {
             parts.push(shown(value));
+            parts.extend(analysis.drawn(offset));
+            parts.extend(analysis.beside(value));
         }
         let range = if range.is_empty() { fact.map(|(at, _)| at)? } else { range };
         (!parts.is_empty()).then(|| Hover { text: parts.join("\n\n"), range })
@@ -40,6 +61,95 @@ impl Workspace {
 }
 
 impl Analysis {
+    /// The mean and the range of what is drawn around a byte.
+    fn drawn(&self, offset: usize) -> Option<String> {
+        let calls =
+            brackets(&self.text).into_iter().filter(|it| it.open <= offset && offset < it.close);
+        let here = word_at(&self.text, offset);
+        let calls = calls.map(|it| it.open).chain(std::iter::once(here.end));
+        calls.filter_map(|open| self.distribution(open)).next_back()
+    }
+
+    /// What a distribution gives, by where the brackets of its call open.
+    fn distribution(&self, open: usize) -> Option<String> {
+        let close = brackets(&self.text).into_iter().find(|it| it.open == open)?.close;
+        let name = self.text.get(word_at(&self.text, open))?;
+        let written = self.text.get(open + 1..close.checked_sub(1)?)?;
+        let mut at = open + 1;
+        let mut numbers = Vec::new();
+        for argument in written.split(',') {
+            let blank = argument.len() - argument.trim_start().len();
+            let (start, end) = (at + blank, at + argument.trim_end().len());
+            let fact = self
+                .index
+                .values()
+                .find_map(|(span, fact)| (self.own(span)? == (start..end)).then_some(fact))?;
+            let &[value] = fact.constants.as_slice() else { return None };
+            numbers.push((value, fact.ty.as_str()));
+            at += argument.len() + 1;
+        }
+        let ty = numbers.first()?.1;
+        let say = |value: f64| quantity(value, ty).unwrap_or_else(|| rounded(value).to_string());
+        match (name, numbers.as_slice()) {
+            ("uniform" | "integer", &[(low, _), (high, _)]) => Some(format!(
+                "mean {}, from {} to {}",
+                say(0.5 * (low + high)),
+                say(low),
+                say(high)
+            )),
+            ("normal", &[(mean, _), (sd, _)]) => Some(format!(
+                "mean {}, 95% from {} to {}",
+                say(mean),
+                say(mean - 1.96 * sd),
+                say(mean + 1.96 * sd)
+            )),
+            ("truncated_normal", &[(mean, _), _, (low, _), (high, _)]) => {
+                Some(format!("around {}, from {} to {}", say(mean), say(low), say(high)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Who stands at a point at the start, and how far from their goal.
+    fn beside(&self, fact: &ValueFact) -> Option<String> {
+        let &[x, y] = fact.constants.as_slice() else { return None };
+        if !fact.is_point {
+            return None;
+        }
+        let goal = |side: f64| (x - side * HALF_LENGTH_M).hypot(y);
+        let mut text = format!(
+            "{}m from the left goal, {}m from the right one",
+            rounded_to(goal(-1.0), 1),
+            rounded_to(goal(1.0), 1)
+        );
+        let near =
+            self.standing()?.into_iter().filter(|(at, _)| (at[0] - x).hypot(at[1] - y) < NEAR_M);
+        let names: Vec<String> = near.map(|(_, name)| name).collect();
+        if !names.is_empty() {
+            let _ = write!(text, "; here stands {}", names.join(", "));
+        }
+        Some(text)
+    }
+
+    /// Everyone in the first start of the text's last scenario: where, and who.
+    fn standing(&self) -> Option<Vec<([f64; 2], String)>> {
+        let loaded = self.loaded.as_ref()?;
+        let mut environment =
+            Environment::new(loaded.scenario.clone(), EnvironmentOptions::default()).ok()?;
+        environment.reset(Some(0), Some(0)).ok()?;
+        let mut scene = Scene::default();
+        of_match(environment.state(), &mut scene);
+        let names = film::names(&loaded.scenario);
+        let players = scene.players.iter().filter(|player| player.present).map(|player| {
+            let name = names.get(crate::scene::player_id(player.id).index());
+            let team = ["left", "right"][player.id.team.index()];
+            let name = name.filter(|name| !name.is_empty()).cloned();
+            let name = name.unwrap_or_else(|| format!("{:?}", player.role));
+            (player.pos.map(f64::from), format!("{name} ({team})"))
+        });
+        Some(players.collect())
+    }
+
     /// The smallest expression around a byte, with what is known of it.
     fn value_around(&self, offset: usize) -> Option<(Range<usize>, &ValueFact)> {
         self.index
@@ -68,28 +178,61 @@ impl Analysis {
     }
 }
 
+/// How near to a point somebody stands there, metres.
+const NEAR_M: f64 = 0.5;
+
+/// What a keyword means: in this block, if it stands in several.
+fn keyword(before: &str, word: &str) -> Option<String> {
+    let block = block_of(before);
+    let known = || KEYWORDS.iter().filter(|known| known.name == word);
+    let found = known().find(|known| known.block == block).or_else(|| known().next())?;
+    Some(format!("**{word}**: {} ([{}]({}))", found.doc, found.page, page(found.page)))
+}
+
 /// A word of the language.
 fn about(word: Word) -> String {
-    format!("**{}**: {} ([{}](docs/language/{}))", word.name, word.doc, word.page, word.page)
+    format!("**{}**: {} ([{}]({}))", word.name, word.doc, word.page, page(word.page))
+}
+
+/// The address of a page of the reference.
+fn page(name: &str) -> String {
+    format!("{}/language/{}/", crate::DOCS, name.trim_end_matches(".md"))
+}
+
+fn rounded_to(value: f64, digits: i32) -> f64 {
+    let scale = 10_f64.powi(digits);
+    (value * scale).round() / scale + 0.0
+}
+
+fn rounded(value: f64) -> f64 {
+    rounded_to(value, 3)
+}
+
+/// A number of a type as it is written; none for other types.
+fn quantity(value: f64, ty: &str) -> Option<String> {
+    Some(match ty {
+        "a length" => format!("{}m", rounded(value)),
+        "a duration" => format!("{}s, {} steps", rounded(value), rounded(value * 10.0)),
+        "a speed" => format!("{}m/s", rounded(value)),
+        "an angle" => format!("{}deg", rounded(value.to_degrees())),
+        "a percentage" => format!("{}%", rounded(100.0 * value)),
+        "a number" | "a whole number" => rounded(value).to_string(),
+        _ => return None,
+    })
 }
 
 /// The type of an expression, and its value if it is a constant.
 fn shown(fact: &ValueFact) -> String {
-    let round = |value: f64| (value * 1000.0).round() / 1000.0 + 0.0;
-    match (fact.constants.as_slice(), fact.ty.as_str()) {
-        (&[x, y], ty) if fact.is_point => {
+    match *fact.constants.as_slice() {
+        [x, y] if fact.is_point => {
             let (u, v) = to_normalised(x, y);
-            let [x, y, u, v] = [x, y, u, v].map(round);
-            format!("{ty}: ({x}m, {y}m), normalised ({u}, {v})")
+            let [x, y, u, v] = [x, y, u, v].map(rounded);
+            format!("{}: ({x}m, {y}m), normalised ({u}, {v})", fact.ty)
         }
-        (&[value], "a length") => format!("a length: {}m", round(value)),
-        (&[value], "a duration") => {
-            format!("a duration: {}s, {} steps", round(value), round(value * 10.0))
-        }
-        (&[value], "a speed") => format!("a speed: {}m/s", round(value)),
-        (&[value], "an angle") => format!("an angle: {}deg", round(value.to_degrees())),
-        (&[value], "a percentage") => format!("a percentage: {}%", round(100.0 * value)),
-        (&[value], "a number" | "a whole number") => format!("{}: {}", fact.ty, round(value)),
-        (_, ty) => ty.to_owned(),
+        [value] => match quantity(value, &fact.ty) {
+            Some(shown) => format!("{}: {shown}", fact.ty),
+            None => fact.ty.clone(),
+        },
+        _ => fact.ty.clone(),
     }
 }

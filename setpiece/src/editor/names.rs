@@ -1,9 +1,12 @@
 //! Where names are declared and used, and how one is given another name.
 
-use super::{Analysis, Workspace};
+use super::edits::offset_after;
+use super::report::is_scenario;
+use super::symbols::flat;
+use super::{Analysis, Edit, Report, SymbolKind, Workspace};
 use crate::dsl::ast::Span;
 use crate::dsl::problem::Severity;
-use crate::dsl::source::FileId;
+use crate::dsl::source::{FileId, Sources};
 use crate::files::path_of;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -19,19 +22,16 @@ pub struct FilePlace {
 }
 
 impl FilePlace {
+    /// The place of a span.
+    pub(super) fn of(span: Span, sources: &Sources) -> Option<FilePlace> {
+        let path = path_of(&sources.get(span.file)?.name);
+        Some(FilePlace { path, range: span.start as usize..span.end as usize })
+    }
+
     /// Whether it lies in the library, which nobody edits.
     pub fn is_in_library(&self) -> bool {
-        self.path.starts_with("std")
+        super::is_in_library(&self.path)
     }
-}
-
-/// A text put in the place of another one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Edit {
-    /// What is replaced.
-    pub place: FilePlace,
-    /// What stands there then.
-    pub text: String,
 }
 
 /// Why a name can't be changed.
@@ -59,16 +59,17 @@ impl Analysis {
         let uses = self.index.uses().filter(|(at, _)| holds(*at));
         let nearest = uses.min_by_key(|(at, _)| at.end - at.start);
         let declared = || self.index.uses().map(|(_, declared)| declared).find(|span| holds(*span));
-        nearest.map(|(_, declared)| declared).or_else(declared)
-    }
-
-    /// A place in one of its files.
-    fn place(&self, span: Span) -> Option<FilePlace> {
-        let source = self.sources.get(span.file)?;
-        Some(FilePlace {
-            path: path_of(&source.name),
-            range: span.start as usize..span.end as usize,
-        })
+        let unused = || {
+            let symbols = self.symbols();
+            let named = flat(&symbols).into_iter().filter(|it| it.kind != SymbolKind::Team);
+            let mut here = named.filter(|it| it.range.start <= offset && offset <= it.range.end);
+            here.next().map(|it| Span {
+                file: FileId(0),
+                start: it.range.start as u32,
+                end: it.range.end as u32,
+            })
+        };
+        nearest.map(|(_, declared)| declared).or_else(declared).or_else(unused)
     }
 
     /// Where a declaration of a file is used in this text. In a dotted name its last part counts.
@@ -95,9 +96,10 @@ impl Analysis {
         .collect()
     }
 
-    fn errors(&self) -> usize {
-        let is_error = |severity| severity == Severity::Error;
-        self.problems.iter().filter(|problem| is_error(problem.severity())).count()
+    /// How many errors there are.
+    pub(super) fn errors(&self) -> usize {
+        let is_error = |report: &&Report| report.severity == Severity::Error;
+        self.reports.iter().filter(is_error).count()
     }
 }
 
@@ -108,12 +110,12 @@ impl Workspace {
         analysis.place(analysis.declared_at(offset)?)
     }
 
-    /// Every place of the open texts, by path, where the name at a byte is used or declared.
+    /// Every place where the name at a byte is used or declared, by path: in the open texts and in
+    /// the files beside them.
     pub fn references(&mut self, path: &Path, offset: usize) -> Vec<FilePlace> {
         let Some(declaration) = self.declaration(path, offset) else { return Vec::new() };
-        let paths: Vec<PathBuf> = self.paths().map(Path::to_owned).collect();
         let mut places = vec![declaration.clone()];
-        for path in paths {
+        for path in self.files_with(&declaration) {
             let Some(analysis) = self.analysis(&path) else { continue };
             let used = analysis.uses_of(&declaration).into_iter();
             places.extend(used.map(|range| FilePlace { path: path.clone(), range }));
@@ -125,7 +127,24 @@ impl Workspace {
         places
     }
 
-    /// What gives the name at a byte another name, everywhere in the open texts.
+    /// The open texts, and the files beside them, that have the word of a declaration.
+    fn files_with(&self, declaration: &FilePlace) -> Vec<PathBuf> {
+        let declaring = self.file_text(&declaration.path);
+        let name = declaring.as_deref().and_then(|text| text.get(declaration.range.clone()));
+        let Some(name) = name else { return Vec::new() };
+        let mut files: BTreeSet<PathBuf> = self.paths().map(Path::to_owned).collect();
+        let folders: BTreeSet<PathBuf> =
+            files.iter().filter_map(|path| path.parent().map(Path::to_owned)).collect();
+        let entries = folders.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
+        files.extend(
+            entries.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| is_scenario(path)),
+        );
+        let has_name =
+            |path: &PathBuf| self.file_text(path).is_some_and(|text| text.contains(name));
+        files.into_iter().filter(has_name).collect()
+    }
+
+    /// What gives the name at a byte another name, in the open texts and the files beside them.
     ///
     /// # Errors
     /// [`RenameError`], also if another name would be meant somewhere afterwards.
@@ -159,12 +178,8 @@ impl Workspace {
     /// Whether every name of the open texts refers to the same place after some edits, and nothing
     /// else is wrong.
     fn keeps_meaning(&mut self, edits: &[Edit]) -> bool {
-        let mut after = Workspace::default();
-        let paths: BTreeSet<PathBuf> = self.paths().map(Path::to_owned).collect();
-        for path in &paths {
-            let Some(text) = self.text(path) else { continue };
-            after.set(path, &edited(text, path, edits));
-        }
+        let mut after = self.after(edits);
+        let paths: Vec<PathBuf> = after.paths().map(Path::to_owned).collect();
         let moved = |path: &Path, offset: usize| offset_after(path, offset, edits);
         paths.iter().all(|path| {
             let (Some(was), Some(is)) = (self.analysis(path), after.analysis(path)) else {
@@ -181,26 +196,4 @@ impl Workspace {
             is.meanings() == expected && is.errors() <= was.errors()
         })
     }
-}
-
-/// A text with the edits of its file made.
-fn edited(text: &str, path: &Path, edits: &[Edit]) -> String {
-    let mut own: Vec<&Edit> = edits.iter().filter(|edit| edit.place.path == path).collect();
-    own.sort_by_key(|edit| std::cmp::Reverse(edit.place.range.start));
-    let mut edited = text.to_owned();
-    for edit in own {
-        if edited.get(edit.place.range.clone()).is_some() {
-            edited.replace_range(edit.place.range.clone(), &edit.text);
-        }
-    }
-    edited
-}
-
-/// Where a byte of a file lies after some edits: the start of one stays, its end moves.
-fn offset_after(path: &Path, offset: usize, edits: &[Edit]) -> usize {
-    let before =
-        edits.iter().filter(|edit| edit.place.path == path && edit.place.range.end <= offset);
-    let moved: isize =
-        before.map(|edit| edit.text.len() as isize - edit.place.range.len() as isize).sum();
-    offset.saturating_add_signed(moved)
 }

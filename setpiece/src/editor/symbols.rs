@@ -2,7 +2,9 @@
 
 use super::Analysis;
 use crate::dsl::ast::{
-    Item, ItemKind, ScenarioStmt, ScenarioStmtKind, Span, TeamStmt, TeamStmtKind,
+    BehaviorBody, BehaviorItem, BehaviorStmt, BehaviorStmtKind, File, Item, ItemKind, RewardStmt,
+    RewardStmtKind, RewardUse, RewardUseKind, ScenarioStmt, ScenarioStmtKind, Span, TeamStmt,
+    TeamStmtKind,
 };
 use std::ops::Range;
 
@@ -62,8 +64,18 @@ fn symbol(name: &str, kind: SymbolKind, at: Span, whole: Span) -> Symbol {
 impl Analysis {
     /// What the text declares, in order.
     pub fn symbols(&self) -> Vec<Symbol> {
-        self.tree.items.iter().filter_map(of_item).collect()
+        of_file(&self.tree)
     }
+}
+
+/// What a file declares, in order.
+pub(super) fn of_file(file: &File) -> Vec<Symbol> {
+    file.items.iter().filter_map(of_item).collect()
+}
+
+/// Symbols and all that is inside them, from the outside in.
+pub(super) fn flat(symbols: &[Symbol]) -> Vec<&Symbol> {
+    symbols.iter().flat_map(|it| std::iter::once(it).chain(flat(&it.inside))).collect()
 }
 
 fn of_item(item: &Item) -> Option<Symbol> {
@@ -82,14 +94,62 @@ fn of_item(item: &Item) -> Option<Symbol> {
         ItemKind::Import { .. } | ItemKind::Broken => return None,
     };
     let mut found = symbol(&name.node, kind, name.span, item.span);
-    if let ItemKind::Scenario(scenario) = &item.kind {
-        let params = scenario.params.iter();
-        found.inside = params
-            .map(|it| symbol(&it.name.node, SymbolKind::Parameter, it.name.span, it.span))
-            .chain(scenario.body.iter().flat_map(of_statement))
-            .collect();
-    }
+    let params = item.kind.params().iter();
+    found.inside.extend(
+        params.map(|it| symbol(&it.name.node, SymbolKind::Parameter, it.name.span, it.span)),
+    );
+    found.inside.extend(match &item.kind {
+        ItemKind::Scenario(it) => it.body.iter().flat_map(of_statement).collect(),
+        ItemKind::Formation(it) => it.body.iter().filter_map(of_player).collect(),
+        ItemKind::Reward(it) => of_reward(&it.body),
+        ItemKind::Behavior(BehaviorItem { body: BehaviorBody::Block(body), .. }) => {
+            of_behavior(body)
+        }
+        _ => Vec::new(),
+    });
     Some(found)
+}
+
+/// The states and values of a reward.
+fn of_reward(body: &[RewardStmt]) -> Vec<Symbol> {
+    let of = |stmt: &RewardStmt| match &stmt.kind {
+        RewardStmtKind::State(it) | RewardStmtKind::Let(it) => {
+            vec![symbol(&it.name.node, SymbolKind::Value, it.name.span, stmt.span)]
+        }
+        RewardStmtKind::On { body, .. } => of_reward(body),
+        RewardStmtKind::When { then, otherwise, .. } => then
+            .iter()
+            .chain(otherwise.iter().flatten())
+            .flat_map(|it| of_reward(one(it)))
+            .collect(),
+        _ => Vec::new(),
+    };
+    body.iter().flat_map(of).collect()
+}
+
+/// The states and values of a behaviour.
+fn of_behavior(body: &[BehaviorStmt]) -> Vec<Symbol> {
+    let of = |stmt: &BehaviorStmt| match &stmt.kind {
+        BehaviorStmtKind::State(it) | BehaviorStmtKind::Let(it) => {
+            vec![symbol(&it.name.node, SymbolKind::Value, it.name.span, stmt.span)]
+        }
+        BehaviorStmtKind::Interrupt { body, .. } | BehaviorStmtKind::Repeat { body, .. } => {
+            of_behavior(body)
+        }
+        BehaviorStmtKind::Choose(chances) => {
+            chances.iter().flat_map(|chance| of_behavior(&chance.body)).collect()
+        }
+        BehaviorStmtKind::If { arms, otherwise } => {
+            let arms = arms.iter().flat_map(|(_, body)| of_behavior(body));
+            arms.chain(of_behavior(otherwise)).collect()
+        }
+        _ => Vec::new(),
+    };
+    body.iter().flat_map(of).collect()
+}
+
+fn one<T>(it: &T) -> &[T] {
+    std::slice::from_ref(it)
 }
 
 fn of_statement(stmt: &ScenarioStmt) -> Vec<Symbol> {
@@ -108,6 +168,13 @@ fn of_statement(stmt: &ScenarioStmt) -> Vec<Symbol> {
             let mut found =
                 symbol(&format!("team {}", team.node), SymbolKind::Team, team.span, stmt.span);
             found.inside = body.iter().filter_map(of_player).collect();
+            vec![found]
+        }
+        ScenarioStmtKind::Reward(RewardUse {
+            what: RewardUseKind::Inline { name, body }, ..
+        }) => {
+            let mut found = symbol(&name.node, SymbolKind::Reward, name.span, stmt.span);
+            found.inside = of_reward(body);
             vec![found]
         }
         _ => Vec::new(),

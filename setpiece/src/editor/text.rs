@@ -61,6 +61,87 @@ pub fn word_at(text: &str, offset: usize) -> Range<usize> {
     start..end
 }
 
+/// The line around a byte of a text, with its end.
+pub fn line_around(text: &str, offset: usize) -> Range<usize> {
+    let (before, after) = text.split_at_checked(offset).unwrap_or((text, ""));
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    let end = after.find('\n').map_or(text.len(), |at| before.len() + at + 1);
+    start..end
+}
+
+/// A pair of brackets: `(`, `[` or `{` and its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bracket {
+    /// The byte of the opening one.
+    pub open: usize,
+    /// The byte behind the closing one; the text's end if there is none.
+    pub close: usize,
+}
+
+/// The brackets of a text, by where they open. Those in comments and quotes are none. A closing one
+/// also closes what was left open inside.
+pub fn brackets(text: &str) -> Vec<Bracket> {
+    let (mut found, mut open): (Vec<Bracket>, Vec<(char, usize)>) = (Vec::new(), Vec::new());
+    for (at, sign) in code(text) {
+        match sign {
+            '(' | '[' | '{' => open.push((sign, at)),
+            ')' | ']' | '}' => {
+                let meant = match sign {
+                    ')' => '(',
+                    ']' => '[',
+                    _ => '{',
+                };
+                if let Some(which) = open.iter().rposition(|(opened, _)| *opened == meant) {
+                    for (_, begin) in open.drain(which..) {
+                        found.push(Bracket { open: begin, close: at + 1 });
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    found.extend(open.iter().map(|(_, at)| Bracket { open: *at, close: text.len() }));
+    found.sort_by_key(|bracket| bracket.open);
+    found
+}
+
+/// The characters of a text that are neither in a comment nor in quotes, with their bytes.
+pub fn code(text: &str) -> impl Iterator<Item = (usize, char)> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum Within {
+        Code,
+        Line,
+        Block,
+        Quotes,
+        Script,
+    }
+    let (mut within, mut skip) = (Within::Code, 0_usize);
+    text.char_indices().filter(move |&(at, sign)| {
+        if at < skip {
+            return false;
+        }
+        let rest = text.get(at..).unwrap_or_default();
+        let (next, length) = match within {
+            Within::Code if rest.starts_with("//") => (Within::Line, 2),
+            Within::Code if rest.starts_with("/*") => (Within::Block, 2),
+            Within::Code if rest.starts_with("\"\"\"") => (Within::Script, 3),
+            Within::Code if sign == '"' => (Within::Quotes, 1),
+            Within::Code => return true,
+            Within::Line if sign == '\n' => (Within::Code, 1),
+            Within::Block if rest.starts_with("*/") => (Within::Code, 2),
+            Within::Script if rest.starts_with("\"\"\"") => (Within::Code, 3),
+            Within::Quotes if sign == '\\' => {
+                (within, 1 + rest.chars().nth(1).map_or(0, char::len_utf8))
+            }
+            Within::Quotes if matches!(sign, '"' | '\n') => (Within::Code, 1),
+            _ => (within, sign.len_utf8()),
+        };
+        within = next;
+        skip = at + length;
+        false
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,5 +174,14 @@ mod tests {
         assert_eq!(word_at("ball at x_1", 11), 8..11);
         assert_eq!(word_at("ball at", 4), 0..4);
         assert_eq!(word_at("a + b", 2), 2..2);
+    }
+
+    #[test]
+    fn brackets_in_comments_and_quotes_are_none() {
+        let text = "a { ( // }\n \"}\" \"\"\" ) \"\"\" ] } {";
+        let found: Vec<(usize, usize)> =
+            brackets(text).iter().map(|it| (it.open, it.close)).collect();
+        let end = text.find("] }").map(|at| at + 3).unwrap_or_default();
+        assert_eq!(found, [(2, end), (4, end), (text.len() - 1, text.len())]);
     }
 }

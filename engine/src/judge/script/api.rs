@@ -13,7 +13,7 @@ mod table;
 
 pub(super) use convert::{to_number, type_words};
 pub(super) use functions::function;
-pub use functions::functions;
+pub use functions::{functions, interface};
 pub(crate) use kept::Shelf;
 pub(super) use kept::scene_of;
 pub(crate) use named::EpisodeNames;

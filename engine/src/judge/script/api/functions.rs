@@ -194,6 +194,11 @@ pub fn functions() -> impl Iterator<Item = &'static str> {
     OWN.iter().map(|function| function.name).chain(RHAI.iter().copied())
 }
 
+/// The functions of the interface: the name, and how to call it.
+pub fn interface() -> impl Iterator<Item = (&'static str, &'static str)> {
+    OWN.iter().map(|function| (function.name, function.about))
+}
+
 /// Bytes that reading one element of a list counts as.
 const ELEMENT_BYTES: usize = 64;
 

@@ -1,0 +1,237 @@
+//! Helps of reports that apply themselves.
+//!
+//! A help says what to write. Everything that it may mean as an edit is tried on a copy of the
+//! texts: what makes the report go away, and nothing else wrong, is offered.
+
+use super::actions::{Action, ActionKind};
+use super::edits::Edit;
+use super::report::{Report, is_scenario};
+use super::text::line_around;
+use super::{Analysis, Workspace};
+use crate::dsl::problem::Code;
+use crate::files::FileLoader;
+use std::ops::Range;
+use std::path::Path;
+
+/// How many edits are tried for a report.
+const TRIES: usize = 12;
+/// How often the fixes of a text are applied one after the other: each may uncover another report.
+const ROUNDS: usize = 200;
+
+impl Workspace {
+    /// What mends the problems that touch some bytes of a text.
+    pub(super) fn fixes(&mut self, path: &Path, within: &Range<usize>) -> Vec<Action> {
+        let Some(analysis) = self.analysis(path) else { return Vec::new() };
+        let touches = |report: &&Report| {
+            let own = &report.place.range;
+            own.start <= within.end && within.start <= own.end
+        };
+        let reports: Vec<Report> = analysis.own_reports(path).filter(touches).cloned().collect();
+        reports.iter().flat_map(|report| self.fixes_of(path, &analysis, report)).collect()
+    }
+
+    /// What mends everything in a text whose report says how; none if nothing does.
+    pub(super) fn fix_all(&self, path: &Path) -> Option<Action> {
+        let before = self.file_text(path)?;
+        let mut after = self.clone();
+        let mut from = 0;
+        for _ in 0..ROUNDS {
+            let Some(analysis) = after.analysis(path) else { break };
+            let next = analysis
+                .own_reports(path)
+                .filter(|report| report.place.range.start >= from)
+                .find_map(|report| {
+                    let fix = after.clone().fixes_of(path, &analysis, report).into_iter().next();
+                    Some((report.place.range.start, fix?))
+                });
+            let Some((at, fix)) = next else { break };
+            from = at;
+            after = after.after(&fix.edits);
+        }
+        let text = after.text(path).filter(|text| ***text != *before)?;
+        Some(Action {
+            title: "apply every help that says what to write".to_owned(),
+            kind: ActionKind::FixAll,
+            edits: vec![Edit::replace(path, 0..before.len(), &**text)],
+            code: None,
+        })
+    }
+
+    fn fixes_of(&mut self, path: &Path, analysis: &Analysis, report: &Report) -> Vec<Action> {
+        let mut tries = meant(analysis, path, report);
+        if report.code == Code::UnknownName {
+            tries.extend(self.imports(path, analysis, report));
+        }
+        tries.dedup_by(|one, other| one.edits == other.edits);
+        let (code, count) = (report.code, tries.len());
+        let mends: Vec<Try> = tries
+            .into_iter()
+            .take(TRIES)
+            .filter(|it| self.mends(path, report, &it.edits))
+            .collect();
+        let alone = mends.len() == 1 && count == 1;
+        mends
+            .into_iter()
+            .map(|it| Action {
+                title: match &report.help {
+                    Some(help) if alone && !help.starts_with("did you mean") => help.clone(),
+                    _ => it.title,
+                },
+                kind: ActionKind::Fix,
+                edits: it.edits,
+                code: Some(code),
+            })
+            .collect()
+    }
+
+    /// Whether a report is gone after some edits, and nothing else is wrong.
+    fn mends(&mut self, path: &Path, report: &Report, edits: &[Edit]) -> bool {
+        let mut after = self.after(edits);
+        let (Some(was), Some(is)) = (self.analysis(path), after.analysis(path)) else {
+            return false;
+        };
+        let alike = |analysis: &Analysis| {
+            analysis.reports.iter().filter(|it| it.code == report.code).count()
+        };
+        let errors = |analysis: &Analysis| analysis.errors();
+        // What could not be read hides what is wrong behind it.
+        let uncovers = report.code.to_string().starts_with("SP01");
+        alike(&is) < alike(&was)
+            && errors(&is) <= errors(&was)
+            && (uncovers || is.reports.len() < was.reports.len())
+    }
+
+    /// Imports of the files that declare an unknown name.
+    fn imports(&self, path: &Path, analysis: &Analysis, report: &Report) -> Vec<Try> {
+        let name = analysis.text.get(report.place.range.clone()).unwrap_or_default();
+        let folder = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
+        let files = folder.into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
+        let mut files: Vec<_> = files.filter(|it| is_scenario(it) && it != path).collect();
+        files.extend(
+            self.paths()
+                .filter(|it| it.parent() == path.parent() && *it != path)
+                .map(Path::to_owned),
+        );
+        files.sort();
+        files.dedup();
+        let beside = files.iter().filter_map(|file| {
+            Some((file.file_name()?.to_str()?.to_owned(), self.file_text(file)?))
+        });
+        let of_library = FileLoader::library_texts();
+        let at = import_at(&analysis.text);
+        beside
+            .chain(of_library)
+            .filter(|(_, text)| declares(text, name))
+            .map(|(file, _)| Try {
+                title: format!("import `{file}`, which declares `{name}`"),
+                edits: vec![Edit::replace(path, at..at, format!("import \"{file}\"\n"))],
+            })
+            .collect()
+    }
+}
+
+/// An edit that a help may mean.
+struct Try {
+    title: String,
+    edits: Vec<Edit>,
+}
+
+/// The edits of one text that a report's help may mean, the likeliest first.
+fn meant(analysis: &Analysis, path: &Path, report: &Report) -> Vec<Try> {
+    let Some(help) = &report.help else { return Vec::new() };
+    let range = report.place.range.clone();
+    let marked = analysis.text.get(range.clone()).unwrap_or_default();
+    let write = |range: Range<usize>, text: String| Try {
+        title: format!("write `{text}`"),
+        edits: vec![Edit::replace(path, range, text)],
+    };
+    let mut tries = Vec::new();
+    // An example isn't what the author meant; of one with a unit, the unit is.
+    let is_example = help.contains("for example") || help.contains("the unit");
+    for text in quoted(help) {
+        let unit = text.trim_start_matches(|sign: char| sign.is_ascii_digit() || sign == '.');
+        if is_number(marked) && unit.len() < text.len() && !unit.is_empty() && is_example {
+            tries.push(write(range.clone(), format!("{marked}{unit}")));
+        } else if !is_example {
+            tries.push(write(range.clone(), text.to_owned()));
+            if let [sign] = text.as_bytes()
+                && sign.is_ascii_punctuation()
+            {
+                tries.push(write(range.start..range.start, text.to_owned()));
+                tries.push(write(range.end..range.end, text.to_owned()));
+                let end = analysis.text.trim_end().len();
+                tries.push(write(end..end, format!("\n{text}")));
+            }
+        }
+    }
+    if help.contains("leave it out") || help.contains("leave one") {
+        let line = line_around(&analysis.text, range.start);
+        let leave = |range: Range<usize>, what: &str| Try {
+            title: format!("leave out {what}"),
+            edits: vec![Edit::replace(path, range, "")],
+        };
+        tries.push(leave(range.clone(), &format!("`{}`", one_line(marked))));
+        tries.push(leave(line, "the line"));
+    }
+    tries
+}
+
+/// A text in a line of a title.
+fn one_line(text: &str) -> String {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    if words.chars().count() > 40 { words.chars().take(39).chain(['…']).collect() } else { words }
+}
+
+/// What stands between backticks and can be written as it is.
+fn quoted(help: &str) -> impl Iterator<Item = &str> {
+    let parts = help.split('`').skip(1).step_by(2);
+    parts
+        .map(|part| part.trim_end_matches(" …"))
+        .filter(|part| !part.contains('…') && !part.is_empty())
+}
+
+fn is_number(text: &str) -> bool {
+    text.parse::<f64>().is_ok()
+}
+
+/// Whether a text declares an item of this name.
+fn declares(text: &str, name: &str) -> bool {
+    !name.is_empty()
+        && text.lines().any(|line| {
+            let mut words = line.split(|sign: char| !(sign.is_alphanumeric() || sign == '_'));
+            let head = words.next().unwrap_or_default();
+            let next = words.next();
+            let kinds = [
+                "reward",
+                "formation",
+                "const",
+                "fn",
+                "region",
+                "table",
+                "ending",
+                "behavior",
+                "scenario",
+            ];
+            (kinds.contains(&head) && next == Some(name))
+                || (head == "abstract" && next == Some("scenario") && words.next() == Some(name))
+        })
+}
+
+/// Where another import stands: behind the last one, or above the first item.
+fn import_at(text: &str) -> usize {
+    let (mut at, mut found) = (0, None);
+    let mut first_item = None;
+    for line in text.split_inclusive('\n') {
+        let begin = line.trim_start();
+        if begin.starts_with("import ") {
+            found = Some(at + line.len());
+        } else if first_item.is_none()
+            && !begin.trim().is_empty()
+            && (begin.starts_with("///") || !begin.starts_with("//"))
+        {
+            first_item = Some(at);
+        }
+        at += line.len();
+    }
+    found.or(first_item).unwrap_or(0)
+}

@@ -1,0 +1,563 @@
+//! The answers to requests.
+
+use super::convert::{
+    AtPlace, OfText, WithinText, bytes_of, offset_of, path_of, range_by, range_of, read,
+    text_edits, workspace_edit,
+};
+use super::{LanguageServer, fault};
+use crate::dsl::problem::Severity;
+use crate::editor::text::Lines;
+use crate::editor::{
+    Action, ActionKind, Analysis, Call, CompletionKind, FoldKind, LensKind, Node, Report, Symbol,
+    SymbolKind, TokenKind,
+};
+use gen_lsp_types as lsp;
+use lsp_server::{ErrorCode, ResponseError};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What the protocol calls the kinds of names.
+pub(super) const TOKEN_KINDS: [(TokenKind, &str); 7] = [
+    (TokenKind::Scenario, "class"),
+    (TokenKind::Reward, "event"),
+    (TokenKind::Formation, "struct"),
+    (TokenKind::Function, "function"),
+    (TokenKind::Parameter, "parameter"),
+    (TokenKind::Value, "variable"),
+    (TokenKind::Player, "property"),
+];
+
+type Answer = Result<Value, ResponseError>;
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct RenameTo {
+    #[serde(flatten)]
+    at: AtPlace,
+    new_name: String,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Positions {
+    text_document: lsp::TextDocumentIdentifier,
+    positions: Vec<lsp::Position>,
+}
+
+#[derive(Deserialize)]
+struct OfItem {
+    item: ItemPlace,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct ItemPlace {
+    uri: lsp::Uri,
+    selection_range: lsp::Range,
+}
+
+#[derive(Deserialize)]
+struct Query {
+    query: String,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct PreviewOf {
+    text_document: lsp::TextDocumentIdentifier,
+    position: Option<lsp::Position>,
+}
+
+impl LanguageServer {
+    /// The answer to a request.
+    pub(super) fn answer(&mut self, method: &str, params: Value) -> Answer {
+        match method {
+            "textDocument/hover" => self.hover(read(params)?),
+            "textDocument/definition" => self.definition(read(params)?),
+            "textDocument/typeDefinition" => self.type_definition(read(params)?),
+            "textDocument/references" => self.references(read(params)?),
+            "textDocument/documentHighlight" => self.highlights(read(params)?),
+            "textDocument/prepareRename" => self.prepare_rename(read(params)?),
+            "textDocument/rename" => self.rename(read(params)?),
+            "textDocument/linkedEditingRange" => self.linked(read(params)?),
+            "textDocument/completion" => self.complete(read(params)?),
+            "textDocument/signatureHelp" => self.signature(read(params)?),
+            "textDocument/documentSymbol" => self.symbols(read(params)?),
+            "workspace/symbol" => Ok(self.all_symbols(&read::<Query>(params)?.query)),
+            "textDocument/documentLink" => self.links(read(params)?),
+            "textDocument/foldingRange" => self.folds(read(params)?),
+            "textDocument/selectionRange" => self.selections(read(params)?),
+            "textDocument/semanticTokens/full" => self.tokens(read(params)?),
+            "textDocument/inlayHint" => self.hints(read(params)?),
+            "textDocument/codeLens" => self.lenses(read(params)?),
+            "textDocument/codeAction" => self.actions(read(params)?),
+            "textDocument/formatting" => {
+                let (path, text) = self.text(&read::<OfText>(params)?.text_document.uri)?;
+                Ok(text_edits(&text, &self.workspace.format(&path)))
+            }
+            "textDocument/rangeFormatting" => {
+                let asked = read::<WithinText>(params)?;
+                let (path, text) = self.text(&asked.text_document.uri)?;
+                let within = bytes_of(&text, asked.range);
+                Ok(text_edits(&text, &self.workspace.format_range(&path, &within)))
+            }
+            "textDocument/onTypeFormatting" => {
+                let (path, text, at) = self.at(&read(params)?)?;
+                Ok(text_edits(&text, &self.workspace.format_typed(&path, at)))
+            }
+            "textDocument/prepareTypeHierarchy" | "textDocument/prepareCallHierarchy" => {
+                let (path, _, at) = self.at(&read(params)?)?;
+                let node = self.workspace.node(&path, at);
+                Ok(node.and_then(|node| self.node(&node)).map_or(Value::Null, |it| json!([it])))
+            }
+            "typeHierarchy/supertypes" | "typeHierarchy/subtypes" => {
+                let Some(node) = self.item(&read::<OfItem>(params)?.item)? else {
+                    return Ok(Value::Null);
+                };
+                let found = if method.ends_with("supertypes") {
+                    self.workspace.parents(&node)
+                } else {
+                    self.workspace.children(&node)
+                };
+                Ok(found.iter().filter_map(|node| self.node(node)).collect())
+            }
+            "callHierarchy/incomingCalls" | "callHierarchy/outgoingCalls" => {
+                let Some(node) = self.item(&read::<OfItem>(params)?.item)? else {
+                    return Ok(Value::Null);
+                };
+                let (calls, end) = if method.ends_with("incomingCalls") {
+                    (self.workspace.callers(&node), "from")
+                } else {
+                    (self.workspace.callees(&node), "to")
+                };
+                let of = |call: &Call| {
+                    if end == "from" {
+                        call.node.place.path.clone()
+                    } else {
+                        node.place.path.clone()
+                    }
+                };
+                Ok(calls
+                    .iter()
+                    .filter_map(|call| {
+                        let text = self.workspace.file_text(&of(call))?;
+                        let at: Vec<Value> = call.at.iter().map(|it| range_of(&text, it)).collect();
+                        Some(json!({ end: self.node(&call.node)?, "fromRanges": at }))
+                    })
+                    .collect())
+            }
+            "setpiece/preview" => self.preview(read(params)?),
+            other => Err(fault(ErrorCode::MethodNotFound, format!("`{other}` is not supported"))),
+        }
+    }
+
+    /// A text that is asked about.
+    fn text(&self, uri: &lsp::Uri) -> Result<(PathBuf, Arc<str>), ResponseError> {
+        let path = path_of(uri);
+        let text = self.workspace.file_text(&path);
+        let text = text.ok_or_else(|| {
+            fault(ErrorCode::RequestFailed, format!("there is no text `{}`", uri.as_str()))
+        })?;
+        Ok((path, text))
+    }
+
+    /// A text that is asked about, and the byte.
+    fn at(&self, asked: &AtPlace) -> Result<(PathBuf, Arc<str>, usize), ResponseError> {
+        let (path, text) = self.text(&asked.text_document.uri)?;
+        let at = offset_of(&Lines::of(&text), &text, asked.position);
+        Ok((path, text, at))
+    }
+
+    /// What is known of a text that is asked about.
+    fn analysis(&mut self, uri: &lsp::Uri) -> Result<(PathBuf, Arc<Analysis>), ResponseError> {
+        let (path, _) = self.text(uri)?;
+        let analysis = self.workspace.analysis(&path);
+        let analysis =
+            analysis.ok_or_else(|| fault(ErrorCode::RequestFailed, "the text is gone"))?;
+        Ok((path, analysis))
+    }
+
+    /// A report as the protocol has it; `text`: the text of its file.
+    pub(super) fn diagnostic(&self, report: &Report, text: &str) -> Value {
+        let related: Vec<Value> = report
+            .related
+            .iter()
+            .filter_map(|(place, words)| {
+                Some(json!({ "location": self.location(place)?, "message": words }))
+            })
+            .collect();
+        let message = match &report.help {
+            Some(help) => format!("{}\nhelp: {help}", report.message),
+            None => report.message.clone(),
+        };
+        let code = report.code.to_string();
+        // A name or statement that does nothing is shown faint.
+        let is_unused = report.message.contains("never used");
+        json!({
+            "range": range_of(text, &report.place.range),
+            "severity": match report.severity {
+                Severity::Error => 1,
+                Severity::Warning => 2,
+            },
+            "code": code,
+            "codeDescription": { "href": format!("{}/errors/{code}/", crate::DOCS) },
+            "source": "setpiece",
+            "message": message,
+            "relatedInformation": related,
+            "tags": if is_unused { vec![1] } else { Vec::new() },
+        })
+    }
+
+    fn hover(&mut self, asked: AtPlace) -> Answer {
+        let (path, text, at) = self.at(&asked)?;
+        Ok(self.workspace.hover(&path, at).map_or(Value::Null, |hover| {
+            json!({
+                "contents": { "kind": "markdown", "value": hover.text },
+                "range": range_of(&text, &hover.range),
+            })
+        }))
+    }
+
+    fn definition(&mut self, asked: AtPlace) -> Answer {
+        let (path, _, at) = self.at(&asked)?;
+        let place = self.workspace.declaration(&path, at).or_else(|| {
+            let links = self.workspace.analysis(&path)?.links(&path);
+            let link = links.into_iter().find(|it| it.range.start <= at && at <= it.range.end)?;
+            Some(crate::editor::FilePlace { path: link.path, range: 0..0 })
+        });
+        Ok(place.and_then(|place| self.location(&place)).unwrap_or_default())
+    }
+
+    /// What the item whose name stands there extends.
+    fn type_definition(&mut self, asked: AtPlace) -> Answer {
+        let (path, _, at) = self.at(&asked)?;
+        let node = self.workspace.node(&path, at);
+        let parents = node.map(|node| self.workspace.parents(&node)).unwrap_or_default();
+        Ok(parents.iter().filter_map(|parent| self.location(&parent.place)).collect())
+    }
+
+    fn references(&mut self, asked: AtPlace) -> Answer {
+        let (path, _, at) = self.at(&asked)?;
+        let places = self.workspace.references(&path, at);
+        Ok(places.iter().filter_map(|place| self.location(place)).collect())
+    }
+
+    fn highlights(&mut self, asked: AtPlace) -> Answer {
+        let (path, text, at) = self.at(&asked)?;
+        let mut places = self.workspace.references(&path, at);
+        places.retain(|place| place.path == path);
+        Ok(places.iter().map(|place| json!({ "range": range_of(&text, &place.range) })).collect())
+    }
+
+    fn prepare_rename(&mut self, asked: AtPlace) -> Answer {
+        let (path, text, at) = self.at(&asked)?;
+        let places = self.workspace.references(&path, at);
+        let is_own = self
+            .workspace
+            .declaration(&path, at)
+            .is_some_and(|declaration| !declaration.is_in_library());
+        let here = places
+            .into_iter()
+            .find(|place| place.path == path && place.range.start <= at && at <= place.range.end);
+        Ok(here.filter(|_| is_own).map_or(Value::Null, |it| range_of(&text, &it.range)))
+    }
+
+    fn rename(&mut self, asked: RenameTo) -> Answer {
+        let (path, _, at) = self.at(&asked.at)?;
+        let edits = self
+            .workspace
+            .rename(&path, at, &asked.new_name)
+            .map_err(|why| fault(ErrorCode::RequestFailed, why.to_string()))?;
+        Ok(workspace_edit(&self.workspace, &edits, |path| self.uri(path)))
+    }
+
+    /// The places of a name that are typed at once: all of them, if they are of one text.
+    fn linked(&mut self, asked: AtPlace) -> Answer {
+        let (path, text, at) = self.at(&asked)?;
+        let is_own = self.workspace.declaration(&path, at).is_some_and(|it| it.path == path);
+        let places = self.workspace.references(&path, at);
+        if !is_own || places.len() < 2 || places.iter().any(|place| place.path != path) {
+            return Ok(Value::Null);
+        }
+        let ranges: Vec<Value> = places.iter().map(|it| range_of(&text, &it.range)).collect();
+        Ok(json!({ "ranges": ranges, "wordPattern": "[A-Za-z_][A-Za-z0-9_]*" }))
+    }
+
+    fn complete(&mut self, asked: AtPlace) -> Answer {
+        let (path, _, at) = self.at(&asked)?;
+        let found = self.workspace.complete(&path, at);
+        Ok(found
+            .into_iter()
+            .map(|it| {
+                let kind = match it.kind {
+                    CompletionKind::Keyword => 14,
+                    CompletionKind::Name => 6,
+                    CompletionKind::Word => 21,
+                    CompletionKind::Key => 5,
+                    CompletionKind::File => 17,
+                };
+                let mut item = json!({ "label": it.text, "kind": kind, "detail": it.detail });
+                if let Some(item) = item.as_object_mut() {
+                    if !it.doc.is_empty() {
+                        let doc = json!({ "kind": "markdown", "value": it.doc });
+                        item.insert("documentation".to_owned(), doc);
+                    }
+                    if self.has_snippets && !it.snippet.is_empty() {
+                        item.insert("insertText".to_owned(), it.snippet.into());
+                        item.insert("insertTextFormat".to_owned(), 2.into());
+                    }
+                    // Names of the text stand before the words of the language.
+                    let rank = if it.kind == CompletionKind::Name { "0" } else { "1" };
+                    item.insert("sortText".to_owned(), format!("{rank}{}", it.text).into());
+                }
+                item
+            })
+            .collect())
+    }
+
+    fn signature(&mut self, asked: AtPlace) -> Answer {
+        let (path, _, at) = self.at(&asked)?;
+        Ok(self.workspace.signature(&path, at).map_or(Value::Null, |it| {
+            let label = &it.label;
+            let units = |at: usize| label.get(..at).unwrap_or_default().encode_utf16().count();
+            let arguments: Vec<Value> = it
+                .arguments
+                .iter()
+                .map(|range| json!({ "label": [units(range.start), units(range.end)] }))
+                .collect();
+            json!({
+                "signatures": [{ "label": label, "documentation": it.doc, "parameters": arguments }],
+                "activeSignature": 0,
+                "activeParameter": it.active,
+            })
+        }))
+    }
+
+    fn symbols(&mut self, asked: OfText) -> Answer {
+        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
+        Ok(analysis.symbols().iter().map(|symbol| shown_symbol(&analysis, symbol)).collect())
+    }
+
+    fn all_symbols(&mut self, query: &str) -> Value {
+        let query = query.to_lowercase();
+        let paths: Vec<PathBuf> = self.workspace.paths().map(Path::to_owned).collect();
+        let mut found = Vec::new();
+        for path in paths {
+            let Some(analysis) = self.workspace.analysis(&path) else { continue };
+            let Some(uri) = self.uri(&path) else { continue };
+            for symbol in analysis.symbols() {
+                if symbol.name.to_lowercase().contains(&query) {
+                    let range = range_by(&analysis.lines, &analysis.text, &symbol.range);
+                    found.push(json!({
+                        "name": symbol.name,
+                        "kind": symbol_kind(symbol.kind),
+                        "location": { "uri": uri, "range": range },
+                    }));
+                }
+            }
+        }
+        found.into()
+    }
+
+    fn links(&mut self, asked: OfText) -> Answer {
+        let (path, analysis) = self.analysis(&asked.text_document.uri)?;
+        Ok(analysis
+            .links(&path)
+            .iter()
+            .filter_map(|link| {
+                let range = range_by(&analysis.lines, &analysis.text, &link.range);
+                Some(json!({ "range": range, "target": self.uri(&link.path)? }))
+            })
+            .collect())
+    }
+
+    fn folds(&mut self, asked: OfText) -> Answer {
+        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
+        let line = |at: usize| analysis.lines.position(&analysis.text, at).line;
+        Ok(analysis
+            .folds()
+            .iter()
+            .map(|fold| {
+                let (start, end) = (line(fold.range.start), line(fold.range.end.saturating_sub(1)));
+                let (kind, end) = match fold.kind {
+                    // The line of the closing bracket stays.
+                    FoldKind::Block => ("region", end.saturating_sub(1).max(start)),
+                    FoldKind::Comment => ("comment", end),
+                    FoldKind::Imports => ("imports", end),
+                };
+                json!({ "startLine": start, "endLine": end, "kind": kind })
+            })
+            .collect())
+    }
+
+    fn selections(&mut self, asked: Positions) -> Answer {
+        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
+        let of = |at: lsp::Position| {
+            let at = offset_of(&analysis.lines, &analysis.text, at);
+            analysis.selections(at).iter().rev().fold(Value::Null, |parent, range| {
+                let range = range_by(&analysis.lines, &analysis.text, range);
+                if parent.is_null() {
+                    json!({ "range": range })
+                } else {
+                    json!({ "range": range, "parent": parent })
+                }
+            })
+        };
+        Ok(asked.positions.into_iter().map(of).collect())
+    }
+
+    fn tokens(&mut self, asked: OfText) -> Answer {
+        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
+        let (mut line, mut column) = (0, 0);
+        let mut data: Vec<usize> = Vec::new();
+        for token in analysis.tokens() {
+            let at = analysis.lines.position(&analysis.text, token.range.start);
+            let text = analysis.text.get(token.range).unwrap_or_default();
+            let kind = TOKEN_KINDS.iter().position(|(kind, _)| *kind == token.kind);
+            let lines = at.line - line;
+            let columns = if lines == 0 { at.column - column } else { at.column };
+            data.extend([
+                lines as usize,
+                columns as usize,
+                text.encode_utf16().count(),
+                kind.unwrap_or_default(),
+                usize::from(token.is_declaration) | (usize::from(token.is_of_library) << 1),
+            ]);
+            (line, column) = (at.line, at.column);
+        }
+        Ok(json!({ "data": data }))
+    }
+
+    fn hints(&mut self, asked: WithinText) -> Answer {
+        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
+        let within = bytes_of(&analysis.text, asked.range);
+        Ok(analysis
+            .hints(&within)
+            .iter()
+            .map(|hint| {
+                let range = range_by(&analysis.lines, &analysis.text, &(hint.at..hint.at));
+                let mut shown = json!({
+                    "position": range.get("start"),
+                    "label": hint.text,
+                    "paddingLeft": !hint.is_before,
+                    "paddingRight": hint.is_before,
+                });
+                if let Some(shown) = shown.as_object_mut() {
+                    if hint.is_before {
+                        shown.insert("kind".to_owned(), 2.into());
+                    }
+                    if !hint.doc.is_empty() {
+                        shown.insert("tooltip".to_owned(), hint.doc.clone().into());
+                    }
+                }
+                shown
+            })
+            .collect())
+    }
+
+    fn lenses(&mut self, asked: OfText) -> Answer {
+        let uri = &asked.text_document.uri;
+        let (path, text) = self.text(uri)?;
+        let lenses = self.workspace.lenses(&path);
+        Ok(lenses
+            .iter()
+            .map(|lens| {
+                let range = range_of(&text, &lens.range);
+                let shown = path.display().to_string();
+                let (command, arguments) = match &lens.kind {
+                    LensKind::Run(name) => ("setpiece.run", json!([shown, name])),
+                    LensKind::Draw(name) => ("setpiece.draw", json!([shown, name])),
+                    LensKind::Check(name) => ("setpiece.check", json!([shown, name])),
+                    LensKind::Uses(places) => {
+                        let places: Vec<Value> =
+                            places.iter().filter_map(|place| self.location(place)).collect();
+                        let at = range.get("start").cloned();
+                        ("setpiece.uses", json!([uri, at, places]))
+                    }
+                };
+                let command =
+                    json!({ "title": lens.title, "command": command, "arguments": arguments });
+                json!({ "range": range, "command": command })
+            })
+            .collect())
+    }
+
+    fn actions(&mut self, asked: WithinText) -> Answer {
+        let (path, text) = self.text(&asked.text_document.uri)?;
+        let within = bytes_of(&text, asked.range);
+        let actions = self.workspace.actions(&path, within);
+        let preferred = actions.iter().position(|action| action.kind == ActionKind::Fix);
+        let shown = |(at, action): (usize, &Action)| {
+            json!({
+                "title": action.title,
+                "kind": match action.kind {
+                    ActionKind::Fix => "quickfix",
+                    ActionKind::FixAll => "source.fixAll",
+                    ActionKind::Extract => "refactor.extract",
+                    ActionKind::Rewrite => "refactor.rewrite",
+                },
+                "isPreferred": preferred == Some(at),
+                "edit": workspace_edit(&self.workspace, &action.edits, |path| self.uri(path)),
+            })
+        };
+        Ok(actions.iter().enumerate().map(shown).collect())
+    }
+
+    /// The picture of a start: `{ scenario, svg }`, or `{ scenario, message }`; null without a
+    /// scenario.
+    fn preview(&mut self, asked: PreviewOf) -> Answer {
+        let (path, text) = self.text(&asked.text_document.uri)?;
+        let at = asked.position.map_or(text.len(), |at| offset_of(&Lines::of(&text), &text, at));
+        Ok(self.workspace.preview(&path, at).map_or(Value::Null, |it| match it.picture {
+            Ok(svg) => json!({ "scenario": it.scenario, "svg": svg }),
+            Err(message) => json!({ "scenario": it.scenario, "message": message }),
+        }))
+    }
+
+    /// An item as the hierarchies have it.
+    fn node(&self, node: &Node) -> Option<Value> {
+        let text = self.workspace.file_text(&node.place.path)?;
+        Some(json!({
+            "name": node.name,
+            "kind": symbol_kind(node.kind),
+            "uri": self.uri(&node.place.path)?,
+            "range": range_of(&text, &node.whole),
+            "selectionRange": range_of(&text, &node.place.range),
+        }))
+    }
+
+    /// The item that a hierarchy goes on from.
+    fn item(&mut self, item: &ItemPlace) -> Result<Option<Node>, ResponseError> {
+        let (path, text) = self.text(&item.uri)?;
+        let at: Range<usize> = bytes_of(&text, item.selection_range);
+        Ok(self.workspace.node(&path, at.start))
+    }
+}
+
+fn symbol_kind(kind: SymbolKind) -> u32 {
+    match kind {
+        SymbolKind::Scenario => 5,
+        SymbolKind::Reward | SymbolKind::Ending => 24,
+        SymbolKind::Formation | SymbolKind::Team => 23,
+        SymbolKind::Function | SymbolKind::Behavior => 12,
+        SymbolKind::Value => 14,
+        SymbolKind::Parameter => 7,
+        SymbolKind::Plan => 2,
+        SymbolKind::Player => 19,
+    }
+}
+
+fn shown_symbol(analysis: &Analysis, symbol: &Symbol) -> Value {
+    let range = |bytes: &Range<usize>| range_by(&analysis.lines, &analysis.text, bytes);
+    let inside: Vec<Value> = symbol.inside.iter().map(|it| shown_symbol(analysis, it)).collect();
+    json!({
+        "name": symbol.name,
+        "kind": symbol_kind(symbol.kind),
+        "range": range(&symbol.whole),
+        "selectionRange": range(&symbol.range),
+        "children": inside,
+    })
+}

@@ -3,13 +3,16 @@
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
 mod ci;
+mod editors;
 mod fuzz;
 mod grammar;
+mod npm;
 mod pictures;
 mod shell;
 mod studio;
 mod tidy;
 mod transfer;
+mod vscode;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
 use std::process::ExitCode;
@@ -48,8 +51,17 @@ enum Command {
     },
     /// Check licences, sources and advisories of the dependencies with cargo-deny
     Deny,
-    /// Generate the parser of grammar/tree-sitter and have it read the repository's files
+    /// Generate the parser of grammar/tree-sitter, have it read the repository's files, and test
+    /// its queries
     Grammar,
+    /// Put the plugins for Neovim, Helix and Zed together in target/editors
+    Editors {
+        /// Drive the server from Node and Neovim instead
+        #[arg(long)]
+        drive: bool,
+    },
+    /// Test the extension for Visual Studio Code and pack it to target/setpiece.vsix
+    Vscode,
     /// Write docs/pitchc.schema.json
     Schema,
     /// Compare the game's figures with those measured in Google Research Football
@@ -96,6 +108,9 @@ fn main() -> ExitCode {
         Command::Studio { shots, .. } => ("studio", studio::drive(shots)),
         Command::Deny => ("deny", ci::deny()),
         Command::Grammar => ("grammar", grammar::grammar()),
+        Command::Editors { drive: false } => ("editors", editors::assemble()),
+        Command::Editors { drive: true } => ("editors", editors::drive()),
+        Command::Vscode => ("vscode", vscode::vscode()),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
         Command::Soak { args } => ("soak", ci::lab("soak", &args)),

@@ -4,8 +4,8 @@
 import { spawn } from "node:child_process";
 import { pathToFileURL } from "node:url";
 import {
-  CodeActionRequest, CompletionRequest, createProtocolConnection, DidChangeTextDocumentNotification,
-  DidOpenTextDocumentNotification, DocumentFormattingRequest, ExitNotification, HoverRequest,
+  CodeActionRequest, CodeLensRequest, CodeLensResolveRequest, CompletionRequest,
+  createProtocolConnection, DidChangeTextDocumentNotification, DidOpenTextDocumentNotification, DocumentFormattingRequest, ExitNotification, HoverRequest,
   InitializedNotification, InitializeRequest, PublishDiagnosticsNotification, RenameRequest,
   ShutdownRequest, StreamMessageReader, StreamMessageWriter,
 } from "vscode-languageserver-protocol/node";
@@ -136,6 +136,17 @@ export class Editor {
     const options = { tabSize: 4, insertSpaces: true };
     const asked = { textDocument: { uri }, options };
     return edited(this.text(uri), await this.request(DocumentFormattingRequest.type, asked) ?? []);
+  }
+
+  async lenses(uri) {
+    const lenses = await this.request(CodeLensRequest.type, { textDocument: { uri } });
+    const whole = (lens) => lens.command ? lens : this.request(CodeLensResolveRequest.type, lens);
+    return Promise.all(lenses.map(whole));
+  }
+
+  preview(uri, words) {
+    const position = this.position(uri, words);
+    return this.request("setpiece/preview", { textDocument: { uri }, position });
   }
 
   fixes(uri, diagnostic) {

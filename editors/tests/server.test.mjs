@@ -94,3 +94,32 @@ test("a text is formatted as `setpiece fmt` does", async () => {
   assert.notEqual(expected, rough);
   assert.equal(await editor.format(drill), expected);
 });
+
+test("lenses stand above what can be run, and name it", async () => {
+  const text = `${editor.text(drill)}
+check "the ball is lost" {
+    play drill for 2 episodes
+    expect success_rate < 50%
+}
+`;
+  await editor.write(drill, text);
+  const lenses = await editor.lenses(drill);
+  const path = fileURLToPath(drill);
+  for (const [command, name] of [
+    ["setpiece.run", "drill"], ["setpiece.draw", "drill"], ["setpiece.check", "the ball is lost"],
+  ]) {
+    const lens = lenses.find((it) => it.command.command === command);
+    assert.deepEqual(lens?.command.arguments, [path, name], JSON.stringify(lenses));
+    assert.equal(lens.range.start.line, editor.position(drill, name).line);
+  }
+});
+
+test("a start is drawn, and what is wrong is said in its place", async () => {
+  const drawn = await editor.preview(drill, "striker");
+  assert.equal(drawn.scenario, "drill");
+  assert.match(drawn.svg, /^<svg[\s\S]*<\/svg>\s*$/);
+  await editor.write(drill, editor.text(drill).replace("striker: CF", "striker: CFF"));
+  const failed = await editor.preview(drill, "striker");
+  assert.equal(failed.svg, undefined);
+  assert.ok(failed.message, JSON.stringify(failed));
+});

@@ -5,9 +5,10 @@ import { spawn } from "node:child_process";
 import { pathToFileURL } from "node:url";
 import {
   CodeActionRequest, CodeLensRequest, CodeLensResolveRequest, CompletionRequest,
-  createProtocolConnection, DidChangeTextDocumentNotification, DidOpenTextDocumentNotification, DocumentFormattingRequest, ExitNotification, HoverRequest,
-  InitializedNotification, InitializeRequest, PublishDiagnosticsNotification, RenameRequest,
-  ShutdownRequest, StreamMessageReader, StreamMessageWriter,
+  createProtocolConnection, DidChangeTextDocumentNotification, DidOpenTextDocumentNotification,
+  DocumentFormattingRequest, ExitNotification, HoverRequest, InitializedNotification,
+  InitializeRequest, PublishDiagnosticsNotification, RenameRequest, ShutdownRequest,
+  StreamMessageReader, StreamMessageWriter,
 } from "vscode-languageserver-protocol/node";
 
 export const COMMAND = process.env.SETPIECE ?? "setpiece";

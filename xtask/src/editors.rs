@@ -24,12 +24,13 @@ pub(crate) fn assemble() -> Result<(), String> {
     }
     let neovim = plugins().join("neovim");
     queries(&NEOVIM, &neovim.join("queries/setpiece"))?;
-    let library = neovim.join("parser/setpiece.so");
-    write(&library, "")?;
-    grammar::build_parser(&parser, &library)?;
+    // Neovim's libraries have this ending on every system.
+    grammar::build_parser(&parser, &neovim.join("parser/setpiece.so"))?;
 
-    queries(&HELIX, &plugins().join("helix/runtime/queries/pitch"))?;
-    fill(&plugins().join("helix/languages.toml"), &[("@GRAMMAR@", &parser.to_string_lossy())])?;
+    let helix = plugins().join("helix/runtime");
+    queries(&HELIX, &helix.join("queries/pitch"))?;
+    let library = format!("grammars/setpiece.{}", std::env::consts::DLL_EXTENSION);
+    grammar::build_parser(&parser, &helix.join(library))?;
 
     queries(&ZED, &plugins().join("zed/languages/pitch"))?;
     let revision = repository(&parser)?;

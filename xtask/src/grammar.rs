@@ -2,7 +2,7 @@
 
 mod captures;
 
-use crate::shell::{copy_folder, root, run};
+use crate::shell::{copy_folder, root, run, write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -71,6 +71,8 @@ pub(crate) fn generate() -> Result<PathBuf, String> {
 
 /// Builds the parser as a library that an editor loads.
 pub(crate) fn build_parser(folder: &Path, library: &Path) -> Result<(), String> {
+    // The linker wants its folder.
+    write(library, "")?;
     run(Command::new("tree-sitter").args(["build", "--output"]).arg(library).current_dir(folder))
 }
 

@@ -13,9 +13,12 @@ function M.missing()
   ) .. "or set vim.g.setpiece_command"
 end
 
+--- Scenarios, and the scripts that they name.
+M.filetypes = { "pitch", "rhai" }
+
 --- The configuration of the server.
 function M.config()
-  return { cmd = { M.command(), "lsp" }, filetypes = { "pitch" }, root_markers = { ".git" } }
+  return { cmd = { M.command(), "lsp" }, filetypes = M.filetypes, root_markers = { ".git" } }
 end
 
 --- The folder of a project: the nearest one with `.git`, else that of the file.
@@ -64,13 +67,14 @@ local function terminal(arguments, done)
   end
 end
 
---- The actions behind the lenses: the path of a text and the name of what the lens stands at.
+--- The actions behind the lenses: most take the path of a text, and the name of what the lens
+--- stands at.
 M.commands = {
   ["setpiece.run"] = function(path, scenario)
     terminal({ "run", path, "--scenario", scenario, "--episodes", "20" })
   end,
   ["setpiece.draw"] = function(path, scenario)
-    local picture = vim.fn.tempname() .. ".svg"
+    local picture = vim.fn.tempname() .. ".png"
     local arguments = { "render", path, "--scenario", scenario, "--step", "0", "-o", picture }
     terminal(arguments, function()
       if vim.ui.open then
@@ -80,6 +84,13 @@ M.commands = {
   end,
   ["setpiece.check"] = function(path, check)
     terminal({ "test", path, "--filter", check })
+  end,
+  ["setpiece.uses"] = function(_, _, places)
+    vim.fn.setqflist({}, " ", {
+      title = "Uses",
+      items = vim.lsp.util.locations_to_items(places, "utf-16"),
+    })
+    vim.cmd("copen")
   end,
 }
 

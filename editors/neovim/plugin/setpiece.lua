@@ -18,7 +18,7 @@ end
 
 if vim.fn.executable(setpiece.command()) == 0 then
   vim.api.nvim_create_autocmd("FileType", {
-    pattern = "pitch",
+    pattern = setpiece.filetypes,
     once = true,
     callback = function()
       vim.notify(setpiece.missing(), vim.log.levels.WARN)
@@ -27,5 +27,8 @@ if vim.fn.executable(setpiece.command()) == 0 then
 elseif vim.lsp.enable then
   vim.lsp.enable("setpiece")
 else
-  vim.api.nvim_create_autocmd("FileType", { pattern = "pitch", callback = setpiece.attach })
+  vim.api.nvim_create_autocmd("FileType", {
+    pattern = setpiece.filetypes,
+    callback = setpiece.attach,
+  })
 end

@@ -3,7 +3,7 @@
 import { execFile } from "node:child_process";
 import * as vscode from "vscode";
 import {
-  LanguageClient, type LanguageClientOptions, type ServerOptions,
+  type Location, type Position, LanguageClient, type LanguageClientOptions, type ServerOptions,
 } from "vscode-languageclient/node";
 import { INSTALL, missingText } from "./missing";
 import { Preview } from "./preview";
@@ -18,6 +18,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     preview,
     vscode.commands.registerCommand("setpiece.preview", () => preview.open()),
     vscode.commands.registerCommand("setpiece.restart", restart),
+    vscode.commands.registerCommand("setpiece.uses", showUses),
     vscode.tasks.registerTaskProvider("setpiece", new Tasks()),
     vscode.workspace.onDidChangeConfiguration((change) => {
       if (change.affectsConfiguration("setpiece.path")) void restart();
@@ -43,7 +44,12 @@ async function restart(): Promise<void> {
   }
   const server: ServerOptions = { command: command(), args: ["lsp"] };
   const options: LanguageClientOptions = {
-    documentSelector: ["file", "untitled"].map((scheme) => ({ scheme, language: "pitch" })),
+    documentSelector: [
+      { scheme: "file", language: "pitch" },
+      { scheme: "untitled", language: "pitch" },
+      // Scripts that scenarios name.
+      { scheme: "file", language: "rhai" },
+    ],
     synchronize: {
       // Scripts and tables are read from disk.
       fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{pitch,rhai,csv}"),
@@ -51,6 +57,14 @@ async function restart(): Promise<void> {
   };
   client = new LanguageClient("setpiece", "Setpiece", server, options);
   await client.start();
+}
+
+/** The command of the lens that counts uses: lists the places. */
+async function showUses(uri: string, at: Position, places: Location[]): Promise<void> {
+  const from = client?.protocol2CodeConverter;
+  if (!from) return;
+  const shown = [from.asUri(uri), from.asPosition(at), places.map((place) => from.asLocation(place))];
+  await vscode.commands.executeCommand("editor.action.showReferences", ...shown);
 }
 
 /** Why the command can't be run; nothing if it can. */

@@ -10,7 +10,8 @@ pub(super) struct Dialect {
 pub(super) const NEOVIM: Dialect =
     Dialect { queries: &["highlights", "folds", "indents", "locals", "injections"], names: &[] };
 
-/// Helix: <https://docs.helix-editor.com/themes.html>, <https://docs.helix-editor.com/guides/indent.html>.
+/// Helix: <https://docs.helix-editor.com/themes.html>,
+/// <https://docs.helix-editor.com/guides/indent.html>.
 pub(super) const HELIX: Dialect = Dialect {
     queries: &["highlights", "indents", "locals", "tags", "injections"],
     names: &[

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// A capture's name, and the line and column where it begins, from 0.
-type Place = (String, usize, usize);
+type CapturePlace = (String, usize, usize);
 
 /// Compares an example's comments with what `tree-sitter query` printed about it.
 pub(super) fn check(example: &Path, printed: &str) -> Result<(), String> {
@@ -25,7 +25,7 @@ pub(super) fn check(example: &Path, printed: &str) -> Result<(), String> {
 }
 
 /// The captures that the comments of a text name.
-fn expected(text: &str) -> BTreeSet<Place> {
+fn expected(text: &str) -> BTreeSet<CapturePlace> {
     let mut places = BTreeSet::new();
     let mut last = 0;
     for (number, line) in text.lines().enumerate() {
@@ -46,7 +46,7 @@ fn expected(text: &str) -> BTreeSet<Place> {
 
 /// The captures of an output: `    capture: 0 - NAME, start: (2, 4), end: …` or
 /// `    capture: NAME, start: (2, 4), end: …`.
-fn found(printed: &str) -> BTreeSet<Place> {
+fn found(printed: &str) -> BTreeSet<CapturePlace> {
     let read = |line: &str| {
         let rest = line.trim_start().strip_prefix("capture: ")?;
         let (name, rest) = rest.split_once(", start: (")?;

@@ -17,7 +17,7 @@ const { metafile } = await build({
   platform: "node",
   target: "node20",
   format: "cjs",
-  external: ["vscode"],
+  external: ["vscode", "playwright-core"],
   minify: !tests,
   logLevel: "warning",
 });

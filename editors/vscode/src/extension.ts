@@ -10,11 +10,15 @@ import { Preview } from "./preview";
 import { Tasks, command, lensCommands } from "./tasks";
 
 let client: LanguageClient | undefined;
+/** Tells the server of scripts and tables, which it reads from disk. */
+let files: vscode.FileSystemWatcher | undefined;
 
 /** Called by VS Code when a scenario is opened. */
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
   const preview = new Preview(() => client);
+  files = vscode.workspace.createFileSystemWatcher("**/*.{pitch,rhai,csv}");
   context.subscriptions.push(
+    files,
     preview,
     vscode.commands.registerCommand("setpiece.preview", () => preview.open()),
     vscode.commands.registerCommand("setpiece.restart", restart),
@@ -39,7 +43,8 @@ async function restart(): Promise<void> {
   client = undefined;
   const fault = await faultOf(command());
   if (fault) {
-    await reportMissing(fault);
+    // The extension is active all the same: the message may stay for long.
+    void reportMissing(fault);
     return;
   }
   const server: ServerOptions = { command: command(), args: ["lsp"] };
@@ -50,10 +55,7 @@ async function restart(): Promise<void> {
       // Scripts that scenarios name.
       { scheme: "file", language: "rhai" },
     ],
-    synchronize: {
-      // Scripts and tables are read from disk.
-      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{pitch,rhai,csv}"),
-    },
+    synchronize: files ? { fileEvents: files } : {},
   };
   client = new LanguageClient("setpiece", "Setpiece", server, options);
   await client.start();

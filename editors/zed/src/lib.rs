@@ -1,7 +1,9 @@
 //! Starts `setpiece lsp` for Zed.
 
 use zed_extension_api::settings::{CommandSettings, LspSettings};
-use zed_extension_api::{Command, Extension, LanguageServerId, Result, Worktree, register_extension};
+use zed_extension_api::{
+    Command, Extension, LanguageServerId, Result, Worktree, register_extension,
+};
 
 /// The server's name in Zed's settings, and the command's on the `PATH`.
 const NAME: &str = "setpiece";
@@ -58,7 +60,10 @@ mod tests {
     #[test]
     fn the_command_on_the_path_serves() {
         let made = command(None, Some("/bin/setpiece".to_owned()), Vec::new()).unwrap();
-        assert_eq!((made.command.as_str(), made.args.as_slice()), ("/bin/setpiece", &["lsp".to_owned()][..]));
+        assert_eq!(
+            (made.command.as_str(), made.args.as_slice()),
+            ("/bin/setpiece", &["lsp".to_owned()][..])
+        );
     }
 
     #[test]

@@ -106,8 +106,9 @@ module.exports = grammar({
 
     // ---------------------------------------------------------------- events
 
+    event_name: ($) => choice(...EVENTS),
     event: ($) => prec.right(seq(
-      choice(...EVENTS), optional($.qualifier), optional(seq("by", $._expression)), optional(seq("to", $._expression)),
+      $.event_name, optional($.qualifier), optional(seq("by", $._expression)), optional(seq("to", $._expression)),
       optional(seq("from", $._expression)),
     )),
     qualifier: ($) => choice(...QUALIFIERS),
@@ -121,7 +122,7 @@ module.exports = grammar({
     ),
     import: ($) => seq("import", $.string, optional(seq("as", $.identifier))),
     constant: ($) => seq("const", field("name", $.identifier), optional($._annotation), "=", $._value),
-    function: ($) => seq("fn", field("name", $.identifier), $.parameters, optional(seq("->", $._type)), "=", $._value),
+    function: ($) => seq("fn", field("name", $.identifier), $.parameters, optional(seq("->", field("type", $._type))), "=", $._value),
     table: ($) => seq("table", field("name", $.identifier), optional(seq("over", $._expression)), choice(seq("from", $.string), seq("=", $._expression))),
     region: ($) => seq("region", field("name", $.identifier), optional($.parameters), "=", $._expression),
     ending: ($) => seq("ending", field("name", $.identifier), optional($.parameters), "=", $._expression),
@@ -131,7 +132,7 @@ module.exports = grammar({
     _word: ($) => choice(
       $.identifier, "choose", "finish", "repeat", "sprinting", "times", "if", "else", "let", "state", "script", "do", "until", "interrupt", "when", "for", "in", "with", "on", "off", "to", "by",
     ),
-    _annotation: ($) => seq(":", $._type),
+    _annotation: ($) => seq(":", field("type", $._type)),
     _extends: ($) => seq("extends", $.reference),
     reference: ($) => prec.right(seq(
       field("name", $._named), repeat(seq(token.immediate("."), $._named)),

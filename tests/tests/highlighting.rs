@@ -383,18 +383,20 @@ fn the_words_of_the_tree_sitter_grammar_are_those_of_pest() {
 
 #[test]
 fn the_queries_of_tree_sitter_name_what_its_grammar_has() {
-    let (grammar, queries) = (
-        read("grammar/tree-sitter/grammar.js"),
-        read("grammar/tree-sitter/queries/highlights.scm"),
-    );
-    let mut nodes = 0;
-    for found in regex(r"\(([a-z][a-z_]+)").captures_iter(queries.as_bytes()) {
-        let node = String::from_utf8(found[1].to_vec()).unwrap();
-        assert!(grammar.contains(&format!("\n    {node}: (")), "no rule {node}");
-        nodes += 1;
+    let grammar = read("grammar/tree-sitter/grammar.js");
+    for query in ["highlights", "folds", "indents", "locals", "tags", "injections"] {
+        let query = read(&format!("grammar/tree-sitter/queries/{query}.scm"));
+        let mut patterns = 0;
+        for found in regex(r"\(([a-z][a-z_]+|_)[ )]").captures_iter(query.as_bytes()) {
+            let node = String::from_utf8(found[1].to_vec()).unwrap();
+            let is_rule = node == "_" || grammar.contains(&format!("\n    {node}: ("));
+            assert!(is_rule, "no rule {node}");
+            patterns += 1;
+        }
+        // A script's text is the one thing that is injected.
+        assert!(patterns >= if query.contains("@injection") { 1 } else { 3 });
     }
-    assert!(nodes > 10);
-    let coloured = quoted(&queries);
+    let coloured = quoted(&read("grammar/tree-sitter/queries/highlights.scm"));
     for word in keywords() {
         assert!(coloured.contains(&word), "`{word}` has no colour");
     }

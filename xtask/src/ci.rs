@@ -4,8 +4,8 @@ use crate::shell::{root, run};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Format, house rules, lints, dependencies, the studio, tests, docs, the wheel and its tests, the
-/// site.
+/// Format, house rules, lints, dependencies, the studio, tests, docs, the editors, the wheel and
+/// its tests, the site.
 pub(crate) fn ci() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"])?;
     crate::tidy::tidy()?;
@@ -32,6 +32,8 @@ pub(crate) fn ci() -> Result<(), String> {
     run(Command::new("cargo")
         .args(["doc", "--workspace", "--no-deps", "--quiet"])
         .env("RUSTDOCFLAGS", "-D warnings"))?;
+    crate::editors::drive_if_there()?;
+    crate::vscode::vscode_if_there()?;
     let wheel = python()?;
     crate::docs::build(&wheel)?;
     // Last, because a policy of the wheel plays there too.

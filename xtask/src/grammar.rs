@@ -1,11 +1,16 @@
 //! The grammar for editors by tree-sitter, held to the files of the repository.
 
-use crate::shell::{root, run};
+mod captures;
+
+use crate::shell::{copy_folder, root, run, write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Folders whose `.pitch` files are all sound.
 const SOUND: [&str; 2] = ["examples", "stdlib-scenarios"];
+/// The queries, which stand in `grammar/tree-sitter/queries`.
+pub(crate) const QUERIES: [&str; 6] =
+    ["highlights", "folds", "indents", "locals", "tags", "injections"];
 
 /// Whether tree-sitter's command is there.
 pub(crate) fn is_there() -> bool {
@@ -15,44 +20,98 @@ pub(crate) fn is_there() -> bool {
     runs("tree-sitter") && runs("node")
 }
 
-/// Generates the parser and has it read every sound file; reports those with an error in their
-/// tree.
+/// Generates the parser, and has it and its queries read every sound file; reports those with an
+/// error in their tree. Runs the tests of the queries.
 pub(crate) fn grammar() -> Result<(), String> {
+    let folder = generate()?;
+    let files = sound_files()?;
+    let faulty = said_of(&folder, &["parse", "--quiet"], &files)?;
+    if faulty.lines().any(|line| !line.trim().is_empty()) {
+        return Err(format!("the grammar can't read:\n{faulty}"));
+    }
+    println!("grammar: {} files read", files.len());
+    run(&mut tree_sitter(&folder, &["test"]))?;
+    for query in QUERIES {
+        let path = format!("queries/{query}.scm");
+        said_of(&folder, &["query", "--quiet", &path], &files)?;
+        let example = folder.join(format!("test/query/{query}.pitch"));
+        if example.exists() {
+            let found = said_of(&folder, &["query", &path], std::slice::from_ref(&example))?;
+            captures::check(&example, &found)?;
+        }
+    }
+    let tags = said_of(&folder, &["tags"], &files)?;
+    let tags = tags.lines().filter(|line| line.contains("\tdef (")).count();
+    let colours = said_of(&folder, &["highlight", "--html"], &files)?;
+    let colours = colours.matches("<span class=").count();
+    println!("grammar: {tags} names, {colours} coloured words");
+    if tags < files.len() || colours < 100 * files.len() {
+        return Err("the queries find too few names or words".to_owned());
+    }
+    Ok(())
+}
+
+/// Generates the parser from the grammar in a folder of `target`; returns that folder.
+pub(crate) fn generate() -> Result<PathBuf, String> {
     if !is_there() {
         let bring = "`cargo install tree-sitter-cli --no-default-features` brings it";
         return Err(format!("tree-sitter is not installed: {bring}"));
     }
-    // The parser is generated beside its grammar, so both are copied.
-    let (source, folder) = (root().join("grammar/tree-sitter"), root().join("target/tree-sitter"));
-    for file in ["grammar.js", "tree-sitter.json", "queries/highlights.scm"] {
-        let copy = folder.join(file);
-        let parent = copy.parent().unwrap_or(&folder);
-        let made = std::fs::create_dir_all(parent);
-        made.and_then(|()| std::fs::copy(source.join(file), &copy).map(drop))
-            .map_err(|why| format!("{}: {why}", copy.display()))?;
-    }
+    // The parser is generated beside its grammar, so both are copied. The folder's name is what
+    // tree-sitter looks for.
+    let folder = root().join("target/tree-sitter-setpiece");
+    copy_folder(&root().join("grammar/tree-sitter"), &folder)?;
+    let config = serde_json::json!({ "parser-directories": [root().join("target")] });
+    let path = config_path();
+    std::fs::write(&path, config.to_string())
+        .map_err(|why| format!("{}: {why}", path.display()))?;
     run(Command::new("tree-sitter").arg("generate").current_dir(&folder))?;
+    Ok(folder)
+}
+
+/// Builds the parser as a library that an editor loads.
+pub(crate) fn build_parser(folder: &Path, library: &Path) -> Result<(), String> {
+    // The linker wants its folder.
+    write(library, "")?;
+    run(Command::new("tree-sitter").args(["build", "--output"]).arg(library).current_dir(folder))
+}
+
+fn config_path() -> PathBuf {
+    root().join("target/tree-sitter.json")
+}
+
+/// A call of tree-sitter's command; its own configuration lists our parser alone.
+fn tree_sitter(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new("tree-sitter");
+    command.args(args).arg("--config-path").arg(config_path()).current_dir(folder);
+    command
+}
+
+/// What tree-sitter's command prints about some files.
+fn said_of(folder: &Path, args: &[&str], files: &[PathBuf]) -> Result<String, String> {
+    let name = args.join(" ");
+    let mut command = tree_sitter(folder, args);
+    // `query` takes its query first.
+    let output = command
+        .arg("--")
+        .args(files)
+        .output()
+        .map_err(|why| format!("tree-sitter can't be run: {why}"))?;
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    if !output.status.success() {
+        return Err(format!("tree-sitter {name}:\n{printed}\n{errors}"));
+    }
+    Ok(printed)
+}
+
+fn sound_files() -> Result<Vec<PathBuf>, String> {
     let mut files = Vec::new();
     for sound in SOUND {
         pitch_files(&root().join(sound), &mut files)?;
     }
-    let parse = Command::new("tree-sitter")
-        .args(["parse", "--quiet"])
-        .args(&files)
-        .current_dir(&folder)
-        .output()
-        .map_err(|why| format!("tree-sitter can't be run: {why}"))?;
-    let printed = String::from_utf8_lossy(&parse.stdout);
-    let faulty: Vec<&str> = printed.lines().filter(|line| !line.trim().is_empty()).collect();
-    if !faulty.is_empty() || !parse.status.success() {
-        let errors = String::from_utf8_lossy(&parse.stderr);
-        return Err(format!("the grammar can't read:\n{}\n{errors}", faulty.join("\n")));
-    }
-    println!("grammar: {} files read", files.len());
-    run(Command::new("tree-sitter")
-        .args(["query", "--quiet", "queries/highlights.scm"])
-        .args(files.first())
-        .current_dir(&folder))
+    files.sort();
+    Ok(files)
 }
 
 /// The `.pitch` files of a folder and those in it.
@@ -64,7 +123,7 @@ fn pitch_files(folder: &Path, into: &mut Vec<PathBuf>) -> Result<(), String> {
         if path.is_dir() {
             pitch_files(&path, into)?;
         } else if path.extension().is_some_and(|ending| ending == "pitch") {
-            into.push(path.canonicalize().map_err(fault)?);
+            into.push(path);
         }
     }
     Ok(())

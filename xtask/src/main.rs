@@ -5,14 +5,17 @@
 mod archive;
 mod ci;
 mod docs;
+mod editors;
 mod fuzz;
 mod grammar;
+mod npm;
 mod pictures;
 mod release;
 mod shell;
 mod studio;
 mod tidy;
 mod transfer;
+mod vscode;
 mod workflows;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
@@ -52,7 +55,8 @@ enum Command {
     },
     /// Check licences, sources and advisories of the dependencies with cargo-deny
     Deny,
-    /// Generate the parser of grammar/tree-sitter and have it read the repository's files
+    /// Generate the parser of grammar/tree-sitter, have it read the repository's files, and test
+    /// its queries
     Grammar,
     /// Check the workflows of .github with actionlint
     Workflows,
@@ -60,6 +64,14 @@ enum Command {
     Release(release::ReleaseArgs),
     /// Pack the command of a target into target/archives
     Archive(archive::ArchiveArgs),
+    /// Put the plugins for Neovim, Helix and Zed together in target/editors
+    Editors {
+        /// Drive the server from Node and Neovim instead
+        #[arg(long)]
+        drive: bool,
+    },
+    /// Test the extension for Visual Studio Code and pack it to target/setpiece.vsix
+    Vscode,
     /// Write docs/pitchc.schema.json
     Schema,
     /// Compare the game's figures with those measured in Google Research Football
@@ -111,6 +123,9 @@ fn main() -> ExitCode {
         Command::Workflows => ("workflows", workflows::workflows()),
         Command::Release(args) => ("release", release::release(&args)),
         Command::Archive(args) => ("archive", archive::archive(&args)),
+        Command::Editors { drive: false } => ("editors", editors::assemble()),
+        Command::Editors { drive: true } => ("editors", editors::drive()),
+        Command::Vscode => ("vscode", vscode::vscode()),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
         Command::Soak { args } => ("soak", ci::lab("soak", &args)),

@@ -1,5 +1,6 @@
 //! The studio's page: built by npm from `studio/`, kept in `studio/dist`, embedded in the command.
 
+use crate::npm;
 use crate::shell::{root, run};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,7 +22,7 @@ pub(crate) fn drive(shots: bool) -> Result<(), String> {
 
 /// Runs the page's tests where npm and the browser are; elsewhere says that it doesn't.
 pub(crate) fn drive_if_there() -> Result<(), String> {
-    if !has_npm() || !Path::new(&browser()).exists() {
+    if !npm::is_there() || !Path::new(&browser()).exists() {
         println!(
             "studio: left out, its tests need npm and Chromium: `apt-get install chromium`, or set CHROMIUM"
         );
@@ -33,7 +34,7 @@ pub(crate) fn drive_if_there() -> Result<(), String> {
 /// Builds the command, and runs the page's tests; the page's packages are installed.
 fn tests(shots: bool) -> Result<(), String> {
     run(Command::new("cargo").args(["build", "--package", "setpiece"]).current_dir(root()))?;
-    let mut tests = Command::new(npm());
+    let mut tests = npm::npm();
     tests
         .args(["test", "--silent"])
         .env("SETPIECE", root().join("target/debug/setpiece"))
@@ -60,7 +61,7 @@ fn python_with_package() -> Option<PathBuf> {
 
 /// Checks that the committed page is what the sources give. Without npm it can't, and says so.
 pub(crate) fn check() -> Result<(), String> {
-    if !has_npm() {
+    if !npm::is_there() {
         println!("studio: left out, no npm here: the page is not compared with its sources");
         return Ok(());
     }
@@ -79,21 +80,12 @@ pub(crate) fn check() -> Result<(), String> {
 
 fn build_into(folder: &str) -> Result<(), String> {
     let studio = root().join("studio");
-    let quiet = ["--no-audit", "--no-fund", "--loglevel=error"];
-    run(Command::new(npm()).arg("ci").args(quiet).current_dir(&studio))?;
+    npm::install(&studio)?;
     let build = ["run", "--silent", "build", "--", "--logLevel=warn", "--outDir", folder];
-    run(Command::new(npm()).args(build).current_dir(&studio))
+    run(npm::npm().args(build).current_dir(&studio))
 }
 
 /// Where Chromium is: Debian's, unless `CHROMIUM` says otherwise.
 fn browser() -> String {
     std::env::var("CHROMIUM").unwrap_or_else(|_| "/usr/bin/chromium".to_owned())
-}
-
-fn has_npm() -> bool {
-    Command::new(npm()).arg("--version").output().is_ok()
-}
-
-fn npm() -> &'static str {
-    if cfg!(windows) { "npm.cmd" } else { "npm" }
 }

@@ -1,5 +1,6 @@
-; Colours of the Setpiece language.
+; Colours of the Setpiece language. A later pattern wins, so the general ones come first.
 
+(identifier) @variable
 (line_comment) @comment
 (block_comment) @comment
 (doc_comment) @comment.documentation
@@ -8,30 +9,43 @@
 (quantity) @number
 (boolean) @boolean
 (role) @constant.builtin
-(qualifier) @constant
+(event_name) @constant.builtin
+(qualifier) @constant.builtin
 (type) @type
-(callee) @function.call
-(label) @label
-(labels) @label
+(callee (identifier) @function.call)
+(label (string) @label)
+(labels (string) @label)
 
 (scenario name: (_) @type.definition)
+(scenario (reference name: (_) @type))
 (reward name: (_) @function)
+(reward_use name: (_) @function)
+(reward_use (reference name: (_) @function))
 (formation name: (_) @function)
 (region name: (_) @constant)
 (table name: (_) @constant)
 (ending name: (_) @function)
+(end (reference name: (_) @function))
 (behavior name: (_) @function)
 (function name: (_) @function)
+(function type: (_) @type)
 (constant name: (_) @constant)
+(constant type: (_) @type)
+(let name: (_) @variable)
+(let type: (_) @type)
+(state name: (_) @variable)
+(state type: (_) @type)
 (record name: (_) @property)
 (parameter name: (_) @variable.parameter)
+(parameter type: (_) @type)
 (suite name: (_) @constant)
+(sweep name: (_) @variable.parameter)
 (curriculum name: (_) @constant)
 (stage name: (_) @constant)
 (player name: (_) @variable)
 (field key: (_) @property)
 (argument name: (_) @property)
-(member (identifier) @property)
+(member (identifier) @property .)
 (call function: (member (identifier) @function.call .))
 
 [

@@ -4,7 +4,7 @@ use super::common::{FAULT, FINE, MessageFormat};
 use super::out::{Out, StyledText};
 use crate::Error;
 use crate::dsl::problem::Severity;
-use crate::dsl::report::{Format, render};
+use crate::dsl::report::{Format, diagnostics, render};
 use crate::load::Checked;
 use crate::watch::Watcher;
 use std::ffi::OsString;
@@ -48,6 +48,10 @@ pub(crate) fn check(
                     failed = true;
                     match format {
                         MessageFormat::Human => out.error(&error),
+                        MessageFormat::Short => {
+                            let (code, message) = (error.code().to_string(), error.to_string());
+                            out.line(short(&format!("{name}:1:1"), "error", &code, &message));
+                        }
                         MessageFormat::Json => array.push(bare(&error, &name)),
                     }
                     // A missing file may appear later.
@@ -70,6 +74,16 @@ pub(crate) fn check(
                     count(warnings, "warning")
                 ));
             }
+            MessageFormat::Short => {
+                for found in diagnostics(&problems, &sources) {
+                    // The first label is where the problem is.
+                    let place = found.labels.first().map_or_else(
+                        || format!("{name}:1:1"),
+                        |label| format!("{}:{}:{}", label.file, label.line, label.column),
+                    );
+                    out.line(short(&place, &found.severity, &found.code, &found.message));
+                }
+            }
             MessageFormat::Json => {
                 let text = render(&problems, &sources, Format::Json);
                 if let Ok(serde_json::Value::Array(items)) = serde_json::from_str(&text) {
@@ -90,6 +104,12 @@ fn bare(error: &Error, file: &str) -> serde_json::Value {
         "code": error.code().to_string(), "severity": "error", "message": error.to_string(), "help": error.help(),
         "labels": [], "file": file,
     })
+}
+
+/// A problem in one line, for programs that read lines; a message has no line of its own.
+fn short(place: &str, severity: &str, code: &str, message: &str) -> String {
+    let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    format!("{place}: {severity}[{code}]: {message}")
 }
 
 fn count(n: usize, what: &str) -> String {

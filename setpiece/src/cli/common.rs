@@ -30,6 +30,8 @@ pub(crate) enum ColourChoice {
 pub(crate) enum MessageFormat {
     /// With the source around them
     Human,
+    /// One line each: FILE:LINE:COLUMN: SEVERITY[CODE]: MESSAGE
+    Short,
     /// One JSON array
     Json,
 }

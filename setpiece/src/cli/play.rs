@@ -293,7 +293,7 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
 /// last good one running.
 fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let source = args.playing.source();
-    let mut live = Live::open_scenario(source, args.playing.of_level(), out.allow_outside)
+    let mut live = Live::open_scenario(source, args.playing.wanted(), out.allow_outside)
         .map_err(|error| args.playing.explained(error))?;
     out.warnings(live.loaded());
     if !live.is_watching() {

@@ -42,6 +42,9 @@ pub(crate) struct Playing {
     /// A scenario of the library, a .pitch file or a compiled .pitchc file
     #[arg(value_name = "SCENARIO", required_unless_present = "level")]
     scenario: Option<OsString>,
+    /// Which scenario of the file [default: its last that isn't abstract]
+    #[arg(long = "scenario", value_name = "NAME", conflicts_with = "level")]
+    wanted: Option<String>,
     /// Who controls the agents
     #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
     agent: AgentName,
@@ -123,20 +126,20 @@ impl Playing {
         named.or_else(of_level).unwrap_or_default()
     }
 
-    /// Loads it; of a file with a level, the level's scenario.
+    /// Loads it; of a file, the scenario that is wanted or that a level names.
     ///
     /// # Errors
     /// Like [`crate::load_with`]; [`Error::Level`] if only a level names it and it isn't found.
     pub(crate) fn load(&self, options: LoadOptions<'_>) -> Result<Loaded, Error> {
-        let scenario = self.of_level();
+        let scenario = self.wanted();
         let loaded = crate::load_with(self.source(), &LoadOptions { scenario, ..options });
         loaded.map_err(|error| self.explained(error))
     }
 
-    /// The scenario that a level names, where a file may have others.
-    pub(crate) fn of_level(&self) -> Option<&str> {
+    /// The scenario that an option or a level names, where a file may have others.
+    pub(crate) fn wanted(&self) -> Option<&str> {
         let level = self.level.as_ref().filter(|_| self.scenario.is_some());
-        level.map(|level| level.scenario.as_str())
+        self.wanted.as_deref().or_else(|| level.map(|level| level.scenario.as_str()))
     }
 
     /// Explains that a scenario isn't found, where only a level names it.

@@ -45,6 +45,23 @@ fn three_mistakes_get_three_located_reports() {
 }
 
 #[test]
+fn short_reports_are_lines_that_begin_with_a_place() {
+    let folder = folder();
+    let path = write(
+        folder.path(),
+        "mistakes.pitch",
+        "scenario mistakes extends academy {\n    ball at (0.6, 0)\n    reward scorin\n}\n",
+    );
+    let output = setpiece(&["check", &path, "absent.pitch", "--message-format", "short"]);
+    assert_eq!(output.status.code(), Some(1));
+    let printed = text(&output.stdout);
+    let lines: Vec<&str> = printed.lines().collect();
+    assert_eq!(lines.len(), 2, "{printed}");
+    assert!(lines[0].starts_with(&format!("{path}:3:12: error[SP02")), "{printed}");
+    assert!(lines[1].starts_with("absent.pitch:1:1: error[SP00"), "{printed}");
+}
+
+#[test]
 fn what_a_script_prints_is_shown_with_its_place() {
     let folder = folder();
     write(

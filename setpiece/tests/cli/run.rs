@@ -187,6 +187,22 @@ fn agents_of_both_sides_have_a_mean_each() {
 }
 
 #[test]
+fn a_scenario_of_a_file_is_chosen_by_its_name() {
+    let folder = folder();
+    let second = CLOSE.replacen("scenario close", "scenario second", 1);
+    assert_ne!(second, CLOSE);
+    let path = write(folder.path(), "both.pitch", format!("{CLOSE}\n{second}"));
+    let played = |more: &[&str]| {
+        let result = json(&[&["run", &path, "-n", "1", "--format", "json"], more].concat());
+        result["scenario"].as_str().unwrap().to_owned()
+    };
+    assert_eq!(played(&[]), "second");
+    assert_eq!(played(&["--scenario", "close"]), "close");
+    fails(&["run", &path, "--scenario", "clos"], 1, &["`clos`", "`close`"]);
+    fails(&["run", &path, "--scenario", "close", "--level", "close#1"], 2, &["--level"]);
+}
+
+#[test]
 fn a_level_that_stands_for_a_scenario_is_recognised() {
     fails(
         &["run", "academy_corner{difficulty=0.8}#3"],

@@ -1,0 +1,2 @@
+autocmd BufRead,BufNewFile *.pitch setfiletype pitch
+autocmd BufRead,BufNewFile *.rhai setfiletype rhai

@@ -143,8 +143,9 @@ class FootballTensorEnv(EnvBase):
 
     def _reset(self, tensordict: TensorDictBase | None, **_: Any) -> TensorDictBase:
         options: dict[str, Any] = {}
-        if tensordict is not None and "_reset" in tensordict.keys():  # noqa: SIM118 (a TensorDict has no `in`)
-            mask = tensordict["_reset"].reshape(self.batch_size).cpu().numpy()
+        wanted = None if tensordict is None else tensordict.get("_reset", None)
+        if wanted is not None:
+            mask = wanted.reshape(self.batch_size).cpu().numpy()
             if not mask.all():
                 options["reset_mask"] = mask
         seed = None

@@ -17,8 +17,8 @@ const DAY_MS: u32 = 24 * 60 * 60 * 1000;
 
 /// The sheet about the match.
 pub(super) fn meta(tracking: &Tracking) -> String {
-    let halves: Vec<Half> =
-        [false, true].into_iter().filter_map(|second| Half::of(tracking, second)).collect();
+    let halves: Vec<CdfHalf> =
+        [false, true].into_iter().filter_map(|second| CdfHalf::of(tracking, second)).collect();
     let side = |side: Team| {
         let of = |player: &&TrackedPlayer| player.slot.team() == side;
         let players = tracking.players.iter().filter(of).map(|player| {
@@ -46,8 +46,8 @@ pub(super) fn meta(tracking: &Tracking) -> String {
         "match": {
             "id": tracking.id,
             "kickoff_time": timestamp(0),
-            "periods": halves.iter().map(Half::period).collect::<Vec<_>>(),
-            "whistles": halves.iter().flat_map(Half::whistles).collect::<Vec<_>>(),
+            "periods": halves.iter().map(CdfHalf::period).collect::<Vec<_>>(),
+            "whistles": halves.iter().flat_map(CdfHalf::whistles).collect::<Vec<_>>(),
         },
         "teams": {"home": side(Team::Left), "away": side(Team::Right)},
         "venue": {
@@ -70,19 +70,19 @@ pub(super) fn meta(tracking: &Tracking) -> String {
 }
 
 /// A half, and its first and last frame.
-struct Half {
+struct CdfHalf {
     second: bool,
     first: u32,
     last: u32,
 }
 
-impl Half {
+impl CdfHalf {
     /// A half of the match, if there are frames of it.
-    fn of(tracking: &Tracking, second: bool) -> Option<Half> {
+    fn of(tracking: &Tracking, second: bool) -> Option<CdfHalf> {
         let is_its = |moment: &TrackedMoment| moment.second_half == second;
         let first = tracking.moments.iter().position(is_its)?;
         let last = tracking.moments.iter().rposition(is_its)?;
-        Some(Half { second, first: first as u32, last: last as u32 })
+        Some(CdfHalf { second, first: first as u32, last: last as u32 })
     }
 
     fn period(&self) -> Value {

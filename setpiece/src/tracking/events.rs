@@ -17,13 +17,13 @@ pub(super) struct EventLog {
     /// The tick at the end of the last step.
     tick: u32,
     /// A pass or shot under way.
-    open: Option<Struck>,
+    open: Option<OpenStrike>,
     /// A touch that may end it; what it means comes with the same tick.
-    met: Option<Moment>,
+    met: Option<EventTime>,
     /// The last shot that was on target, until the next tick.
     on_target: Option<(usize, u32)>,
     /// A set piece that was taken in this tick, with the taker, if nothing is known of it yet.
-    taken: Option<(Moment, EventKind, PlayerId)>,
+    taken: Option<(EventTime, EventKind, PlayerId)>,
     /// The last pass that was intercepted.
     intercepted: Option<usize>,
     /// The goalkeeper who holds the ball.
@@ -36,7 +36,7 @@ pub(super) struct EventLog {
 
 /// A pass or shot under way.
 #[derive(Clone, Copy)]
-struct Struck {
+struct OpenStrike {
     at: usize,
     by: PlayerId,
     tick: u32,
@@ -46,7 +46,7 @@ struct Struck {
 
 /// When and where.
 #[derive(Clone, Copy)]
-struct Moment {
+struct EventTime {
     tick: u32,
     time_ms: u32,
     frame: u32,
@@ -63,7 +63,7 @@ impl EventLog {
         self.ball = flat(ball.clamp(-half, half));
         for event in environment.events() {
             let ticks = event.tick.saturating_sub(self.tick).min(TICKS_PER_STEP);
-            let now = Moment {
+            let now = EventTime {
                 tick: event.tick,
                 time_ms: frame.saturating_sub(1) * FRAME_MS + ticks * FRAME_MS / TICKS_PER_STEP,
                 frame,
@@ -108,7 +108,7 @@ impl EventLog {
         self.on_target.take_if(|(_, then)| *then < tick);
     }
 
-    fn event(&mut self, event: &Event, now: Moment, place: [f32; 2]) {
+    fn event(&mut self, event: &Event, now: EventTime, place: [f32; 2]) {
         let by = event.by;
         match (event.kind, event.qualifier, by) {
             (EventKind::Pass, None | Some(Qualifier::Attempted), Some(by)) => {
@@ -139,7 +139,7 @@ impl EventLog {
     }
 
     /// A pass or shot begins.
-    fn strike(&mut self, now: Moment, by: PlayerId, is_shot: bool) {
+    fn strike(&mut self, now: EventTime, by: PlayerId, is_shot: bool) {
         self.close("interrupted", now.at, now.frame);
         let set_piece = self.taken.take().filter(|&(_, _, taker)| taker == by);
         let sub_kind = set_piece.map(|(_, kind, _)| words::of(kind).1);
@@ -152,12 +152,12 @@ impl EventLog {
         };
         self.events[at].body = Some(body);
         self.events[at].success = false;
-        self.open = Some(Struck { at, by, tick: now.tick, is_shot, woodwork: false });
+        self.open = Some(OpenStrike { at, by, tick: now.tick, is_shot, woodwork: false });
         (self.met, self.holds) = (None, None);
     }
 
     /// A pass ends at a player.
-    fn arrive(&mut self, event: &Event, now: Moment, verdict: Qualifier) {
+    fn arrive(&mut self, event: &Event, now: EventTime, verdict: Qualifier) {
         let Some(open) = self.open.take_if(|open| !open.is_shot && Some(open.by) == event.by)
         else {
             return;
@@ -173,7 +173,7 @@ impl EventLog {
     }
 
     /// What became of a shot.
-    fn judge(&mut self, now: Moment, verdict: Qualifier, place: [f32; 2]) {
+    fn judge(&mut self, now: EventTime, verdict: Qualifier, place: [f32; 2]) {
         let Some(open) = self.open.filter(|open| open.is_shot) else { return };
         let outcome = match verdict {
             Qualifier::OnTarget => "saved",
@@ -187,7 +187,7 @@ impl EventLog {
         }
     }
 
-    fn goal(&mut self, event: &Event, now: Moment) {
+    fn goal(&mut self, event: &Event, now: EventTime) {
         let ball = self.ball;
         if let Some((shot, _)) = self.on_target.take() {
             self.events[shot].outcome = "successful";
@@ -210,7 +210,7 @@ impl EventLog {
     }
 
     /// Everything but passes, shots and goals.
-    fn other(&mut self, event: &Event, now: Moment) {
+    fn other(&mut self, event: &Event, now: EventTime) {
         let kind = event.kind;
         match kind {
             EventKind::OutOfPlay => self.close("out_of_play", now.at, now.frame),
@@ -249,7 +249,7 @@ impl EventLog {
     }
 
     /// The ball meets a player while a pass or shot is under way.
-    fn meet(&mut self, event: &Event, now: Moment) {
+    fn meet(&mut self, event: &Event, now: EventTime) {
         let Some(open) = self.open else { return };
         if event.by != Some(open.by) {
             self.met = self.met.or(Some(now));
@@ -275,7 +275,7 @@ impl EventLog {
     /// Adds an event that succeeded, and returns its place.
     fn push(
         &mut self,
-        now: Moment,
+        now: EventTime,
         kind: &'static str,
         sub_kind: Option<&'static str>,
         by: Option<PlayerId>,

@@ -133,7 +133,7 @@ def task(
     """
     if not arguments.get("left") and not arguments.get("right"):
         raise ParameterError(
-            "a task of several agents says whom they play",
+            "a task of several agents says which team they play",
             name="left",
             help="for example `left='all'`",
         )

@@ -94,8 +94,8 @@ class FootballPuffer(pufferlib.PufferEnv):
         self.rewards[:] = np.asarray(rewards, np.float32).ravel()
         self.terminals[:] = np.repeat(terminated, self.n_agents)
         self.truncations[:] = np.repeat(truncated, self.n_agents)
-        told = _ended(infos)
-        return self.observations, self.rewards, self.terminals, self.truncations, told
+        results = _ended(infos)
+        return self.observations, self.rewards, self.terminals, self.truncations, results
 
     def close(self) -> None:
         """Closes the matches."""
@@ -222,14 +222,14 @@ def _ended(infos: dict[str, Any]) -> Infos:
     last = infos.get("final_info")
     if last is None:
         return []
-    told, summary = [], last["setpiece"]
+    results, summary = [], last["setpiece"]
     for at in np.flatnonzero(infos["_final_info"]).tolist():
         paid = sum(float(np.ravel(terms[at])[0]) for terms in summary["return"].values())
-        told.append(
+        results.append(
             {
                 "episode_return": paid,
                 "episode_length": float(summary["length"][at]),
                 "success": float(summary["success"][at]),
             }
         )
-    return told
+    return results

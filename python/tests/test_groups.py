@@ -39,16 +39,16 @@ def test_an_environment_plays_what_it_plays_in_a_vector(mode: str, agents: str |
         for step in range(150):
             actions = rng.integers(0, 19, vector.action_space.shape)
             for group in range(3):
-                seen, paid, terminated, truncated, told = envs.recv()
-                ids = told["env_id"]
+                seen, paid, terminated, truncated, with_them = envs.recv()
+                ids = with_them["env_id"]
                 assert ids.tolist() == [2 * group, 2 * group + 1]
                 assert np.array_equal(seen, observed[ids])
                 assert np.array_equal(paid, rewards[ids])
                 assert np.array_equal(terminated | truncated, over[ids])
                 if step:
-                    assert np.array_equal(told["action_mask"], infos["action_mask"][ids])
+                    assert np.array_equal(with_them["action_mask"], infos["action_mask"][ids])
                     for at in np.flatnonzero(terminated | truncated):
-                        last = told.get("final_info", told)["setpiece"]
+                        last = with_them.get("final_info", with_them)["setpiece"]
                         wanted = infos.get("final_info", infos)["setpiece"]
                         assert last["digest"][at] == wanted["digest"][ids[at]]
                         ended += 1

@@ -103,7 +103,7 @@ def test_every_line_is_valid_common_data_format(replay: Replay, tmp_path: Path) 
 
 def test_passes_and_shots_are_what_the_engine_reports(replay: Replay, tmp_path: Path) -> None:
     replay.export(tmp_path)
-    told = [event for moment in replay for event in moment.events]
+    noted = [event for moment in replay for event in moment.events]
     events = load_event(tmp_path)
     for kind, result, qualifier in (
         (EventType.PASS, PassResult.COMPLETE, "completed"),
@@ -112,12 +112,12 @@ def test_passes_and_shots_are_what_the_engine_reports(replay: Replay, tmp_path: 
         word = kind.value.lower()
         ours = [event for event in events if event.event_type == kind]
         struck = [
-            it for it in told if it["kind"] == word and it["qualifier"] in (None, "attempted")
+            it for it in noted if it["kind"] == word and it["qualifier"] in (None, "attempted")
         ]
         assert len(ours) == len(struck)
         ended = [event for event in ours if event.result == result]
         assert len(ended) == len(
-            [it for it in told if (it["kind"], it["qualifier"]) == (word, qualifier)]
+            [it for it in noted if (it["kind"], it["qualifier"]) == (word, qualifier)]
         )
     passes = [event for event in events if event.result == PassResult.COMPLETE]
     assert len(passes) > 3

@@ -18,12 +18,14 @@ mod layout;
 mod lenses;
 mod links;
 mod names;
+mod outline;
+mod place;
 mod preview;
+mod problems;
 mod report;
 mod script;
 mod select;
 mod signature;
-mod symbols;
 pub mod text;
 mod tokens;
 mod words;
@@ -32,17 +34,18 @@ pub use actions::{Action, ActionKind};
 pub use analysis::Analysis;
 pub use complete::{Completion, CompletionKind};
 pub use edits::Edit;
-pub use fold::{Fold, FoldKind};
-pub use hierarchy::{Call, Node};
-pub use hints::Hint;
+pub use fold::{FoldedKind, FoldedLines};
+pub use hierarchy::{ItemNode, ItemUses};
+pub use hints::InlayHint;
 pub use hover::Hover;
 pub use lenses::{Lens, LensKind};
-pub use links::Link;
-pub use names::{FilePlace, RenameError};
+pub use links::FileLink;
+pub use names::RenameError;
+pub use outline::{Symbol, SymbolKind};
+pub use place::FilePlace;
 pub use preview::Preview;
-pub use report::Report;
+pub use report::TextReport;
 pub use signature::Signature;
-pub use symbols::{Symbol, SymbolKind};
 pub use tokens::{Token, TokenKind};
 
 use std::collections::BTreeMap;
@@ -103,9 +106,4 @@ impl Workspace {
         self.known.insert(path.to_owned(), analysis.clone());
         Some(analysis)
     }
-}
-
-/// Whether a path is of a file of the library, which nobody edits.
-fn is_in_library(path: &Path) -> bool {
-    path.starts_with("std")
 }

@@ -7,7 +7,7 @@
 )]
 
 use setpiece::editor::text::Lines;
-use setpiece::editor::{ActionKind, FoldKind, LensKind, RenameError, Workspace};
+use setpiece::editor::{ActionKind, FoldedKind, LensKind, RenameError, Workspace};
 use std::path::{Path, PathBuf};
 
 /// A scenario to ask about; `name` follows a line of comment.
@@ -372,9 +372,12 @@ fn folds_are_blocks_comments_and_imports() {
     let path = Path::new("/nowhere/folds.pitch");
     let mut workspace = Workspace::default();
     workspace.set(path, text);
-    let kinds: Vec<FoldKind> =
+    let kinds: Vec<FoldedKind> =
         workspace.analysis(path).expect("a text").folds().iter().map(|it| it.kind).collect();
-    assert_eq!(kinds, [FoldKind::Imports, FoldKind::Comment, FoldKind::Block, FoldKind::Block]);
+    assert_eq!(
+        kinds,
+        [FoldedKind::Imports, FoldedKind::Comment, FoldedKind::Block, FoldedKind::Block]
+    );
 }
 
 #[test]
@@ -423,7 +426,7 @@ fn hierarchies_follow_extends_and_uses() {
     let mut workspace = Workspace::default();
     workspace.set(path, text);
     let base = workspace.node(path, behind(text, "scenario base")).expect("base");
-    let names = |nodes: Vec<setpiece::editor::Node>| -> Vec<String> {
+    let names = |nodes: Vec<setpiece::editor::ItemNode>| -> Vec<String> {
         nodes.into_iter().map(|it| it.name).collect()
     };
     assert_eq!(names(workspace.children(&base)), ["one", "two"]);

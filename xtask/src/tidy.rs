@@ -147,17 +147,24 @@ const DSL_ARROWS: &[(&str, &[&str])] = &[
     ("origins", &["source", "outline"]),
     ("ast", &["source"]),
     ("problem", &["source", "habit", "check"]),
+    ("index", &["source"]),
     ("report", &["source", "problem"]),
     ("parse", &["source", "habit", "check", "ast", "problem"]),
     ("format", &["source", "problem", "parse"]),
-    ("resolve", &["source", "ast", "problem", "parse"]),
+    ("resolve", &["source", "index", "ast", "problem", "parse"]),
     (
         "lower",
-        &["source", "check", "cast", "outline", "origins", "ast", "problem", "parse", "resolve"],
+        &[
+            "source", "check", "cast", "outline", "origins", "index", "ast", "problem", "parse",
+            "resolve",
+        ],
     ),
     (
         "compile",
-        &["source", "cast", "origins", "ast", "problem", "parse", "check", "resolve", "lower"],
+        &[
+            "source", "cast", "origins", "index", "ast", "problem", "parse", "check", "resolve",
+            "lower",
+        ],
     ),
 ];
 

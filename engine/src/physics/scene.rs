@@ -67,7 +67,7 @@ pub(super) const fn goal_bounds(pitch: &PitchSize) -> [Vec3; 2] {
 
 /// What else rapier needs: sets that stay empty, and working memory that carries nothing from step
 /// to step.
-pub(super) struct Workspace {
+pub(super) struct SolverSpace {
     pipeline: PhysicsPipeline,
     parameters: IntegrationParameters,
     impulse_joints: ImpulseJointSet,
@@ -76,9 +76,9 @@ pub(super) struct Workspace {
     ccd: CCDSolver,
 }
 
-impl Default for Workspace {
-    fn default() -> Workspace {
-        Workspace {
+impl Default for SolverSpace {
+    fn default() -> SolverSpace {
+        SolverSpace {
             pipeline: PhysicsPipeline::new(),
             parameters: parameters(),
             impulse_joints: ImpulseJointSet::new(),
@@ -117,7 +117,7 @@ impl RapierWorld {
     pub(super) fn template(
         bodies: usize,
         size: GoalSize,
-        workspace: &mut Workspace,
+        workspace: &mut SolverSpace,
     ) -> RapierWorld {
         let mut rigid = RigidBodySet::new();
         let mut colliders = ColliderSet::new();
@@ -172,7 +172,7 @@ impl RapierWorld {
     }
 
     /// Simulates one tick.
-    pub(super) fn step(&mut self, workspace: &mut Workspace) {
+    pub(super) fn step(&mut self, workspace: &mut SolverSpace) {
         workspace.pipeline.step(
             Vec3::ZERO,
             &workspace.parameters,

@@ -6,7 +6,7 @@
 
 use super::Ball;
 use super::constants::{BODY_LENGTH, RIGID_SPIN_MAX};
-use super::scene::{BODIES_MAX, ColliderPart, GoalSize, RapierWorld, Workspace, goal_offset};
+use super::scene::{BODIES_MAX, ColliderPart, GoalSize, RapierWorld, SolverSpace, goal_offset};
 use super::{BallObstacle, Contact};
 use crate::laps::Laps;
 use glam::{Vec2, Vec3};
@@ -21,7 +21,7 @@ pub struct Scratch {
     /// The goals of the templates.
     goals: GoalSize,
     live: RapierWorld,
-    workspace: Workspace,
+    workspace: SolverSpace,
     laps: Laps,
     rigid: u64,
 }
@@ -40,7 +40,7 @@ impl Scratch {
 
 impl Default for Scratch {
     fn default() -> Scratch {
-        let mut workspace = Workspace::default();
+        let mut workspace = SolverSpace::default();
         let goals = GoalSize::of(&PitchSize::USUAL);
         let templates = templates(goals, &mut workspace);
         Scratch {
@@ -54,7 +54,7 @@ impl Default for Scratch {
     }
 }
 
-fn templates(goals: GoalSize, workspace: &mut Workspace) -> [RapierWorld; BODIES_MAX + 1] {
+fn templates(goals: GoalSize, workspace: &mut SolverSpace) -> [RapierWorld; BODIES_MAX + 1] {
     std::array::from_fn(|bodies| RapierWorld::template(bodies, goals, workspace))
 }
 

@@ -77,7 +77,7 @@ def test_success_is_logged() -> None:
 
 
 def test_slips() -> None:
-    with pytest.raises(ParameterError, match="whom they play"):
+    with pytest.raises(ParameterError, match="which team they play"):
         setpiece.benchmarl.task(THREE)
     with pytest.raises(ParameterError, match="max_steps"):
         setpiece.benchmarl.task(THREE, left="all", max_steps=0)

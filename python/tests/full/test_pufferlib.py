@@ -47,7 +47,7 @@ def test_the_native_environment_plays_what_a_vector_plays(agents: str | None) ->
     observed, _ = vector.reset(seed=5)
     assert np.array_equal(native.reset(seed=5)[0], observed.reshape(3 * n, 115))
     rng = np.random.default_rng(0)
-    told = []
+    results = []
     for _ in range(120):
         actions = rng.integers(0, 19, 3 * n)
         seen, paid, terminals, truncations, infos = native.step(actions)
@@ -59,10 +59,10 @@ def test_the_native_environment_plays_what_a_vector_plays(agents: str | None) ->
         assert np.array_equal(terminals, np.repeat(terminated, n))
         assert np.array_equal(truncations, np.repeat(truncated, n))
         assert len(infos) == int((terminated | truncated).sum())
-        told += infos
-    assert told
-    assert set(told[0]) == {"episode_return", "episode_length", "success"}
-    assert all(1 <= info["episode_length"] <= 400 for info in told)
+        results += infos
+    assert results
+    assert set(results[0]) == {"episode_return", "episode_length", "success"}
+    assert all(1 <= info["episode_length"] <= 400 for info in results)
     native.close()
 
 

@@ -1,4 +1,5 @@
-//! `setpiece lsp`: answers an editor over the Language Server Protocol, on standard input and output.
+//! `setpiece lsp`: answers an editor over the Language Server Protocol, on standard input and
+//! output.
 
 use super::common::{FAULT, FINE};
 use crate::lsp::{LanguageServer, capabilities};

@@ -1,8 +1,9 @@
 //! What the compiler finds out about one text.
 
-use super::symbols::{move_all, of_file};
+use super::outline::{Symbol, move_all, of_file};
+use super::place::FilePlace;
+use super::report::TextReport;
 use super::text::{Lines, closed};
-use super::{FilePlace, Report, Symbol};
 use crate::Loaded;
 use crate::dsl::ast::{File, Span};
 use crate::dsl::index::Index;
@@ -28,7 +29,7 @@ pub struct Analysis {
     /// What it declares, also where brackets are still open.
     pub(super) outline: Vec<Symbol>,
     /// What is wrong with it and with what it imports, by file and place.
-    pub reports: Vec<Report>,
+    pub reports: Vec<TextReport>,
     /// The files that were read; the text is the first.
     pub sources: Sources,
     /// What names refer to, and the types of expressions.
@@ -63,12 +64,12 @@ impl Analysis {
             };
             outcome.index = compile(mended, &loader, &options(None)).index.moved(place);
         }
-        let mut reports = Report::all(&outcome.problems, &outcome.sources);
+        let mut reports = TextReport::all(&outcome.problems, &outcome.sources);
         let mut inputs: BTreeSet<PathBuf> = outcome.inputs.iter().map(|it| path_of(it)).collect();
         if reports.iter().any(|report| report.code == Code::NoScenario)
             && let Some(user) = user_of_parts(&source, &loader, &outcome.problems)
         {
-            reports = Report::all(&user.problems, &user.sources);
+            reports = TextReport::all(&user.problems, &user.sources);
             reports.retain(|report| !report.place.path.starts_with("<check>"));
             inputs.extend(user.inputs.iter().map(|it| path_of(it)));
         }
@@ -98,6 +99,11 @@ impl Analysis {
     #[allow(clippy::unused_self, reason = "a span belongs to the files of an analysis")]
     pub(super) fn own(&self, span: Span) -> Option<Range<usize>> {
         (span.file == FileId(0)).then_some(span.start as usize..span.end as usize)
+    }
+
+    /// What the text declares, in order.
+    pub fn symbols(&self) -> &[Symbol] {
+        &self.outline
     }
 
     /// A place in one of its files.

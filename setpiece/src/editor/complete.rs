@@ -1,8 +1,8 @@
 //! What may stand at a place of a text.
 
-use super::keywords::{Block, KEYWORDS, Keyword};
-use super::report::{is_scenario, is_script};
-use super::symbols::flat;
+use super::keywords::{KEYWORDS, Keyword, KeywordBlock};
+use super::outline::flat;
+use super::place::{is_scenario, is_script};
 use super::text::word_at;
 use super::words::{self, WordKind};
 use super::{Analysis, Symbol, SymbolKind, Workspace, script};
@@ -46,7 +46,7 @@ pub enum CompletionKind {
 
 /// What is being written where the cursor stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Context<'a> {
+enum CursorPlace<'a> {
     /// Nothing can be completed: a comment, or a text in quotes.
     Nothing,
     /// The path of an `import`.
@@ -83,38 +83,38 @@ impl Workspace {
             return script::complete(inside, &analysis.own_names());
         }
         match context(before, typed) {
-            Context::Nothing => Vec::new(),
-            Context::Import => self.files(path),
-            Context::Member(of) => members(of),
-            Context::Unit => {
+            CursorPlace::Nothing => Vec::new(),
+            CursorPlace::Import => self.files(path),
+            CursorPlace::Member(of) => members(of),
+            CursorPlace::Unit => {
                 Unit::ALL.iter().map(|unit| word(unit.name(), unit.doc(), "unit")).collect()
             }
-            Context::TopLevel => keywords(Block::File),
-            Context::Statement(block) => analysis.statements(block),
-            Context::Key(block) => keys(block),
-            Context::After(what) => analysis.after(what),
-            Context::Inside => analysis.values(),
+            CursorPlace::TopLevel => keywords(KeywordBlock::File),
+            CursorPlace::Statement(block) => analysis.statements(block),
+            CursorPlace::Key(block) => keys(block),
+            CursorPlace::After(what) => analysis.after(what),
+            CursorPlace::Inside => analysis.values(),
         }
     }
 }
 
 /// What is written at the end of a text; `typed`: the part of the word that stands there already.
-fn context<'a>(before: &'a str, typed: &str) -> Context<'a> {
+fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
     let line = before.rsplit('\n').next().unwrap_or_default();
     let quoted = line.matches('"').count() % 2 == 1;
     if quoted {
         let is_import = line.trim_start().starts_with("import");
-        return if is_import { Context::Import } else { Context::Nothing };
+        return if is_import { CursorPlace::Import } else { CursorPlace::Nothing };
     }
     if line.contains("//") {
-        return Context::Nothing;
+        return CursorPlace::Nothing;
     }
     if let Some(base) = before.strip_suffix('.') {
         let range = word_at(base, base.len());
-        return Context::Member(base.get(range).unwrap_or_default());
+        return CursorPlace::Member(base.get(range).unwrap_or_default());
     }
     if typed.starts_with(|char: char| char.is_ascii_digit()) {
-        return Context::Unit;
+        return CursorPlace::Unit;
     }
     let trimmed = before.trim_end();
     let last = trimmed.get(word_at(trimmed, trimmed.len())).unwrap_or_default();
@@ -124,16 +124,16 @@ fn context<'a>(before: &'a str, typed: &str) -> Context<'a> {
         || line.trim().is_empty()
         || (trimmed.ends_with(',') && is_of_options(block));
     if matches!(last, "extends" | "reward" | "play" | "with") && !begins {
-        return Context::After(last);
+        return CursorPlace::After(last);
     }
     if trimmed.ends_with("formation:") {
-        return Context::After("formation");
+        return CursorPlace::After("formation");
     }
     match (begins, block) {
-        (true, "") => Context::TopLevel,
-        (true, block) if is_of_options(block) => Context::Key(block),
-        (true, block) => Context::Statement(block),
-        (false, _) => Context::Inside,
+        (true, "") => CursorPlace::TopLevel,
+        (true, block) if is_of_options(block) => CursorPlace::Key(block),
+        (true, block) => CursorPlace::Statement(block),
+        (false, _) => CursorPlace::Inside,
     }
 }
 
@@ -175,28 +175,28 @@ fn block_around(before: &str) -> &str {
 }
 
 /// The kind of block at the end of a text.
-pub(super) fn block_of(before: &str) -> Block {
+pub(super) fn block_of(before: &str) -> KeywordBlock {
     match block_around(before) {
-        "" => Block::File,
-        "scenario" => Block::Scenario,
-        "team" | "formation" => Block::Team,
-        "reward" | "on" | "when" => Block::Reward,
-        "behavior" | "repeat" | "choose" | "interrupt" => Block::Behavior,
-        "check" => Block::Check,
-        "curriculum" => Block::Curriculum,
-        _ => Block::Within,
+        "" => KeywordBlock::File,
+        "scenario" => KeywordBlock::Scenario,
+        "team" | "formation" => KeywordBlock::Team,
+        "reward" | "on" | "when" => KeywordBlock::Reward,
+        "behavior" | "repeat" | "choose" | "interrupt" => KeywordBlock::Behavior,
+        "check" => KeywordBlock::Check,
+        "curriculum" => KeywordBlock::Curriculum,
+        _ => KeywordBlock::Within,
     }
 }
 
 /// Whether a word begins an item or a statement with a block.
 fn is_head(word: &str) -> bool {
-    KEYWORDS
-        .iter()
-        .any(|known| known.name == word && matches!(known.block, Block::File | Block::Scenario))
+    KEYWORDS.iter().any(|known| {
+        known.name == word && matches!(known.block, KeywordBlock::File | KeywordBlock::Scenario)
+    })
 }
 
 /// The keywords that begin a statement in a block.
-fn keywords(block: Block) -> Vec<Completion> {
+fn keywords(block: KeywordBlock) -> Vec<Completion> {
     let known = KEYWORDS.iter().filter(|known| known.block == block);
     let completion = |known: &Keyword| Completion {
         text: known.name.to_owned(),
@@ -341,16 +341,18 @@ impl Analysis {
     /// What a statement of this block begins with.
     fn statements(&self, block: &str) -> Vec<Completion> {
         match block {
-            "scenario" => keywords(Block::Scenario),
-            "team" | "formation" => {
-                keywords(Block::Team).into_iter().chain(words_of(&[WordKind::Role])).collect()
-            }
-            "reward" | "on" | "when" => keywords(Block::Reward),
-            "behavior" | "repeat" | "choose" | "interrupt" => {
-                keywords(Block::Behavior).into_iter().chain(words_of(&[WordKind::Act])).collect()
-            }
-            "check" => keywords(Block::Check),
-            "curriculum" => keywords(Block::Curriculum),
+            "scenario" => keywords(KeywordBlock::Scenario),
+            "team" | "formation" => keywords(KeywordBlock::Team)
+                .into_iter()
+                .chain(words_of(&[WordKind::Role]))
+                .collect(),
+            "reward" | "on" | "when" => keywords(KeywordBlock::Reward),
+            "behavior" | "repeat" | "choose" | "interrupt" => keywords(KeywordBlock::Behavior)
+                .into_iter()
+                .chain(words_of(&[WordKind::Act]))
+                .collect(),
+            "check" => keywords(KeywordBlock::Check),
+            "curriculum" => keywords(KeywordBlock::Curriculum),
             "suite" => self.after("extends"),
             _ => self.values(),
         }
@@ -439,7 +441,7 @@ impl Analysis {
             WordKind::Mode,
         ]));
         own.extend(
-            keywords(Block::Within)
+            keywords(KeywordBlock::Within)
                 .into_iter()
                 .map(|known| Completion { detail: "in a statement".to_owned(), ..known }),
         );

@@ -1,7 +1,7 @@
 //! What the names of a text stand for: a parameter, a player, a reward.
 
-use super::report::is_scenario;
-use super::symbols::{flat, of_file};
+use super::outline::{flat, of_file};
+use super::place::is_scenario;
 use super::{Analysis, SymbolKind};
 use crate::dsl::parse::parse;
 use crate::dsl::source::Span;

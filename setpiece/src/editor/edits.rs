@@ -1,6 +1,7 @@
 //! Changes of texts.
 
-use super::{FilePlace, Workspace};
+use super::Workspace;
+use super::place::FilePlace;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};

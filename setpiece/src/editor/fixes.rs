@@ -5,7 +5,8 @@
 
 use super::actions::{Action, ActionKind};
 use super::edits::Edit;
-use super::report::{Report, is_scenario};
+use super::place::is_scenario;
+use super::report::TextReport;
 use super::text::line_around;
 use super::{Analysis, Workspace};
 use crate::dsl::problem::Code;
@@ -22,11 +23,12 @@ impl Workspace {
     /// What mends the problems that touch some bytes of a text.
     pub(super) fn fixes(&mut self, path: &Path, within: &Range<usize>) -> Vec<Action> {
         let Some(analysis) = self.analysis(path) else { return Vec::new() };
-        let touches = |report: &&Report| {
+        let touches = |report: &&TextReport| {
             let own = &report.place.range;
             own.start <= within.end && within.start <= own.end
         };
-        let reports: Vec<Report> = analysis.own_reports(path).filter(touches).cloned().collect();
+        let reports: Vec<TextReport> =
+            analysis.own_reports(path).filter(touches).cloned().collect();
         reports.iter().flat_map(|report| self.fixes_of(path, &analysis, report)).collect()
     }
 
@@ -57,7 +59,7 @@ impl Workspace {
         })
     }
 
-    fn fixes_of(&mut self, path: &Path, analysis: &Analysis, report: &Report) -> Vec<Action> {
+    fn fixes_of(&mut self, path: &Path, analysis: &Analysis, report: &TextReport) -> Vec<Action> {
         let mut tries = meant(analysis, path, report);
         if report.code == Code::UnknownName {
             tries.extend(self.imports(path, analysis, report));
@@ -81,7 +83,7 @@ impl Workspace {
     }
 
     /// Whether a report is gone after some edits, and nothing else is wrong.
-    fn mends(&mut self, path: &Path, report: &Report, edits: &[Edit]) -> bool {
+    fn mends(&mut self, path: &Path, report: &TextReport, edits: &[Edit]) -> bool {
         let mut after = self.after(edits);
         let (Some(was), Some(is)) = (self.analysis(path), after.analysis(path)) else {
             return false;
@@ -98,7 +100,7 @@ impl Workspace {
     }
 
     /// Imports of the files that declare an unknown name.
-    fn imports(&self, path: &Path, analysis: &Analysis, report: &Report) -> Vec<Try> {
+    fn imports(&self, path: &Path, analysis: &Analysis, report: &TextReport) -> Vec<Try> {
         let name = analysis.text.get(report.place.range.clone()).unwrap_or_default();
         let folder = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
         let files = folder.into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
@@ -133,7 +135,7 @@ struct Try {
 }
 
 /// The edits of one text that a report's help may mean, the likeliest first.
-fn meant(analysis: &Analysis, path: &Path, report: &Report) -> Vec<Try> {
+fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
     let Some(help) = &report.help else { return Vec::new() };
     let range = report.place.range.clone();
     let marked = analysis.text.get(range.clone()).unwrap_or_default();

@@ -6,16 +6,16 @@ use std::ops::Range;
 
 /// Some lines that can be folded.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fold {
+pub struct FoldedLines {
     /// The bytes, from the first line to the last.
     pub range: Range<usize>,
     /// What they are.
-    pub kind: FoldKind,
+    pub kind: FoldedKind,
 }
 
 /// What folded lines are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FoldKind {
+pub enum FoldedKind {
     /// What stands in brackets.
     Block,
     /// Lines of comments.
@@ -26,23 +26,25 @@ pub enum FoldKind {
 
 impl Analysis {
     /// What can be folded, from the top down; a broken text has what its brackets give.
-    pub fn folds(&self) -> Vec<Fold> {
+    pub fn folds(&self) -> Vec<FoldedLines> {
         let is_long = |range: &Range<usize>| {
             self.text.get(range.clone()).is_some_and(|text| text.contains('\n'))
         };
-        let blocks = brackets(&self.text)
-            .into_iter()
-            .map(|Bracket { open, close }| Fold { range: open..close, kind: FoldKind::Block });
-        let mut folds: Vec<Fold> = blocks.filter(|fold| is_long(&fold.range)).collect();
-        folds.extend(self.runs("//", FoldKind::Comment));
-        folds.extend(self.runs("import ", FoldKind::Imports));
+        let blocks = brackets(&self.text).into_iter().map(|Bracket { open, close }| FoldedLines {
+            range: open..close,
+            kind: FoldedKind::Block,
+        });
+        let mut folds: Vec<FoldedLines> = blocks.filter(|fold| is_long(&fold.range)).collect();
+        folds.extend(self.runs("//", FoldedKind::Comment));
+        folds.extend(self.runs("import ", FoldedKind::Imports));
         folds.sort_by_key(|fold| (fold.range.start, fold.range.end));
         folds
     }
 
     /// Two and more lines in a row that begin with a word.
-    fn runs(&self, begin: &str, kind: FoldKind) -> Vec<Fold> {
-        let (mut runs, mut run): (Vec<Fold>, Option<(Range<usize>, usize)>) = (Vec::new(), None);
+    fn runs(&self, begin: &str, kind: FoldedKind) -> Vec<FoldedLines> {
+        let (mut runs, mut run): (Vec<FoldedLines>, Option<(Range<usize>, usize)>) =
+            (Vec::new(), None);
         let mut at = 0;
         for line in self.text.split_inclusive('\n').chain(std::iter::once("")) {
             if line.trim_start().starts_with(begin) {
@@ -51,7 +53,7 @@ impl Analysis {
             } else if let Some((range, lines)) = run.take()
                 && lines > 1
             {
-                runs.push(Fold { range, kind });
+                runs.push(FoldedLines { range, kind });
             }
             at += line.len();
         }

@@ -1,6 +1,6 @@
 //! What extends what, and what uses what.
 
-use super::symbols::{flat, of_file};
+use super::outline::{flat, of_file};
 use super::{FilePlace, Symbol, SymbolKind, Workspace};
 use crate::dsl::ast::{ItemKind, Ref};
 use crate::dsl::parse::parse;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// An item of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Node {
+pub struct ItemNode {
     /// Its name.
     pub name: String,
     /// What it is.
@@ -25,25 +25,25 @@ pub struct Node {
 
 /// An item that uses another one, or is used by it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Call {
+pub struct ItemUses {
     /// The other item.
-    pub node: Node,
+    pub node: ItemNode,
     /// The bytes of the uses, in the file of the one that uses.
     pub at: Vec<Range<usize>>,
 }
 
 impl Workspace {
     /// The item whose name stands at a byte, or is meant there.
-    pub fn node(&mut self, path: &Path, offset: usize) -> Option<Node> {
+    pub fn node(&mut self, path: &Path, offset: usize) -> Option<ItemNode> {
         let place = self.declaration(path, offset)?;
         self.node_at(&place)
     }
 
     /// The item that is declared somewhere.
-    fn node_at(&self, place: &FilePlace) -> Option<Node> {
+    fn node_at(&self, place: &FilePlace) -> Option<ItemNode> {
         let symbols = self.items_of(&place.path);
         let found = flat(&symbols).into_iter().find(|it| it.range == place.range)?;
-        Some(Node {
+        Some(ItemNode {
             name: found.name.clone(),
             kind: found.kind,
             place: place.clone(),
@@ -59,7 +59,7 @@ impl Workspace {
     }
 
     /// What an item extends.
-    pub fn parents(&mut self, node: &Node) -> Vec<Node> {
+    pub fn parents(&mut self, node: &ItemNode) -> Vec<ItemNode> {
         let Some(analysis) = self.analysis(&node.place.path) else { return Vec::new() };
         let mut refs = analysis.tree.items.iter().filter_map(|item| {
             let (name, parent) = extends(&item.kind)?;
@@ -72,7 +72,7 @@ impl Workspace {
     }
 
     /// What extends an item, in the open texts and the files beside them.
-    pub fn children(&mut self, node: &Node) -> Vec<Node> {
+    pub fn children(&mut self, node: &ItemNode) -> Vec<ItemNode> {
         let mut children = Vec::new();
         for used in self.references(&node.place.path, node.place.range.start) {
             let Some(analysis) = self.analysis(&used.path) else { continue };
@@ -89,8 +89,8 @@ impl Workspace {
     }
 
     /// The items that use one.
-    pub fn callers(&mut self, node: &Node) -> Vec<Call> {
-        let mut calls: Vec<Call> = Vec::new();
+    pub fn callers(&mut self, node: &ItemNode) -> Vec<ItemUses> {
+        let mut calls: Vec<ItemUses> = Vec::new();
         for used in self.references(&node.place.path, node.place.range.start) {
             if used == node.place {
                 continue;
@@ -101,8 +101,8 @@ impl Workspace {
             let place = FilePlace { path: used.path.clone(), range: user.range.clone() };
             match calls.iter_mut().find(|call| call.node.place == place) {
                 Some(call) => call.at.push(used.range),
-                None => calls.push(Call {
-                    node: Node {
+                None => calls.push(ItemUses {
+                    node: ItemNode {
                         name: user.name.clone(),
                         kind: user.kind,
                         place,
@@ -116,9 +116,9 @@ impl Workspace {
     }
 
     /// The items that one uses.
-    pub fn callees(&mut self, node: &Node) -> Vec<Call> {
+    pub fn callees(&mut self, node: &ItemNode) -> Vec<ItemUses> {
         let Some(analysis) = self.analysis(&node.place.path) else { return Vec::new() };
-        let mut found: BTreeMap<(std::path::PathBuf, usize), Call> = BTreeMap::new();
+        let mut found: BTreeMap<(std::path::PathBuf, usize), ItemUses> = BTreeMap::new();
         for (at, declared) in analysis.index.uses() {
             let own = analysis.own(at).filter(|own| node.whole.contains(&own.start));
             let (Some(own), Some(place)) = (own, analysis.place(declared)) else { continue };
@@ -128,7 +128,7 @@ impl Workspace {
             }
             let Some(target) = self.node_at(&place) else { continue };
             let key = (place.path.clone(), place.range.start);
-            found.entry(key).or_insert(Call { node: target, at: Vec::new() }).at.push(own);
+            found.entry(key).or_insert(ItemUses { node: target, at: Vec::new() }).at.push(own);
         }
         found.into_values().collect()
     }

@@ -14,7 +14,7 @@ const ATTEMPTS: u32 = 300;
 
 /// Some words beside a byte of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Hint {
+pub struct InlayHint {
     /// The byte.
     pub at: usize,
     /// The words.
@@ -27,7 +27,7 @@ pub struct Hint {
 
 impl Analysis {
     /// What is written between the words of some bytes, in order.
-    pub fn hints(&self, within: &Range<usize>) -> Vec<Hint> {
+    pub fn hints(&self, within: &Range<usize>) -> Vec<InlayHint> {
         let mut hints = self.metres();
         hints.extend(self.argument_names());
         hints.extend(self.inherited());
@@ -38,7 +38,7 @@ impl Analysis {
     }
 
     /// Metres beside normalised points.
-    fn metres(&self) -> Vec<Hint> {
+    fn metres(&self) -> Vec<InlayHint> {
         let values = self.index.values().filter(|(_, fact)| fact.is_point);
         values
             .filter_map(|(span, fact)| {
@@ -47,7 +47,7 @@ impl Analysis {
                 let (x, y) = inner.split_once(',')?;
                 let is_plain = |text: &str| text.trim().parse::<f64>().is_ok();
                 let &[x_m, y_m] = fact.constants.as_slice() else { return None };
-                (is_plain(x) && is_plain(y)).then(|| Hint {
+                (is_plain(x) && is_plain(y)).then(|| InlayHint {
                     at: own.end,
                     text: format!("{:.1}m, {:.1}m", x_m + 0.0, y_m + 0.0),
                     doc: "from the centre spot, in the world's frame".to_owned(),
@@ -58,7 +58,7 @@ impl Analysis {
     }
 
     /// The names of arguments that stand without them.
-    fn argument_names(&self) -> Vec<Hint> {
+    fn argument_names(&self) -> Vec<InlayHint> {
         let kinds = self.kinds();
         let pairs: BTreeMap<usize, usize> =
             brackets(&self.text).iter().map(|it| (it.open, it.close)).collect();
@@ -87,7 +87,7 @@ impl Analysis {
                     key.trim().chars().all(|sign| sign.is_alphanumeric() || sign == '_')
                 });
                 if !has_name && text != param && !text.is_empty() {
-                    hints.push(Hint {
+                    hints.push(InlayHint {
                         at: argument.start,
                         text: format!("{param}:"),
                         doc: String::new(),
@@ -125,7 +125,7 @@ impl Analysis {
     }
 
     /// What the last scenario takes over from others, behind the brace that opens it.
-    fn inherited(&self) -> Option<Hint> {
+    fn inherited(&self) -> Option<InlayHint> {
         let loaded = self.loaded.as_ref()?;
         let scenario = self.tree.items.iter().find_map(|item| match &item.kind {
             ItemKind::Scenario(it) if Some(it.name.span) == loaded.origin => Some((it, item.span)),
@@ -182,7 +182,7 @@ impl Analysis {
         let open = brackets(&self.text).into_iter().find(|it| {
             own.contains(&it.open) && self.text.get(it.open..).is_some_and(|it| it.starts_with('{'))
         })?;
-        Some(Hint {
+        Some(InlayHint {
             at: open.open + 1,
             text: format!("from {}: {}", parent.name.node, parts.join(", ")),
             doc: "what the scenario takes over".to_owned(),
@@ -191,7 +191,7 @@ impl Analysis {
     }
 
     /// How many starts each requirement refuses.
-    fn refused(&self) -> Vec<Hint> {
+    fn refused(&self) -> Vec<InlayHint> {
         let Some(loaded) = &self.loaded else { return Vec::new() };
         let scenario = &loaded.scenario;
         if loaded.origins.requires.iter().all(|require| require.span.is_none()) {
@@ -207,7 +207,7 @@ impl Analysis {
             .filter_map(|(origin, refused)| {
                 let own = self.own(origin.span?)?;
                 let share = 100.0 * f64::from(*refused) / f64::from(found.attempts.max(1));
-                Some(Hint {
+                Some(InlayHint {
                     at: own.end,
                     text: format!("refuses {share:.0}%"),
                     doc: format!(

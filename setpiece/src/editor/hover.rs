@@ -2,7 +2,7 @@
 
 use super::complete::{block_of, inline_script};
 use super::keywords::KEYWORDS;
-use super::report::is_script;
+use super::place::is_script;
 use super::text::{brackets, word_at};
 use super::words::{self, Word};
 use super::{Analysis, FilePlace, Workspace, script};

@@ -2,7 +2,7 @@
 
 /// A kind of block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Block {
+pub(super) enum KeywordBlock {
     /// Outside of every block.
     File,
     /// `scenario`.
@@ -27,7 +27,7 @@ pub(super) struct Keyword {
     /// The word.
     pub(super) name: &'static str,
     /// Where it stands.
-    pub(super) block: Block,
+    pub(super) block: KeywordBlock,
     /// What it means, in a line.
     pub(super) doc: &'static str,
     /// The page of the reference, under `docs/language/`.
@@ -40,7 +40,7 @@ macro_rules! keywords {
     ($($block:ident $page:literal { $($name:literal $doc:literal $($snippet:literal)?;)* })*) => {
         &[$($(Keyword {
             name: $name,
-            block: Block::$block,
+            block: KeywordBlock::$block,
             doc: $doc,
             page: concat!($page, ".md"),
             snippet: concat!($($snippet)?),
@@ -138,7 +138,7 @@ pub(super) const KEYWORDS: &[Keyword] = keywords! {
         "finish" "ends the behaviour";
     }
     Check "level" {
-        "play" "what is played, and by whom" "play ${1:academy_corner} with ${2:bot} for ${3:50} episodes";
+        "play" "what is played, and who plays" "play ${1:academy_corner} with ${2:bot} for ${3:50} episodes";
         "expect" "what must hold" "expect ${1:success_rate > 50%}";
     }
     Curriculum "level" {
@@ -171,7 +171,7 @@ pub(super) const KEYWORDS: &[Keyword] = keywords! {
         "from" "seen from where; or where an event began";
         "in" "somewhere in a region; or whether something lies in it";
         "jitter" "moved at random by up to this much";
-        "of" "of whom, or of what";
+        "of" "of which player, or of what";
         "offset" "from a point along an angle";
         "own" "read in the team's own frame";
     }

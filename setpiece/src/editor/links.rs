@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// A part of a text that leads to a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Link {
+pub struct FileLink {
     /// The bytes.
     pub range: Range<usize>,
     /// The file.
@@ -17,7 +17,7 @@ impl Analysis {
     /// The files that a text names in quotes: imports, scripts, tables.
     ///
     /// `path`: the text's own.
-    pub fn links(&self, path: &Path) -> Vec<Link> {
+    pub fn links(&self, path: &Path) -> Vec<FileLink> {
         let mut links = Vec::new();
         let mut at = 0;
         for line in self.text.split_inclusive('\n') {
@@ -27,7 +27,7 @@ impl Analysis {
                 let is_file =
                     ["import", "script", "from"].iter().any(|word| before.ends_with(word));
                 if is_file && let Some(target) = self.file_named(path, named) {
-                    links.push(Link { range: at + open + 1..at + close, path: target });
+                    links.push(FileLink { range: at + open + 1..at + close, path: target });
                 }
             }
             at += line.len();

@@ -1,39 +1,17 @@
 //! Where names are declared and used, and how one is given another name.
 
+use super::edits::Edit;
 use super::edits::offset_after;
-use super::report::is_scenario;
-use super::symbols::flat;
-use super::{Analysis, Edit, Report, Symbol, SymbolKind, Workspace};
+use super::outline::{Symbol, SymbolKind, flat};
+use super::place::{FilePlace, is_scenario};
+use super::{Analysis, TextReport, Workspace};
 use crate::dsl::ast::Span;
 use crate::dsl::problem::Severity;
-use crate::dsl::source::{FileId, Sources};
-use crate::files::path_of;
+use crate::dsl::source::FileId;
 use crate::scenario::vocabulary::Role;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-/// A range of bytes of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FilePlace {
-    /// The file. One of the library has the path `std/…`.
-    pub path: PathBuf,
-    /// The bytes.
-    pub range: Range<usize>,
-}
-
-impl FilePlace {
-    /// The place of a span.
-    pub(super) fn of(span: Span, sources: &Sources) -> Option<FilePlace> {
-        let path = path_of(&sources.get(span.file)?.name);
-        Some(FilePlace { path, range: span.start as usize..span.end as usize })
-    }
-
-    /// Whether it lies in the library, which nobody edits.
-    pub fn is_in_library(&self) -> bool {
-        super::is_in_library(&self.path)
-    }
-}
 
 /// Why a name can't be changed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -103,7 +81,7 @@ impl Analysis {
 
     /// How many errors there are.
     pub(super) fn errors(&self) -> usize {
-        let is_error = |report: &&Report| report.severity == Severity::Error;
+        let is_error = |report: &&TextReport| report.severity == Severity::Error;
         self.reports.iter().filter(is_error).count()
     }
 }

@@ -53,7 +53,7 @@ impl Workspace {
         &self,
         place: &FilePlace,
         callee: &str,
-        argument: &Argument,
+        argument: &ArgumentAt,
     ) -> Option<Signature> {
         let source = Source { name: name_of(&place.path), text: self.file_text(&place.path)? };
         let tree = parse(&source, FileId(0), &mut Vec::new());
@@ -77,13 +77,13 @@ fn written(param: &ParamDecl, text: &str) -> String {
 
 /// Which argument stands at the cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Argument {
+enum ArgumentAt {
     Nth(usize),
     Named(String),
 }
 
 /// The signature of a call, with the argument at the cursor.
-fn shown(label: &str, doc: &str, argument: &Argument) -> Signature {
+fn shown(label: &str, doc: &str, argument: &ArgumentAt) -> Signature {
     let open = label.find('(').map_or(label.len(), |at| at + 1);
     let mut arguments: Vec<Range<usize>> = Vec::new();
     let (mut depth, mut start) = (0_usize, open);
@@ -108,8 +108,8 @@ fn shown(label: &str, doc: &str, argument: &Argument) -> Signature {
     }
     arguments.retain(|range| !range.is_empty());
     let active = match argument {
-        Argument::Nth(nth) => *nth,
-        Argument::Named(name) => arguments
+        ArgumentAt::Nth(nth) => *nth,
+        ArgumentAt::Named(name) => arguments
             .iter()
             .position(|range| {
                 let text = label.get(range.clone()).unwrap_or_default();
@@ -121,7 +121,7 @@ fn shown(label: &str, doc: &str, argument: &Argument) -> Signature {
 }
 
 /// The call whose brackets are open at a byte: the bytes of its name, and the argument.
-fn open_call(text: &str, offset: usize) -> Option<(Range<usize>, Argument)> {
+fn open_call(text: &str, offset: usize) -> Option<(Range<usize>, ArgumentAt)> {
     let before = text.get(..offset)?;
     let mut open: Vec<(char, usize, usize)> = Vec::new();
     for (at, sign) in code(before) {
@@ -145,8 +145,8 @@ fn open_call(text: &str, offset: usize) -> Option<(Range<usize>, Argument)> {
             let last = before.rfind([',', '(']).map_or(at + 1, |it| it + 1);
             let written = before.get(last..).unwrap_or_default();
             let key =
-                written.split_once(':').map(|(key, _)| Argument::Named(key.trim().to_owned()));
-            return Some((name, key.unwrap_or(Argument::Nth(commas))));
+                written.split_once(':').map(|(key, _)| ArgumentAt::Named(key.trim().to_owned()));
+            return Some((name, key.unwrap_or(ArgumentAt::Nth(commas))));
         }
         if sign == '{' {
             return None;

@@ -8,8 +8,8 @@ use super::{LanguageServer, fault};
 use crate::dsl::problem::Severity;
 use crate::editor::text::Lines;
 use crate::editor::{
-    Action, ActionKind, Analysis, Call, CompletionKind, FoldKind, LensKind, Node, Report, Symbol,
-    SymbolKind, TokenKind,
+    Action, ActionKind, Analysis, CompletionKind, FoldedKind, ItemNode, ItemUses, LensKind, Symbol,
+    SymbolKind, TextReport, TokenKind,
 };
 use gen_lsp_types as lsp;
 use lsp_server::{ErrorCode, ResponseError};
@@ -133,7 +133,7 @@ impl LanguageServer {
                 } else {
                     (self.workspace.callees(&node), "to")
                 };
-                let of = |call: &Call| {
+                let of = |call: &ItemUses| {
                     if end == "from" {
                         call.node.place.path.clone()
                     } else {
@@ -181,7 +181,7 @@ impl LanguageServer {
     }
 
     /// A report as the protocol has it; `text`: the text of its file.
-    pub(super) fn diagnostic(&self, report: &Report, text: &str) -> Value {
+    pub(super) fn diagnostic(&self, report: &TextReport, text: &str) -> Value {
         let related: Vec<Value> = report
             .related
             .iter()
@@ -384,9 +384,9 @@ impl LanguageServer {
                 let (start, end) = (line(fold.range.start), line(fold.range.end.saturating_sub(1)));
                 let (kind, end) = match fold.kind {
                     // The line of the closing bracket stays.
-                    FoldKind::Block => ("region", end.saturating_sub(1).max(start)),
-                    FoldKind::Comment => ("comment", end),
-                    FoldKind::Imports => ("imports", end),
+                    FoldedKind::Block => ("region", end.saturating_sub(1).max(start)),
+                    FoldedKind::Comment => ("comment", end),
+                    FoldedKind::Imports => ("imports", end),
                 };
                 json!({ "startLine": start, "endLine": end, "kind": kind })
             })
@@ -518,7 +518,7 @@ impl LanguageServer {
     }
 
     /// An item as the hierarchies have it.
-    fn node(&self, node: &Node) -> Option<Value> {
+    fn node(&self, node: &ItemNode) -> Option<Value> {
         let text = self.workspace.file_text(&node.place.path)?;
         Some(json!({
             "name": node.name,
@@ -530,7 +530,7 @@ impl LanguageServer {
     }
 
     /// The item that a hierarchy goes on from.
-    fn item(&mut self, item: &ItemPlace) -> Result<Option<Node>, ResponseError> {
+    fn item(&mut self, item: &ItemPlace) -> Result<Option<ItemNode>, ResponseError> {
         let (path, text) = self.text(&item.uri)?;
         let at: Range<usize> = bytes_of(&text, item.selection_range);
         Ok(self.workspace.node(&path, at.start))

@@ -1,6 +1,5 @@
 //! The outline of a text: what it declares.
 
-use super::Analysis;
 use crate::dsl::ast::{
     BehaviorBody, BehaviorItem, BehaviorStmt, BehaviorStmtKind, File, Item, ItemKind, RewardStmt,
     RewardStmtKind, RewardUse, RewardUseKind, ScenarioStmt, ScenarioStmtKind, Span, TeamStmt,
@@ -58,13 +57,6 @@ fn symbol(name: &str, kind: SymbolKind, at: Span, whole: Span) -> Symbol {
         whole: bytes(whole.to(at)),
         range: bytes(at),
         inside: Vec::new(),
-    }
-}
-
-impl Analysis {
-    /// What the text declares, in order.
-    pub fn symbols(&self) -> &[Symbol] {
-        &self.outline
     }
 }
 

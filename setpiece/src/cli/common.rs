@@ -30,7 +30,7 @@ pub(crate) enum ColourChoice {
 pub(crate) enum MessageFormat {
     /// With the source around them
     Human,
-    /// One line each: FILE:LINE:COLUMN: SEVERITY[CODE]: MESSAGE
+    /// A line each, with file, line, column, severity, code and message
     Short,
     /// One JSON array
     Json,

@@ -230,7 +230,7 @@ impl EventLog {
         let at = self.push(now, if by.is_some() { word } else { "referee" }, Some(sub_kind), by);
         match kind {
             EventKind::End => {
-                self.events[at].outcome = event.qualifier.map_or("end", Qualifier::name)
+                self.events[at].outcome = event.qualifier.map_or("end", Qualifier::name);
             }
             EventKind::HalfTime | EventKind::FullTime => self.events[at].outcome = "end",
             kind if words::is_set_piece(kind) => self.events[at].outcome = "awarded",

@@ -1,5 +1,8 @@
-//! Embeds every file of the standard library and every page of the error codes: adding one is
-//! adding a file.
+//! Embeds every file of the standard library, every page of the error codes and the studio's page:
+//! adding one is adding a file.
+//!
+//! They lie outside of this crate in the repository, and inside of it in a published package: cargo
+//! follows the links in `embedded/` when it packs. A system without links has files there.
 //!
 //! Not by the macro `include_dir`: without a build script it doesn't see that a file was added, and
 //! its files are bytes that are checked to be text at run time.
@@ -8,21 +11,33 @@ use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
-    embed("../stdlib-scenarios", &["pitch", "rhai"], "stdlib.rs")?;
-    embed("../docs/errors", &["md"], "pages.rs")
+    embed(&folder("stdlib-scenarios", "../stdlib-scenarios")?, &["pitch", "rhai"], "stdlib.rs")?;
+    embed(&folder("errors", "../docs/errors")?, &["md"], "pages.rs")?;
+    let page = folder("studio", "../studio/dist")?;
+    println!("cargo:rerun-if-changed={}", page.display());
+    println!("cargo:rustc-env=SETPIECE_STUDIO_PAGE={}", page.display());
+    Ok(())
+}
+
+/// A folder of `embedded/`, or the one in the repository that it stands for.
+fn folder(name: &str, in_repository: &str) -> io::Result<PathBuf> {
+    let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
+    let packed = package.join("embedded").join(name);
+    let chosen = if packed.is_dir() { packed } else { package.join(in_repository) };
+    chosen.canonicalize().map_err(|why| {
+        io::Error::new(why.kind(), ["can't embed ", &chosen.display().to_string()].concat())
+    })
 }
 
 /// Writes a table of paths and texts, sorted by path.
-fn embed(folder: &str, endings: &[&str], table_name: &str) -> io::Result<()> {
-    let package = env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default();
-    let root = Path::new(&package).join(folder).canonicalize()?;
+fn embed(root: &Path, endings: &[&str], table_name: &str) -> io::Result<()> {
     println!("cargo:rerun-if-changed={}", root.display());
     let mut files = Vec::new();
-    collect(&root, endings, &mut files)?;
+    collect(root, endings, &mut files)?;
     files.sort();
     let mut table = String::from("&[\n");
     for file in files {
-        let name = file.strip_prefix(&root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
+        let name = file.strip_prefix(root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
         let path = file.display().to_string();
         table.push_str(&["    (\"", &name, "\", include_str!(r\"", &path, "\")),\n"].concat());
     }

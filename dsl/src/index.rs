@@ -45,6 +45,16 @@ impl Index {
         }
     }
 
+    /// The same facts with the places of a file moved: of a text that was mended before it was
+    /// compiled.
+    #[must_use]
+    pub fn moved(self, place: impl Fn(Span) -> Span) -> Index {
+        Index {
+            uses: self.uses.into_iter().map(|(at, it)| (place(at), place(it))).collect(),
+            values: self.values.into_iter().map(|(at, fact)| (place(at), fact)).collect(),
+        }
+    }
+
     /// Where the name at a place is declared: the place of the declared name.
     pub fn declaration(&self, at: Span) -> Option<Span> {
         self.uses.get(&at).copied()

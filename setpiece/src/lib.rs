@@ -59,3 +59,8 @@ pub use setpiece_dsl as dsl;
 pub use setpiece_engine as engine;
 pub use setpiece_render as render;
 pub use setpiece_scenario as scenario;
+
+// The examples of the README are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

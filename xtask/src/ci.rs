@@ -22,6 +22,11 @@ pub(crate) fn ci() -> Result<(), String> {
     } else {
         println!("grammar: left out, tree-sitter is not installed: see `cargo xtask grammar`");
     }
+    if crate::workflows::is_there() {
+        crate::workflows::workflows()?;
+    } else {
+        println!("workflows: left out, actionlint is not installed: see `cargo xtask workflows`");
+    }
     crate::studio::check()?;
     rust_tests()?;
     run(Command::new("cargo")

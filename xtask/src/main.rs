@@ -2,17 +2,20 @@
 //! others.
 #![allow(clippy::print_stdout, reason = "a command talks to its user")]
 
+mod archive;
 mod ci;
 mod editors;
 mod fuzz;
 mod grammar;
 mod npm;
 mod pictures;
+mod release;
 mod shell;
 mod studio;
 mod tidy;
 mod transfer;
 mod vscode;
+mod workflows;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
 use std::process::ExitCode;
@@ -62,6 +65,12 @@ enum Command {
     },
     /// Test the extension for Visual Studio Code and pack it to target/setpiece.vsix
     Vscode,
+    /// Check the workflows of .github with actionlint
+    Workflows,
+    /// Check that everything names one version, and what else a release needs
+    Release(release::ReleaseArgs),
+    /// Pack the command of a target into target/archives
+    Archive(archive::ArchiveArgs),
     /// Write docs/pitchc.schema.json
     Schema,
     /// Compare the game's figures with those measured in Google Research Football
@@ -111,6 +120,9 @@ fn main() -> ExitCode {
         Command::Editors { drive: false } => ("editors", editors::assemble()),
         Command::Editors { drive: true } => ("editors", editors::drive()),
         Command::Vscode => ("vscode", vscode::vscode()),
+        Command::Workflows => ("workflows", workflows::workflows()),
+        Command::Release(args) => ("release", release::release(&args)),
+        Command::Archive(args) => ("archive", archive::archive(&args)),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
         Command::Soak { args } => ("soak", ci::lab("soak", &args)),

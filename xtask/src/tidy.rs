@@ -200,6 +200,7 @@ pub(crate) fn tidy() -> Result<(), String> {
     dsl_arrows(&mut breaches)?;
     names::check(&mut breaches)?;
     rings::check(&mut breaches)?;
+    crate::release::versions(&mut breaches);
     let tracked = tracked()?;
     words::check(&tracked, &mut breaches)?;
     for path in &tracked {

@@ -1,7 +1,8 @@
 //! What the compiler finds out about one text.
 
-use super::text::Lines;
-use super::{FilePlace, Report};
+use super::symbols::{move_all, of_file};
+use super::text::{Lines, closed};
+use super::{FilePlace, Report, Symbol};
 use crate::Loaded;
 use crate::dsl::ast::{File, Span};
 use crate::dsl::index::Index;
@@ -24,6 +25,8 @@ pub struct Analysis {
     pub lines: Lines,
     /// Its syntax tree.
     pub tree: File,
+    /// What it declares, also where brackets are still open.
+    pub(super) outline: Vec<Symbol>,
     /// What is wrong with it and with what it imports, by file and place.
     pub reports: Vec<Report>,
     /// The files that were read; the text is the first.
@@ -43,6 +46,23 @@ impl Analysis {
         let tree = parse::parse(&source, FileId(0), &mut Vec::new());
         let loader = FileLoader::beside(&source.name).with_texts(texts.clone());
         let mut outcome = compile(source.clone(), &loader, &options(None));
+        let mut outline = of_file(&tree);
+        // Behind a bracket that is still open nothing can be read: what names and values are is
+        // found in the text as it will be.
+        if let Some(closed) = closed(&text) {
+            let mended = Source { name: source.name.clone(), text: closed.text.as_str().into() };
+            outline = of_file(&parse::parse(&mended, FileId(0), &mut Vec::new()));
+            let bytes = |range: &Range<usize>| closed.before(range.start)..closed.before(range.end);
+            move_all(&mut outline, &bytes);
+            let place = |span: Span| match span.file {
+                FileId(0) => {
+                    let own = bytes(&(span.start as usize..span.end as usize));
+                    Span { file: span.file, start: own.start as u32, end: own.end as u32 }
+                }
+                _ => span,
+            };
+            outcome.index = compile(mended, &loader, &options(None)).index.moved(place);
+        }
         let mut reports = Report::all(&outcome.problems, &outcome.sources);
         let mut inputs: BTreeSet<PathBuf> = outcome.inputs.iter().map(|it| path_of(it)).collect();
         if reports.iter().any(|report| report.code == Code::NoScenario)
@@ -65,6 +85,7 @@ impl Analysis {
             lines: Lines::of(&text),
             text,
             tree,
+            outline,
             reports,
             sources: outcome.sources,
             index: outcome.index,

@@ -16,8 +16,14 @@ impl Analysis {
             if file.0 > 0 && !is_scenario(Path::new(&source.name)) {
                 continue;
             }
-            let symbols = of_file(&parse(source, file, &mut Vec::new()));
-            for symbol in flat(&symbols) {
+            let parsed;
+            let symbols = if file.0 == 0 {
+                self.symbols()
+            } else {
+                parsed = of_file(&parse(source, file, &mut Vec::new()));
+                &parsed
+            };
+            for symbol in flat(symbols) {
                 let (start, end) = (symbol.range.start as u32, symbol.range.end as u32);
                 kinds.insert(Span { file, start, end }, symbol.kind);
             }
@@ -27,10 +33,9 @@ impl Analysis {
 
     /// The innermost thing with a name around a byte that is of one of these kinds.
     pub(super) fn around(&self, offset: usize, kinds: &[SymbolKind]) -> Option<super::Symbol> {
-        let symbols = self.symbols();
         let holds = |it: &&super::Symbol| {
             kinds.contains(&it.kind) && it.whole.start <= offset && offset <= it.whole.end
         };
-        flat(&symbols).into_iter().filter(holds).min_by_key(|it| it.whole.len()).cloned()
+        flat(self.symbols()).into_iter().filter(holds).min_by_key(|it| it.whole.len()).cloned()
     }
 }

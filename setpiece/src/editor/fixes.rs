@@ -63,20 +63,16 @@ impl Workspace {
             tries.extend(self.imports(path, analysis, report));
         }
         tries.dedup_by(|one, other| one.edits == other.edits);
-        let (code, count) = (report.code, tries.len());
+        let code = report.code;
         let mends: Vec<Try> = tries
             .into_iter()
             .take(TRIES)
             .filter(|it| self.mends(path, report, &it.edits))
             .collect();
-        let alone = mends.len() == 1 && count == 1;
         mends
             .into_iter()
             .map(|it| Action {
-                title: match &report.help {
-                    Some(help) if alone && !help.starts_with("did you mean") => help.clone(),
-                    _ => it.title,
-                },
+                title: it.title,
                 kind: ActionKind::Fix,
                 edits: it.edits,
                 code: Some(code),
@@ -148,11 +144,17 @@ fn meant(analysis: &Analysis, path: &Path, report: &Report) -> Vec<Try> {
     let mut tries = Vec::new();
     // An example isn't what the author meant; of one with a unit, the unit is.
     let is_example = help.contains("for example") || help.contains("the unit");
+    // What could be written is no answer to what should be.
+    let lists = help.contains("use one of") || help.starts_with("it has");
+    if lists {
+        return Vec::new();
+    }
     for text in quoted(help) {
         let unit = text.trim_start_matches(|sign: char| sign.is_ascii_digit() || sign == '.');
-        if is_number(marked) && unit.len() < text.len() && !unit.is_empty() && is_example {
+        let has_unit = unit.len() < text.len() && unit.starts_with(char::is_alphabetic);
+        if has_unit && is_number(marked) {
             tries.push(write(range.clone(), format!("{marked}{unit}")));
-        } else if !is_example {
+        } else if !has_unit && !is_example {
             tries.push(write(range.clone(), text.to_owned()));
             if let [sign] = text.as_bytes()
                 && sign.is_ascii_punctuation()
@@ -172,6 +174,11 @@ fn meant(analysis: &Analysis, path: &Path, report: &Report) -> Vec<Try> {
         };
         tries.push(leave(range.clone(), &format!("`{}`", one_line(marked))));
         tries.push(leave(line, "the line"));
+    }
+    if let [only] = tries.as_mut_slice()
+        && !help.starts_with("did you mean")
+    {
+        only.title.clone_from(help);
     }
     tries
 }

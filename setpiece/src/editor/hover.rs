@@ -45,7 +45,12 @@ impl Workspace {
         if let Some(declaration) = declaration {
             parts.extend(analysis.declared(&declaration));
         } else {
-            parts.extend(words::all().filter(|known| known.name == word).map(about));
+            let begins =
+                before.trim_end_matches([' ', '\t']).ends_with(['\n', '{']) || before.is_empty();
+            parts.extend(keyword(before, word).filter(|_| begins));
+            if parts.is_empty() {
+                parts.extend(words::all().filter(|known| known.name == word).map(about));
+            }
             if parts.is_empty() {
                 parts.extend(keyword(before, word));
             }
@@ -152,11 +157,21 @@ impl Analysis {
 
     /// The smallest expression around a byte, with what is known of it.
     fn value_around(&self, offset: usize) -> Option<(Range<usize>, &ValueFact)> {
-        self.index
+        let mut around: Vec<(Range<usize>, &ValueFact)> = self
+            .index
             .values()
             .filter_map(|(span, fact)| Some((self.own(span)?, fact)))
             .filter(|(own, _)| own.start <= offset && offset <= own.end)
-            .min_by_key(|(own, _)| own.len())
+            .collect();
+        around.sort_by_key(|(own, _)| own.len());
+        // A coordinate says little without the other one.
+        let mut around = around.into_iter();
+        let first = around.next()?;
+        let is_literal = self.text.get(first.0.clone())?.parse::<f64>().is_ok();
+        match around.next() {
+            Some(next) if is_literal && next.1.is_point => Some(next),
+            _ => Some(first),
+        }
     }
 
     /// The first line of a declaration, and the comment above it.

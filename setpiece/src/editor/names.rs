@@ -3,11 +3,12 @@
 use super::edits::offset_after;
 use super::report::is_scenario;
 use super::symbols::flat;
-use super::{Analysis, Edit, Report, SymbolKind, Workspace};
+use super::{Analysis, Edit, Report, Symbol, SymbolKind, Workspace};
 use crate::dsl::ast::Span;
 use crate::dsl::problem::Severity;
 use crate::dsl::source::{FileId, Sources};
 use crate::files::path_of;
+use crate::scenario::vocabulary::Role;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -60,8 +61,12 @@ impl Analysis {
         let nearest = uses.min_by_key(|(at, _)| at.end - at.start);
         let declared = || self.index.uses().map(|(_, declared)| declared).find(|span| holds(*span));
         let unused = || {
-            let symbols = self.symbols();
-            let named = flat(&symbols).into_iter().filter(|it| it.kind != SymbolKind::Team);
+            // A player without a name stands under the role, a word of the language.
+            let is_role =
+                |it: &Symbol| it.kind == SymbolKind::Player && Role::from_name(&it.name).is_some();
+            let named = flat(self.symbols())
+                .into_iter()
+                .filter(|it| it.kind != SymbolKind::Team && !is_role(it));
             let mut here = named.filter(|it| it.range.start <= offset && offset <= it.range.end);
             here.next().map(|it| Span {
                 file: FileId(0),

@@ -20,8 +20,7 @@ impl Analysis {
         let blank = text.len() - text.trim_start().len();
         around.push(line.start + blank..line.start + text.trim_end().len().max(blank));
         around.extend(self.tree.items.iter().filter_map(|item| self.own(item.span)));
-        let symbols = self.symbols();
-        around.extend(super::symbols::flat(&symbols).into_iter().map(|it| it.whole.clone()));
+        around.extend(super::symbols::flat(self.symbols()).into_iter().map(|it| it.whole.clone()));
         // From the largest to the smallest; what overlaps the last one only in part is left out.
         let sizes: BTreeSet<(std::cmp::Reverse<usize>, usize)> = around
             .into_iter()

@@ -63,14 +63,23 @@ fn symbol(name: &str, kind: SymbolKind, at: Span, whole: Span) -> Symbol {
 
 impl Analysis {
     /// What the text declares, in order.
-    pub fn symbols(&self) -> Vec<Symbol> {
-        of_file(&self.tree)
+    pub fn symbols(&self) -> &[Symbol] {
+        &self.outline
     }
 }
 
 /// What a file declares, in order.
 pub(super) fn of_file(file: &File) -> Vec<Symbol> {
     file.items.iter().filter_map(of_item).collect()
+}
+
+/// Moves the bytes of symbols.
+pub(super) fn move_all(symbols: &mut [Symbol], to: &impl Fn(&Range<usize>) -> Range<usize>) {
+    for symbol in symbols {
+        symbol.whole = to(&symbol.whole);
+        symbol.range = to(&symbol.range);
+        move_all(&mut symbol.inside, to);
+    }
 }
 
 /// Symbols and all that is inside them, from the outside in.

@@ -105,6 +105,57 @@ pub fn brackets(text: &str) -> Vec<Bracket> {
     found
 }
 
+/// A text whose brackets are closed, and how its bytes came from the first text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Closed {
+    /// The text.
+    pub text: String,
+    /// The bytes of the first text before which a bracket was written.
+    added: Vec<usize>,
+}
+
+impl Closed {
+    /// A byte of the closed text in the first one.
+    pub fn before(&self, at: usize) -> usize {
+        // The n-th bracket stands at its byte and n others.
+        let earlier = self.added.iter().enumerate().filter(|(nth, byte)| **byte + nth < at).count();
+        at - earlier
+    }
+}
+
+/// A text with the brackets closed that it leaves open, as late as can be, and without those that
+/// close nothing. None if nothing is to be done.
+pub fn closed(text: &str) -> Option<Closed> {
+    let (mut open, mut blank): (Vec<char>, Vec<usize>) = (Vec::new(), Vec::new());
+    let mut added: Vec<(usize, char)> = Vec::new();
+    for (at, sign) in code(text) {
+        match sign {
+            '(' => open.push(')'),
+            '[' => open.push(']'),
+            '{' => open.push('}'),
+            ')' | ']' | '}' => match open.iter().rposition(|end| *end == sign) {
+                Some(which) => {
+                    added.extend(open.drain(which..).skip(1).rev().map(|end| (at, end)));
+                }
+                None => blank.push(at),
+            },
+            _ => {}
+        }
+    }
+    added.extend(open.iter().rev().map(|end| (text.len(), *end)));
+    if added.is_empty() && blank.is_empty() {
+        return None;
+    }
+    let mut whole = text.to_owned();
+    for at in blank {
+        whole.replace_range(at..=at, " ");
+    }
+    for (at, end) in added.iter().rev() {
+        whole.insert(*at, *end);
+    }
+    Some(Closed { text: whole, added: added.into_iter().map(|(at, _)| at).collect() })
+}
+
 /// The characters of a text that are neither in a comment nor in quotes, with their bytes.
 pub fn code(text: &str) -> impl Iterator<Item = (usize, char)> {
     #[derive(Clone, Copy, PartialEq)]
@@ -174,6 +225,18 @@ mod tests {
         assert_eq!(word_at("ball at x_1", 11), 8..11);
         assert_eq!(word_at("ball at", 4), 0..4);
         assert_eq!(word_at("a + b", 2), 2..2);
+    }
+
+    #[test]
+    fn what_is_left_open_is_closed() {
+        for (text, expected) in
+            [("a { f(1, }", "a { f(1, )}"), ("a { b [", "a { b []}"), ("a ) {}", "a   {}")]
+        {
+            assert_eq!(closed(text).map(|it| it.text).as_deref(), Some(expected));
+        }
+        assert_eq!(closed("a { (b) }"), None);
+        let it = closed("f( } x{ y").map(|it| (it.before(0), it.before(it.text.len())));
+        assert_eq!(it, Some((0, 9)));
     }
 
     #[test]

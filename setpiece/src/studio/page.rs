@@ -15,16 +15,16 @@ pub(super) const ASSETS: &[Asset] = &[
     Asset {
         path: "/",
         media: "text/html; charset=utf-8",
-        content: include_bytes!("../../../studio/dist/index.html"),
+        content: include_bytes!(concat!(env!("SETPIECE_STUDIO_PAGE"), "/index.html")),
     },
     Asset {
         path: "/studio.js",
         media: "text/javascript; charset=utf-8",
-        content: include_bytes!("../../../studio/dist/studio.js"),
+        content: include_bytes!(concat!(env!("SETPIECE_STUDIO_PAGE"), "/studio.js")),
     },
     Asset {
         path: "/studio.css",
         media: "text/css; charset=utf-8",
-        content: include_bytes!("../../../studio/dist/studio.css"),
+        content: include_bytes!(concat!(env!("SETPIECE_STUDIO_PAGE"), "/studio.css")),
     },
 ];

@@ -16,9 +16,12 @@ pub(super) fn check(example: &Path, printed: &str) -> Result<(), String> {
     if expected.is_empty() {
         return Err(format!("{}: expects no capture", example.display()));
     }
-    for (name, line, column) in expected.difference(&found) {
-        let (line, column) = (line + 1, column + 1);
-        return Err(format!("{}:{line}:{column}: no capture @{name}", example.display()));
+    let missing: Vec<String> = expected
+        .difference(&found)
+        .map(|(name, line, column)| format!("{}:{}: no capture @{name}", line + 1, column + 1))
+        .collect();
+    if !missing.is_empty() {
+        return Err(format!("{}:\n  {}", example.display(), missing.join("\n  ")));
     }
     println!("grammar: {} has its {} captures", example.display(), expected.len());
     Ok(())

@@ -38,6 +38,7 @@ from setpiece._errors import (
     UnavailableError,
     UnknownScenarioError,
 )
+from setpiece._groups import FootballGroups, make_groups
 from setpiece._levels import Curriculum, LevelResult, curriculum
 from setpiece._library import Entry, list, register_envs
 from setpiece._make import make
@@ -67,6 +68,7 @@ __all__ = [
     "Estimate",
     "FileError",
     "FootballEnv",
+    "FootballGroups",
     "FootballVectorEnv",
     "FormatError",
     "GameMode",
@@ -106,6 +108,7 @@ __all__ = [
     "list",
     "load",
     "make",
+    "make_groups",
     "make_vec",
     "onnx_policy",
     "parallel_env",

@@ -39,10 +39,14 @@ class Diagnostic:
 
 
 class SetpieceError(Exception):
-    """Any error of this package: `code` is the stable code, if any, `help` what to do instead."""
+    """Any error of this package: `code` is the stable code, if any, `help` what to do instead.
+
+    `environment` is the number of the environment of a vector whose episode failed, if one did.
+    """
 
     code: str | None
     help: str | None
+    environment: int | None = None
 
     def __init__(self, message: str, *, code: str | None = None, help: str | None = None) -> None:
         super().__init__(message)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final, Protocol, TypedDict, final
 
@@ -309,6 +310,7 @@ class Replay:
     def action_set(self) -> str: ...
     @property
     def acts(self) -> list[RecordedAct]: ...
+    def export(self, folder: str | PathLike[str], form: str) -> list[Path]: ...
     def environment(self, observation: str) -> Environment: ...
 
 @final

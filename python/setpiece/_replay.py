@@ -25,6 +25,9 @@ from setpiece._vocabulary import Action
 
 BAD_REPLAY = "SP0014"
 
+FORMS = ("cdf", "csv")
+"""The forms of `Replay.export`."""
+
 Pressed = Action | NDArray[np.float32]
 """What an agent does in a step: a key, or the four numbers of continuous actions."""
 
@@ -166,6 +169,22 @@ class Replay:
         with self._named():
             video = _native.replay_video(self._recorded, form)
         write(target, video)
+
+    def export(self, folder: str | PathLike[str], form: str = "cdf") -> list[Path]:
+        """Writes tracking and event data into a folder, and returns the paths of the files.
+
+        - `folder`: is made if it isn't there.
+        - `form`: `"cdf"`, Common Data Format: `meta.json`, `tracking.jsonl`, `event.jsonl`; or
+          `"csv"`: `meta.json`, `tracking.csv`, `events.csv`. `setpiece.kloppy` reads both.
+
+        Raises `ParameterError` for another form, `FileError` if the files can't be written,
+        `ReplayError` if this build diverges from the recording.
+        """
+        target = check_path("folder", folder)
+        if form not in FORMS:
+            raise ParameterError(f"expected one of {FORMS}, found `{form!r}`", name="form")
+        with self._named():
+            return self._recorded.export(target, form)
 
     def _compare(self, native: _native.Environment, step: int) -> None:
         """Raises if the last state isn't the recorded one."""

@@ -13,11 +13,14 @@ EXAMPLES = """\
 Examples:
   setpiece replay runs/academy_corner_7_0.pitchr
   setpiece replay goal.pitchr --format jsonl | head -1
+  setpiece replay goal.pitchr --format cdf -o goal/
   setpiece replay goal.pitchr --format grf -o goal.dump
 """
 FORMATS = {
     "text": "in a few lines (the default)",
     "jsonl": "one JSON object per line, for the start and for every step",
+    "cdf": "tracking and events, ten frames per second, as Common Data Format; needs -o",
+    "csv": "the same as tables; needs -o",
     "grf": "a dump of Google Research Football, for `script_helpers`; needs -o",
 }
 COLOURS = ("auto", "always", "never")
@@ -35,7 +38,9 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("file", metavar="FILE", help="a recorded episode (.pitchr)")
     formats = "; ".join(f"{name}: {what}" for name, what in FORMATS.items())
     parser.add_argument("--format", metavar="FORMAT", choices=FORMATS, default="text", help=formats)
-    parser.add_argument("-o", "--output", metavar="OUT.dump", help="where a dump is written")
+    parser.add_argument(
+        "-o", "--output", metavar="OUT", help="where a dump is written; a folder for cdf and csv"
+    )
     parser.add_argument(
         "--color", metavar="WHEN", choices=COLOURS, help=f"{', '.join(COLOURS)}: colour the output"
     )

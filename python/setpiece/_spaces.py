@@ -335,3 +335,22 @@ def _raw_space(players: tuple[int, int], team: int, held_actions: int) -> spaces
         parts[f"{side}_active"] = spaces.Box(0, 1, (size,), dtype=np.bool_)
         parts[f"{side}_roles"] = spaces.Box(0, 9, (size,), dtype=np.int64)
     return spaces.Dict(parts)
+
+
+class ManyMatches(Protocol):
+    """Whatever has the space of a match's agents."""
+
+    @property
+    def agents(self) -> tuple[str, ...]: ...
+    @property
+    def single_observation_space(self) -> spaces.Space[Any]: ...
+
+
+def box_of_one_agent(envs: ManyMatches) -> spaces.Box:
+    """Returns what one agent sees in a vector; the space of several has their axis first."""
+    space = envs.single_observation_space
+    # A vector stacks arrays only.
+    assert isinstance(space, spaces.Box)
+    if len(envs.agents) == 1:
+        return space
+    return spaces.Box(space.low[0], space.high[0], dtype=space.low.dtype.type)

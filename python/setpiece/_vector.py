@@ -103,7 +103,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self._window: Window | None = None
         self.num_envs = check_count("num_envs", num_envs, ENVS_MAX)
         threads = check_threads(threads, self.num_envs)
-        self.autoreset_mode = _mode(autoreset_mode)
+        self.autoreset_mode = read_mode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
         self._options = options
         self.scenario = scripted_scenario(scenario, options, options.params).with_params(
@@ -139,6 +139,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         )
         self._part = Picker(len(agents), mine[0] if len(mine) == 1 else mine)
         self.agents = tuple(agents[at].id for at in mine)
+        self.teams = tuple(agents[at].team for at in mine)
         self.single_observation_space = observation_space(
             self._batch, options.observation, [agents[at] for at in mine]
         )
@@ -521,7 +522,7 @@ def one_of(**kwargs: Any) -> FootballEnv:
     return FootballEnv(**arguments)
 
 
-def _mode(mode: object) -> AutoresetMode:
+def read_mode(mode: object) -> AutoresetMode:
     for known in AutoresetMode:
         if mode is known or (
             isinstance(mode, str) and mode.lower() in (known.name.lower(), known.value.lower())

@@ -571,15 +571,17 @@ impl Batch {
     /// the others have been played.
     fn raise_failure(&mut self, py: Python<'_>) -> PyResult<()> {
         let mut first = None;
-        for lane in self.lanes.lanes_mut() {
+        for (at, lane) in self.lanes.lanes_mut().iter_mut().enumerate() {
             let failure = lane.failure.take().map(|why| match why {
                 LaneFailure::Step(why) => from_episode(py, why.into()),
                 LaneFailure::Draw(why) => from_episode(py, why.into()),
                 LaneFailure::Level(why) => from_unfit(py, &lane.engine, why),
             });
-            first = first.or(failure);
+            first = first.or_else(|| failure.map(|failure| (at, failure)));
         }
-        first.map_or(Ok(()), Err)
+        let Some((at, failure)) = first else { return Ok(()) };
+        failure.value(py).setattr("environment", at)?;
+        Err(failure)
     }
 }
 

@@ -11,6 +11,7 @@ use pyo3::types::PyBytes;
 use setpiece::files::read_file;
 use setpiece::replay::{REPLAY_MAX_BYTES, Replay as Recording};
 use setpiece::scenario::Action;
+use setpiece::tracking::{Tracking, TrackingForm};
 use std::path::PathBuf;
 
 /// An agent's action in a step.
@@ -115,6 +116,21 @@ impl Replay {
             Ok(RecordedAct { action: action.index(), steer: steer.transpose()? })
         };
         self.inner.acts().map(act).collect()
+    }
+
+    /// Writes its tracking and event data into a folder; returns the paths of the files.
+    #[allow(clippy::needless_pass_by_value, reason = "what Python hands over is an owned path")]
+    fn export(&self, py: Python<'_>, folder: PathBuf, form: &str) -> PyResult<Vec<PathBuf>> {
+        let form = match form {
+            "cdf" => TrackingForm::Cdf,
+            "csv" => TrackingForm::Csv,
+            _ => {
+                let message = format!("expected `cdf` or `csv`, found `{form}`");
+                return Err(errors::parameter(py, "form", &message));
+            }
+        };
+        py.detach(|| Tracking::of(&self.inner)?.save(&folder, form))
+            .map_err(|error| errors::from_facade(py, &error))
     }
 
     /// An environment that can play it with `replayed`, before its start.

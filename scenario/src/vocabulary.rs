@@ -7,6 +7,8 @@ mod action;
 mod agent;
 mod event;
 mod function;
+mod measure;
+mod option;
 mod pitch;
 mod places;
 mod primitive;
@@ -20,6 +22,10 @@ pub use action::{Action, StickyAction};
 pub use agent::AGENTS;
 pub use event::{EventField, EventKind, Qualifier};
 pub use function::Function;
+pub use measure::{MeasureWord, QuantityWord};
+pub use option::{
+    AgentsOption, BallOption, PlayerOption, StartOption, SubstituteOption, TeamOption,
+};
 pub use pitch::{PitchFigure, PitchMeasure};
 pub use places::{Along, Landmark, PitchRect, PitchRegion, RegionName, RegionShape};
 pub use primitive::Primitive;
@@ -44,6 +50,9 @@ macro_rules! words {
         impl $name {
             /// Every variant, in the table's order.
             pub const ALL: &'static [$name] = &[$($name::$variant,)+];
+
+            /// The name of every variant, in the table's order.
+            pub const NAMES: &'static [&'static str] = &[$($word,)+];
 
             /// The name in the language.
             pub const fn name(self) -> &'static str {

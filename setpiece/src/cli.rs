@@ -14,6 +14,7 @@ mod lsp;
 mod out;
 mod play;
 mod playing;
+mod reference;
 #[cfg(feature = "render")]
 mod render;
 mod replay;
@@ -31,6 +32,8 @@ use common::{ColourChoice, FAULT, FINE, MessageFormat};
 use out::{Out, StyledText};
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
+
+pub use reference::reference;
 
 /// Football scenarios from text files, and the engine that runs them.
 #[derive(Parser, Debug)]
@@ -154,10 +157,11 @@ A recorded episode (.pitchr) is drawn as it was played: who played, seed and par
   setpiece snapshot 11_vs_11_stochastic --step 1500 -o half_time.pitchs
   setpiece snapshot corner.pitch --agent run_and_shoot --seed 3 --step 12 -o shot.pitchs")]
     Snapshot(snapshot::SnapshotArgs),
-    /// Play a recorded episode again, bit for bit, and describe it
+    /// Play a recorded episode again, bit for bit, and describe or convert it
     #[command(after_help = "Examples:
   setpiece replay runs/academy_corner_7_0.pitchr
   setpiece replay goal.pitchr --format jsonl | head -1
+  setpiece replay goal.pitchr --format cdf -o goal/
 
 The Python package's command also writes Google Research Football's dumps: `--format grf -o goal.dump`;
 `setpiece.Replay` reads the file in Python.")]

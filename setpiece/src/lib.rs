@@ -41,12 +41,13 @@ mod stdlib;
 #[cfg(feature = "studio")]
 pub mod studio;
 pub mod suite;
+pub mod tracking;
 #[cfg(feature = "video")]
 pub mod video;
 pub mod watch;
 
 /// The address of the documentation.
-pub const DOCS: &str = "https://setpiece-rl.github.io/setpiece";
+pub const DOCS: &str = env!("CARGO_PKG_HOMEPAGE");
 
 pub use error::Error;
 pub use level::Level;

@@ -42,7 +42,7 @@ pub fn capabilities() -> Value {
             "inlayHintProvider": true,
             "codeLensProvider": {},
             "signatureHelpProvider": { "triggerCharacters": ["(", ","] },
-            "completionProvider": { "triggerCharacters": [".", "\"", " ", ":", "/"] },
+            "completionProvider": { "triggerCharacters": [".", "\"", "/"] },
             "codeActionProvider": {
                 "codeActionKinds": ["quickfix", "source.fixAll", "refactor.extract", "refactor.rewrite"],
             },

@@ -10,6 +10,7 @@
 pub mod drag;
 pub mod guard;
 pub mod hands;
+mod language;
 mod live;
 pub mod message;
 pub mod moment;

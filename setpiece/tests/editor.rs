@@ -283,7 +283,7 @@ fn fixes_mend_what_they_are_about() {
         ("end limit 400", "end limit 400s"),
         ("require distance(ball, right.goal) > 3", "require distance(ball, right.goal) > 3m"),
         ("require ball.metres.x > self.metres.x", ""),
-        ("end when 30s", "end limit 30s"),
+        ("end when 30s", "end when elapsed > 30s"),
         ("rules { ofside: off }", "rules { offside: off }"),
         ("team right { CF at (0.5 0.1) }", "team right { CF at (0.5, 0.1) }"),
         ("team right { CFF at (0.5, 0.1) }", "team right { CF at (0.5, 0.1) }"),

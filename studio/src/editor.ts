@@ -1,15 +1,19 @@
 // The text, with the reports beside their lines.
 //
-// Whatever checks texts gives it problems through `report`: today the session's compiler, later a
-// language server.
+// The session's check gives it problems through `report`; completion, hover, fixes and the rest come
+// from the language server.
 
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
 import { type Diagnostic, lintGutter, setDiagnostics } from "@codemirror/lint";
-import { EditorState, Transaction } from "@codemirror/state";
+import { Compartment, EditorState, Transaction } from "@codemirror/state";
 import { EditorView, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
+import { Language } from "./language";
 import type { Label, Problem } from "./messages";
+
+/** For how many problems fixes are looked for. */
+const OFFERED = 10;
 
 const WORDS = new Set(
   ("scenario abstract extends reward behavior formation region ending const fn import param let " +
@@ -52,6 +56,10 @@ const colours = HighlightStyle.define([
 
 export class Editor {
   private readonly view: EditorView;
+  private readonly language = new Language();
+  private readonly served = new Compartment();
+  private address = "";
+  private reports = 0;
   private quiet = false;
 
   constructor(parent: HTMLElement, changed: (text: string) => void, save: () => void) {
@@ -64,6 +72,7 @@ export class Editor {
           pitch,
           syntaxHighlighting(colours),
           lintGutter(),
+          this.served.of([]),
           EditorView.lineWrapping,
           keymap.of([
             { key: "Mod-s", run: () => (save(), true), preventDefault: true },
@@ -80,6 +89,14 @@ export class Editor {
         ],
       }),
     });
+  }
+
+  /** Serves the text under an address, by which its imports are found. */
+  async serve(address: string): Promise<void> {
+    if (address === this.address) return;
+    this.address = address;
+    const extension = await this.language.open(address);
+    this.view.dispatch({ effects: this.served.reconfigure(extension) });
   }
 
   text(): string {
@@ -125,6 +142,22 @@ export class Editor {
       };
     });
     this.view.dispatch(setDiagnostics(this.view.state, shown));
+    void this.offer(shown);
+  }
+
+  /** Adds what mends the problems, once the server has tried it. */
+  private async offer(shown: Diagnostic[]): Promise<void> {
+    const report = ++this.reports;
+    const text = this.view.state.doc;
+    for (const problem of shown.slice(0, OFFERED)) {
+      const fixes = await this.language.fixes(this.view, problem.from, problem.to).catch(() => []);
+      // Another check has come meanwhile.
+      if (report !== this.reports || !this.view.state.doc.eq(text)) return;
+      problem.actions = fixes.map((fix) => ({ name: fix.title, apply: fix.apply }));
+    }
+    if (shown.some((problem) => problem.actions?.length)) {
+      this.view.dispatch(setDiagnostics(this.view.state, shown));
+    }
   }
 
   private range(label: Label | undefined): [number, number] {

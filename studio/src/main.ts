@@ -126,6 +126,7 @@ function hear(reply: Reply): void {
       // What somebody types here has come this way already.
       if (reply.from === SELF) break;
       clearTimeout(waiting);
+      void editor.serve(reply.uri);
       if (dirty && !moved && ![reply.text, ""].includes(editor.text())) {
         say("somebody else is editing this text");
       }

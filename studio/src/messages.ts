@@ -105,7 +105,7 @@ export type HeldKey =
 export interface Keys { way: [number, number]; held: HeldKey[] }
 
 export type Reply =
-  | { type: "opened"; source: string; is_file: boolean; is_saved: boolean; text: string;
+  | { type: "opened"; source: string; uri: string; is_file: boolean; is_saved: boolean; text: string;
       from: string | null }
   | { type: "checked"; problems: Problem[]; fault: string | null; name: string; title: string;
       params: Param[]; agents: Seat[]; players: string[] }

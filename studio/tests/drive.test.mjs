@@ -1,7 +1,7 @@
 // The page in a real browser, against the real command: `cargo xtask studio --drive`.
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -129,6 +129,46 @@ test("a mistake is shown at its line and goes", async () => {
   await page.keyboard.press("Control+z");
   await waits(page, "#problems", "no problems");
   assert.equal(await page.locator(".cm-lint-marker-error").count(), 0);
+});
+
+test("the text is completed, explained, mended, renamed and laid out", async () => {
+  const { folder, file } = drill();
+  const page = await open("drill.pitch", folder);
+  await waits(page, "#problems", "no problems");
+  await page.click(".cm-content");
+  await page.keyboard.press("Control+End");
+  await page.keyboard.insertText("scenario next extends drill {\n  end success when ball in them.");
+  await page.keyboard.type("bo");
+  await waits(page, ".cm-tooltip-autocomplete", "box");
+  // What has just been shown can't be taken yet: a key may have been meant for the text.
+  await page.waitForTimeout(200);
+  await page.keyboard.press("Enter");
+  await waits(page, ".cm-content", "them.box");
+  await page.keyboard.insertText("\n    reward scorin\n}\n");
+  await waits(page, "#problems", "error");
+  await page.locator(".cm-lintRange-error").last().hover();
+  const fix = page.locator(".cm-diagnosticAction", { hasText: "scoring" });
+  await fix.click(PATIENCE);
+  await waits(page, "#problems", "no problems");
+  await waits(page, ".cm-content", "reward scoring");
+  await page.locator(".cm-line span", { hasText: /^0\.4$/ }).first().hover();
+  await waits(page, ".cm-tooltip-hover", "21.76m");
+  await page.mouse.move(0, 0);
+  await page.keyboard.press("Shift+Alt+f");
+  await waits(page, ".cm-content", "    end success when");
+  await page.keyboard.press("Control+s");
+  await waits(page, "#state", "saved");
+  const laidOut = spawnSync(COMMAND, ["fmt", "--check", file], { encoding: "utf8" });
+  assert.equal(laidOut.status, 0, laidOut.stdout + laidOut.stderr);
+  // The name of a parameter, from where it is used.
+  await page.locator(".cm-line", { hasText: "20m + gap" }).click();
+  await page.keyboard.press("Home");
+  for (let step = 0; step < "        CB at (20m + g".length; step++) await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("F2");
+  await page.locator(".cm-lsp-rename-panel input").fill("distance_ahead");
+  await page.keyboard.press("Enter");
+  await waits(page, ".cm-content", "param distance_ahead: length");
+  await waits(page, ".cm-content", "20m \\+ distance_ahead");
 });
 
 test("a save on disk is shown, and one here is written", async () => {

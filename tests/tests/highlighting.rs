@@ -293,6 +293,17 @@ fn keywords() -> BTreeSet<String> {
     words
 }
 
+/// Python's lexer reads the grammar from its package, which has a copy of it.
+#[test]
+fn the_python_package_has_the_same_grammar() {
+    let (grammar, copy) =
+        (read("grammar/setpiece.tmLanguage.json"), "python/setpiece/pitch.tmLanguage.json");
+    if std::env::var_os("SETPIECE_BLESS").is_some() {
+        std::fs::write(root().join(copy), &grammar).unwrap();
+    }
+    assert!(read(copy) == grammar, "{copy} is another one: SETPIECE_BLESS=1 copies it");
+}
+
 fn names<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str) -> BTreeSet<String> {
     all.iter().map(|word| name(*word).to_owned()).collect()
 }

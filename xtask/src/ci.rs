@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Format, house rules, lints, dependencies, the studio, tests, docs, the editors, the wheel and
-/// its tests.
+/// its tests, the site.
 pub(crate) fn ci() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"])?;
     crate::tidy::tidy()?;
@@ -34,7 +34,8 @@ pub(crate) fn ci() -> Result<(), String> {
         .env("RUSTDOCFLAGS", "-D warnings"))?;
     crate::editors::drive_if_there()?;
     crate::vscode::vscode_if_there()?;
-    python()?;
+    let wheel = python()?;
+    crate::docs::build(&wheel)?;
     // Last, because a policy of the wheel plays there too.
     crate::studio::drive_if_there()
 }
@@ -87,10 +88,11 @@ pub(crate) fn rust_tests() -> Result<(), String> {
     }
 }
 
-/// Builds the wheel once and tests it in a separate environment.
-pub(crate) fn python() -> Result<(), String> {
+/// Builds the wheel once, tests it in a separate environment, and returns it.
+pub(crate) fn python() -> Result<PathBuf, String> {
     let python = venv("venv", "python/requirements-dev.txt")?;
-    install_wheel(&python, &wheel(&python)?)?;
+    let wheel = wheel(&python)?;
+    install_wheel(&python, &wheel)?;
     let run_in = |folder: &str, args: &[&str]| {
         run(Command::new(&python)
             .arg("-m")
@@ -99,13 +101,16 @@ pub(crate) fn python() -> Result<(), String> {
     };
     run_in("", &["ruff", "check"])?;
     run_in("", &["ruff", "format", "--check"])?;
-    run_in("../benches", &["ruff", "check", "--config", "../python/pyproject.toml"])?;
+    for folder in ["../benches", "../site"] {
+        run_in(folder, &["ruff", "check", "--config", "../python/pyproject.toml"])?;
+    }
     for folder in ["../lab/pictures", "../lab/record", "../lab/transfer"] {
         run_in(folder, &["ruff", "check", "--config", "../../python/pyproject.toml"])?;
     }
     run_in("tests", &["mypy", "--strict", "--config-file", "../pyproject.toml", "-p", "setpiece"])?;
     run_in("tests", &["mypy.stubtest", "setpiece._native"])?;
-    pytest(&python)
+    pytest(&python)?;
+    Ok(wheel)
 }
 
 /// Builds the wheel and runs the Python tests with the heavy packages, so that all of `tests/full`

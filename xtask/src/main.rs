@@ -4,6 +4,7 @@
 
 mod archive;
 mod ci;
+mod docs;
 mod editors;
 mod fuzz;
 mod grammar;
@@ -57,6 +58,12 @@ enum Command {
     /// Generate the parser of grammar/tree-sitter, have it read the repository's files, and test
     /// its queries
     Grammar,
+    /// Check the workflows of .github with actionlint
+    Workflows,
+    /// Check that everything names one version, and what else a release needs
+    Release(release::ReleaseArgs),
+    /// Pack the command of a target into target/archives
+    Archive(archive::ArchiveArgs),
     /// Put the plugins for Neovim, Helix and Zed together in target/editors
     Editors {
         /// Drive the server from Node and Neovim instead
@@ -65,12 +72,6 @@ enum Command {
     },
     /// Test the extension for Visual Studio Code and pack it to target/setpiece.vsix
     Vscode,
-    /// Check the workflows of .github with actionlint
-    Workflows,
-    /// Check that everything names one version, and what else a release needs
-    Release(release::ReleaseArgs),
-    /// Pack the command of a target into target/archives
-    Archive(archive::ArchiveArgs),
     /// Write docs/pitchc.schema.json
     Schema,
     /// Compare the game's figures with those measured in Google Research Football
@@ -95,6 +96,8 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "OPTIONS")]
         args: Vec<String>,
     },
+    /// Build the docs site into target/site, and check its links, its search and its start page
+    Docs,
     /// Draw the pictures of docs/examples.md
     Pictures,
     /// Try random inputs; see fuzz/README.md
@@ -110,23 +113,24 @@ fn main() -> ExitCode {
     let (name, result) = match command {
         Command::Ci => ("ci", ci::ci()),
         Command::Test => ("test", ci::rust_tests()),
-        Command::Python { full: false } => ("python", ci::python()),
+        Command::Python { full: false } => ("python", ci::python().map(drop)),
         Command::Python { full: true } => ("python", ci::python_full()),
         Command::Tidy => ("tidy", tidy::tidy()),
         Command::Studio { drive: false, shots: false } => ("studio", studio::build()),
         Command::Studio { shots, .. } => ("studio", studio::drive(shots)),
         Command::Deny => ("deny", ci::deny()),
         Command::Grammar => ("grammar", grammar::grammar()),
-        Command::Editors { drive: false } => ("editors", editors::assemble()),
-        Command::Editors { drive: true } => ("editors", editors::drive()),
-        Command::Vscode => ("vscode", vscode::vscode()),
         Command::Workflows => ("workflows", workflows::workflows()),
         Command::Release(args) => ("release", release::release(&args)),
         Command::Archive(args) => ("archive", archive::archive(&args)),
+        Command::Editors { drive: false } => ("editors", editors::assemble()),
+        Command::Editors { drive: true } => ("editors", editors::drive()),
+        Command::Vscode => ("vscode", vscode::vscode()),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
         Command::Soak { args } => ("soak", ci::lab("soak", &args)),
         Command::Transfer { args } => ("transfer", transfer::transfer(&args)),
+        Command::Docs => ("docs", docs::docs()),
         Command::Pictures => ("pictures", pictures::pictures()),
         Command::Fuzz(args) => ("fuzz", fuzz::fuzz(&args)),
     };

@@ -1,28 +1,23 @@
 //! The keys of every pair of braces, each list once.
 
+use setpiece_scenario::vocabulary::{
+    AgentsOption, BallOption, PitchFigure, PlayerOption, StartOption, SubstituteOption, TeamOption,
+};
+
 /// Keys of `agents { }`.
-pub(crate) const AGENTS: &[&str] = &["left", "right", "others", "switching"];
+pub(crate) const AGENTS: &[&str] = AgentsOption::NAMES;
 /// Keys of `team { }`.
-pub(crate) const TEAM: &[&str] = &["difficulty", "formation"];
+pub(crate) const TEAM: &[&str] = TeamOption::NAMES;
 /// Keys of a player's `{ }`.
-pub(crate) const PLAYER: &[&str] = &[
-    "ai",
-    "difficulty",
-    "controllable",
-    "stats",
-    "fatigue",
-    "yellow_cards",
-    "velocity",
-    "overlap",
-];
+pub(crate) const PLAYER: &[&str] = PlayerOption::NAMES;
 /// Keys of `substitute … { }`.
-pub(crate) const SUBSTITUTE: &[&str] = &["fatigue", "difficulty", "stats"];
+pub(crate) const SUBSTITUTE: &[&str] = SubstituteOption::NAMES;
 /// Keys of the ball's `{ }`.
-pub(crate) const BALL: &[&str] = &["velocity", "height", "spin", "owner"];
-/// Keys of `world { }`.
+pub(crate) const BALL: &[&str] = BallOption::NAMES;
+/// Keys of `world { }`; the wind is one key with two figures.
 pub(crate) const WORLD: &[&str] =
     &["gravity", "wind", "drag", "swerve", "spin_decay", "bounce", "friction"];
 /// Keys of `pitch { }`.
-pub(crate) const PITCH: &[&str] = &["length", "width", "goal", "goal_height", "box", "box_width"];
+pub(crate) const PITCH: &[&str] = PitchFigure::NAMES;
 /// Keys of `start … { }`.
-pub(crate) const START: &[&str] = &["score", "elapsed"];
+pub(crate) const START: &[&str] = StartOption::NAMES;

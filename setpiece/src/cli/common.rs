@@ -9,6 +9,8 @@ use std::time::Duration;
 pub(super) const FINE: u8 = 0;
 /// Exit code if the input has errors.
 pub(super) const FAULT: u8 = 1;
+/// Exit code if the command line has errors.
+pub(super) const USAGE: u8 = 2;
 /// How often a progress bar and a watcher update.
 pub(super) const TICK: Duration = Duration::from_millis(200);
 

@@ -1,6 +1,6 @@
-//! `setpiece replay`: plays a recorded episode again and describes it.
+//! `setpiece replay`: plays a recorded episode again, and describes or converts it.
 
-use super::common::FINE;
+use super::common::{FINE, USAGE};
 use super::out::Out;
 use crate::Error;
 use crate::engine::environment::Environment;
@@ -9,7 +9,9 @@ use crate::files::read_file;
 use crate::replay::{REPLAY_MAX_BYTES, Replay};
 use crate::scenario::pitch::{PLAYERS_MAX, to_normalised};
 use crate::scenario::{Action, Qualifier, Team};
-use clap::{Args, ValueEnum};
+use crate::tracking::{Tracking, TrackingForm};
+use clap::error::ErrorKind;
+use clap::{Args, Command, ValueEnum};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
@@ -21,6 +23,14 @@ pub(crate) struct ReplayArgs {
     /// The output format
     #[arg(long, value_enum, default_value_t = ReplayFormat::Text)]
     format: ReplayFormat,
+    /// Where the files of `cdf` and `csv` are written
+    #[arg(
+        short,
+        long,
+        value_name = "FOLDER",
+        required_if_eq_any = [("format", "cdf"), ("format", "csv")]
+    )]
+    output: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -29,11 +39,44 @@ enum ReplayFormat {
     Text,
     /// One JSON object per line, for the start and for every step
     Jsonl,
+    /// Common Data Format: tracking and events, ten frames per second; needs -o
+    Cdf,
+    /// Tables of tracking and events; needs -o
+    Csv,
+}
+
+impl ReplayFormat {
+    /// The form of the files, for a format that is one of files.
+    fn form(self) -> Option<TrackingForm> {
+        match self {
+            ReplayFormat::Text | ReplayFormat::Jsonl => None,
+            ReplayFormat::Cdf => Some(TrackingForm::Cdf),
+            ReplayFormat::Csv => Some(TrackingForm::Csv),
+        }
+    }
 }
 
 /// Plays the episode.
 pub(crate) fn replay(args: &ReplayArgs, out: &Out) -> Result<u8, Error> {
+    let folder = match (&args.output, args.format.form()) {
+        (Some(folder), Some(form)) => Some((folder, form)),
+        (Some(_), None) => {
+            let command = ReplayArgs::augment_args(Command::new("setpiece replay"));
+            let why = "`-o` is for `--format cdf` and `--format csv`; this format is printed";
+            let _ =
+                command.bin_name("setpiece replay").error(ErrorKind::ArgumentConflict, why).print();
+            return Ok(USAGE);
+        }
+        (None, _) => None,
+    };
     let replay = Replay::from_bytes(&read_file(&args.file, REPLAY_MAX_BYTES)?)?;
+    if let Some((folder, form)) = folder {
+        let tracking = Tracking::of(&replay)?;
+        for path in tracking.save(folder, form)? {
+            out.line(path.display().to_string());
+        }
+        return Ok(FINE);
+    }
     let as_jsonl = args.format == ReplayFormat::Jsonl;
     let environment = replay.play(|environment, actions| {
         if as_jsonl {

@@ -128,6 +128,8 @@ pub enum Reply {
 pub struct OpenReply {
     /// The name or path that was asked for.
     pub source: String,
+    /// The address of the text for the language server.
+    pub uri: String,
     /// Whether the text can be saved.
     pub is_file: bool,
     /// Whether the file has this text.

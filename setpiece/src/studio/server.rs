@@ -1,6 +1,7 @@
 //! The server: one page, and a socket for each tab.
 
 use super::guard::{self, Refusal};
+use super::language;
 use super::message::{REQUEST_MAX_BYTES, Request};
 use super::page::{ASSETS, Asset};
 use super::session::{Command, Session};
@@ -184,7 +185,8 @@ fn serve_until(
         let shared = Shared { port, token: token.clone(), framed, commands, replies };
         let address = format!("http://127.0.0.1:{port}/?token={token}");
         ready(Ready { address, port, commands: shared.commands.clone(), is_gone });
-        let mut routes = Router::new().route("/socket", get(socket));
+        let mut routes =
+            Router::new().route("/socket", get(socket)).route("/language", get(language));
         for asset in ASSETS {
             routes =
                 routes.route(
@@ -234,6 +236,22 @@ fn file(
         (header::CONTENT_SECURITY_POLICY, if shared.framed { FRAMED } else { ALONE }),
     ];
     (headers, asset.content).into_response()
+}
+
+/// The language server of a tab's text.
+async fn language(
+    State(shared): State<Shared>,
+    headers: HeaderMap,
+    Query(ticket): Query<Ticket>,
+    upgrade: WebSocketUpgrade,
+) -> Response {
+    if let Err(why) = admitted(&shared, &headers, &ticket) {
+        return refused(why);
+    }
+    upgrade
+        .max_message_size(REQUEST_MAX_BYTES)
+        .max_frame_size(REQUEST_MAX_BYTES)
+        .on_upgrade(language::converse)
 }
 
 /// The socket of a tab.

@@ -8,13 +8,13 @@ use crate::lower::value::Repr;
 use crate::problem::Guess;
 use crate::problem::facts::{Instead, Plans as Facts};
 use setpiece_scenario::plan::{self, Comparison, Measure, Quantity};
+use setpiece_scenario::vocabulary::{MeasureWord, QuantityWord};
 use setpiece_scenario::{LIMIT, ROUNDS, Reward, Scenario};
 
 /// What can be measured.
-const MEASURES: [&str; 8] =
-    ["success_rate", "rate", "mean", "min", "max", "quantile", "steps", "episodes"];
+const MEASURES: &[&str] = MeasureWord::NAMES;
 /// The numbers of an episode.
-const QUANTITIES: [&str; 5] = ["length", "return", "score", "record", "term"];
+const QUANTITIES: &[&str] = QuantityWord::NAMES;
 /// The most episodes that a curriculum looks back on.
 const LAST_MAX: u64 = 1_000_000;
 
@@ -145,8 +145,8 @@ impl<'w> Planner<'_, 'w> {
                     Facts::IsRecord { name: named, form }
                 } else {
                     let records = scenario.records.iter().map(|record| record.name.as_str());
-                    let known: Vec<&str> = MEASURES.into_iter().chain(records).collect();
-                    let guess = Guess::similar_or(other, &known, &MEASURES).read_as(|meant| {
+                    let known: Vec<&str> = MEASURES.iter().copied().chain(records).collect();
+                    let guess = Guess::similar_or(other, &known, MEASURES).read_as(|meant| {
                         let record = format!("mean(record {meant})");
                         Some(if is_record(meant, scenario) { record } else { meant.to_owned() })
                     });
@@ -205,8 +205,8 @@ impl<'w> Planner<'_, 'w> {
             }
         };
         let records = scenario.records.iter().map(|record| record.name.as_str());
-        let known: Vec<&str> = QUANTITIES.into_iter().chain(records).collect();
-        let guess = Guess::similar_or(&text, &known, &QUANTITIES).read_as(|meant| {
+        let known: Vec<&str> = QUANTITIES.iter().copied().chain(records).collect();
+        let guess = Guess::similar_or(&text, &known, QUANTITIES).read_as(|meant| {
             let record = format!("record {meant}");
             Some(if is_record(meant, scenario) { record } else { meant.to_owned() })
         });

@@ -5,16 +5,25 @@ use crate::engine::control::agents::Agent;
 use crate::engine::environment::{Environment, EnvironmentOptions};
 use crate::scenario::{Bindings, Type};
 use crate::studio::message::{CheckReply, OpenReply, ParamControl, Reply, SeatReply};
+use gen_lsp_types as lsp;
 
 impl Session {
     pub(super) fn opening(&self, from: Option<String>) -> Reply {
         Reply::Opened(OpenReply {
             source: self.source.clone(),
+            uri: self.uri(),
             is_file: self.path.is_some(),
             is_saved: self.path.is_none() || self.text == self.on_disk,
             text: self.text.clone(),
             from,
         })
+    }
+
+    /// The address of the text: that of its file, if it is one.
+    fn uri(&self) -> String {
+        let path = self.path.as_ref().and_then(|path| std::path::absolute(path).ok());
+        let uri = path.and_then(|path| lsp::Uri::from_file_path(path).ok());
+        uri.map_or_else(|| "untitled:studio.pitch".to_owned(), |uri| uri.to_string())
     }
 
     pub(super) fn checked(&self) -> Reply {

@@ -1,0 +1,36 @@
+"""The example that reads a replay's data with kloppy and draws it with mplsoccer."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import setpiece
+
+pytest.importorskip("kloppy", reason="kloppy isn't installed")
+pytest.importorskip("mplsoccer", reason="mplsoccer isn't installed")
+
+EXAMPLE = Path(__file__).parents[3] / "examples" / "draw_tracking.py"
+
+
+@pytest.mark.parametrize("form", ["cdf", "csv"])
+def test_the_example_draws_a_replay(tmp_path: Path, form: str) -> None:
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    env = setpiece.make("academy_empty_goal_close", bot_action=True)
+    _, info = env.reset(seed=1)
+    over = False
+    while not over:
+        _, _, terminated, truncated, info = env.step(info["bot_action"])
+        over = terminated or truncated
+    env.save_replay(tmp_path / "goal.pitchr")
+    setpiece.Replay(tmp_path / "goal.pitchr").export(tmp_path / "data", form)
+    picture = tmp_path / "goal.png"
+    subprocess.run([sys.executable, EXAMPLE, tmp_path / "data", picture], check=True)
+    pixels = pyplot.imread(picture)
+    assert pixels.shape[1] > 1200
+    red = abs(pixels[..., :3] - [0xE2 / 255, 0x57 / 255, 0x4C / 255]).sum(-1) < 0.05
+    middle = pixels.shape[1] // 2
+    # The players' ways on the left, the shot and its star on the right.
+    assert red[:, :middle].sum() > 100
+    assert red[:, middle:].sum() > 100

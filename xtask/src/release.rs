@@ -23,10 +23,10 @@ const PLACES: &[(&str, &str)] = &[
     ("fuzz/Cargo.toml", "\nversion = \""),
     ("grammar/tree-sitter/tree-sitter.json", "\"version\": \""),
     ("CITATION.cff", "\nversion: \""),
+    ("editors/vscode/package.json", "\n  \"version\": \""),
+    ("editors/zed/Cargo.toml", "\nversion = \""),
+    ("editors/zed/extension.toml", "\nversion = \""),
 ];
-
-/// The extension for VS Code has the same version.
-const EXTENSION: (&str, &str) = ("editors/vscode/package.json", "\n  \"version\": \"");
 
 /// What is checked or written for a release.
 #[derive(Debug, Args)]
@@ -74,8 +74,7 @@ pub(crate) fn release(args: &ReleaseArgs) -> Result<(), String> {
 
 /// Reports each place that names another version than the workspace.
 pub(crate) fn versions(breaches: &mut Vec<String>) {
-    let extension = root().join(EXTENSION.0).exists().then_some(&EXTENSION);
-    for (file, before) in PLACES.iter().chain(extension) {
+    for (file, before) in PLACES {
         match read(file) {
             Ok(text) => match value_after(&text, before) {
                 Some(VERSION) => {}

@@ -38,10 +38,8 @@ pub(crate) fn vscode() -> Result<(), String> {
     run(npm::npm().args(["test", "--silent"]).env("SETPIECE", command).current_dir(&folder))?;
     run(npm::npm().args(["run", "--silent", "build"]).current_dir(&folder))?;
     let package = root().join("target/setpiece.vsix");
-    // The version is the workspace's, which this program has too.
     run(npm::npm()
-        .args(["exec", "--offline", "--", "vsce", "package", env!("CARGO_PKG_VERSION")])
-        .args(["--no-dependencies", "--no-update-package-json", "--no-git-tag-version", "--out"])
+        .args(["exec", "--offline", "--", "vsce", "package", "--no-dependencies", "--out"])
         .arg(&package)
         .current_dir(&folder))?;
     let script = "import sys, zipfile; print(*zipfile.ZipFile(sys.argv[1]).namelist(), sep='\\n')";

@@ -50,14 +50,19 @@ fn short_reports_are_lines_that_begin_with_a_place() {
     let path = write(
         folder.path(),
         "mistakes.pitch",
-        "scenario mistakes extends academy {\n    ball at (0.6, 0)\n    reward scorin\n}\n",
+        "scenario mistakes extends academy {
+    ball at (0.6, 0)
+    team left { CM at (0.5, 0) }
+    reward scorin
+}
+",
     );
     let output = setpiece(&["check", &path, "absent.pitch", "--message-format", "short"]);
     assert_eq!(output.status.code(), Some(1));
     let printed = text(&output.stdout);
     let lines: Vec<&str> = printed.lines().collect();
     assert_eq!(lines.len(), 2, "{printed}");
-    assert!(lines[0].starts_with(&format!("{path}:3:12: error[SP02")), "{printed}");
+    assert!(lines[0].starts_with(&format!("{path}:4:12: error[SP0201]")), "{printed}");
     assert!(lines[1].starts_with("absent.pitch:1:1: error[SP00"), "{printed}");
 }
 

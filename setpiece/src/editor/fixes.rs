@@ -7,7 +7,7 @@ use super::actions::{Action, ActionKind};
 use super::edits::Edit;
 use super::place::is_scenario;
 use super::report::TextReport;
-use super::text::line_around;
+use super::text::{brackets, line_around};
 use super::{Analysis, Workspace};
 use crate::dsl::problem::Code;
 use crate::files::FileLoader;
@@ -158,6 +158,14 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
             tries.push(write(range.clone(), format!("{marked}{unit}")));
         } else if !has_unit && !is_example {
             tries.push(write(range.clone(), text.to_owned()));
+            // What is written in brackets may stand for the brackets around.
+            let around = brackets(&analysis.text)
+                .into_iter()
+                .rev()
+                .find(|pair| pair.open <= range.start && range.end <= pair.close);
+            if let Some(pair) = around.filter(|_| text.starts_with(['(', '[', '{'])) {
+                tries.push(write(pair.open..pair.close, text.to_owned()));
+            }
             if let [sign] = text.as_bytes()
                 && sign.is_ascii_punctuation()
             {

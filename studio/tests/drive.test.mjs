@@ -117,6 +117,11 @@ test("it opens, plays and scrubs", async () => {
   await shoot(page, "studio");
 });
 
+/** Waits for something with these words. */
+async function appears(page, selector, words) {
+  await page.locator(selector, { hasText: words }).first().waitFor(PATIENCE);
+}
+
 test("a mistake is shown at its line and goes", async () => {
   const { folder } = drill();
   const page = await open("drill.pitch", folder);
@@ -138,8 +143,8 @@ test("the text is completed, explained, mended, renamed and laid out", async () 
   await page.click(".cm-content");
   await page.keyboard.press("Control+End");
   await page.keyboard.insertText("scenario next extends drill {\n  end success when ball in them.");
-  await page.keyboard.type("bo");
-  await waits(page, ".cm-tooltip-autocomplete", "box");
+  await page.keyboard.type("box");
+  await appears(page, ".cm-tooltip-autocomplete li[aria-selected]", "box");
   // What has just been shown can't be taken yet: a key may have been meant for the text.
   await page.waitForTimeout(200);
   await page.keyboard.press("Enter");
@@ -152,7 +157,7 @@ test("the text is completed, explained, mended, renamed and laid out", async () 
   await waits(page, "#problems", "no problems");
   await waits(page, ".cm-content", "reward scoring");
   await page.locator(".cm-line span", { hasText: /^0\.4$/ }).first().hover();
-  await waits(page, ".cm-tooltip-hover", "21.76m");
+  await appears(page, ".cm-tooltip-hover", "21.76m");
   await page.mouse.move(0, 0);
   await page.keyboard.press("Shift+Alt+f");
   await waits(page, ".cm-content", "    end success when");
@@ -163,7 +168,7 @@ test("the text is completed, explained, mended, renamed and laid out", async () 
   // The name of a parameter, from where it is used.
   await page.locator(".cm-line", { hasText: "20m + gap" }).click();
   await page.keyboard.press("Home");
-  for (let step = 0; step < "        CB at (20m + g".length; step++) await page.keyboard.press("ArrowRight");
+  for (let step = 0; step < "CB at (20m + g".length; step++) await page.keyboard.press("ArrowRight");
   await page.keyboard.press("F2");
   await page.locator(".cm-lsp-rename-panel input").fill("distance_ahead");
   await page.keyboard.press("Enter");

@@ -312,6 +312,25 @@ fn fixes_mend_what_they_are_about() {
     }
 }
 
+/// Lines of Google Research Football are replaced as a whole, and no help brings its own numbers.
+#[test]
+fn everything_that_says_how_is_mended_at_once() {
+    let text = "scenario s extends academy {\n    builder.config().game_duration = 400\n    \
+        builder.SetBallPosition(0.26, -0.11)\n    ball at (0.26, -0.11)\n    reward scorin\n}\n";
+    let path = Path::new("/nowhere/grf.pitch");
+    let mut workspace = Workspace::default();
+    workspace.set(path, text);
+    assert!(!workspace.reports()[path].is_empty());
+    let all = workspace.fix_all(path).expect("something can be mended");
+    assert_eq!(all.kind, ActionKind::FixAll);
+    let after = &all.edits[0].text;
+    for expected in
+        ["    end limit 400 steps\n", "builder.SetBallPosition(0.26", "reward scoring\n"]
+    {
+        assert!(after.contains(expected), "{expected}: {after}");
+    }
+}
+
 #[test]
 fn a_file_that_declares_an_unknown_name_is_imported() {
     let folder = Path::new("/nowhere/pitches");

@@ -35,12 +35,10 @@ pub enum ActionKind {
 
 impl Workspace {
     /// What may be changed where some bytes are selected; none of it leads to another problem.
+    /// [`Workspace::fix_all`] has what mends the whole text.
     pub fn actions(&mut self, path: &Path, within: Range<usize>) -> Vec<Action> {
         let Some(analysis) = self.analysis(path) else { return Vec::new() };
         let mut actions = self.fixes(path, &within);
-        if actions.len() > 1 || analysis.own_reports(path).count() > 1 {
-            actions.extend(self.fix_all(path));
-        }
         let others = [
             analysis.other_units(path, &within),
             analysis.parameter(path, &within),

@@ -16,6 +16,8 @@ use std::path::Path;
 
 /// How many edits are tried for a report.
 const TRIES: usize = 12;
+/// For how many reports of a selection edits are tried.
+const REPORTS: usize = 6;
 /// How often the fixes of a text are applied one after the other: each may uncover another report.
 const ROUNDS: usize = 200;
 
@@ -27,13 +29,13 @@ impl Workspace {
             let own = &report.place.range;
             own.start <= within.end && within.start <= own.end
         };
-        let reports: Vec<TextReport> =
-            analysis.own_reports(path).filter(touches).cloned().collect();
+        let reports = analysis.own_reports(path).filter(touches).take(REPORTS);
+        let reports: Vec<TextReport> = reports.cloned().collect();
         reports.iter().flat_map(|report| self.fixes_of(path, &analysis, report)).collect()
     }
 
     /// What mends everything in a text whose report says how; none if nothing does.
-    pub(super) fn fix_all(&self, path: &Path) -> Option<Action> {
+    pub fn fix_all(&self, path: &Path) -> Option<Action> {
         let before = self.file_text(path)?;
         let mut after = self.clone();
         let mut from = 0;
@@ -144,6 +146,8 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
         edits: vec![Edit::replace(path, range, text)],
     };
     let mut tries = Vec::new();
+    let line = line_around(&analysis.text, range.start);
+    let whole_line = analysis.text.get(line).unwrap_or_default().to_owned();
     // An example isn't what the author meant; of one with a unit, the unit is.
     let is_example = help.contains("for example") || help.contains("the unit");
     // What could be written is no answer to what should be.
@@ -156,8 +160,15 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
         let has_unit = unit.len() < text.len() && unit.starts_with(char::is_alphabetic);
         if has_unit && is_number(marked) {
             tries.push(write(range.clone(), format!("{marked}{unit}")));
-        } else if !has_unit && !is_example {
+        } else if !has_unit && !is_example && !invents(text, marked, &whole_line) {
             tries.push(write(range.clone(), text.to_owned()));
+            // A line of another language is replaced as a whole.
+            let line = line_around(&analysis.text, range.start);
+            let written = analysis.text.get(line.clone()).unwrap_or_default();
+            let begin = line.start + written.len() - written.trim_start().len();
+            if begin == range.start {
+                tries.push(write(begin..line.start + written.trim_end().len(), text.to_owned()));
+            }
             // What is written in brackets may stand for the brackets around.
             let around = brackets(&analysis.text)
                 .into_iter()
@@ -205,6 +216,22 @@ fn quoted(help: &str) -> impl Iterator<Item = &str> {
     parts
         .map(|part| part.trim_end_matches(" …"))
         .filter(|part| !part.contains('…') && !part.is_empty())
+}
+
+/// Whether a help has numbers of its own where the author wrote others.
+fn invents(text: &str, marked: &str, line: &str) -> bool {
+    let numbers = |text: &str| -> Vec<String> {
+        let parts = text.split(|sign: char| !(sign.is_alphanumeric() || matches!(sign, '.' | '_')));
+        let begins = |part: &&str| part.starts_with(|sign: char| sign.is_ascii_digit());
+        parts
+            .filter(begins)
+            .map(|part| part.trim_end_matches(char::is_alphabetic).to_owned())
+            .collect()
+    };
+    let written = numbers(line);
+    !is_number(marked)
+        && !written.is_empty()
+        && numbers(text).iter().any(|number| !written.contains(number))
 }
 
 fn is_number(text: &str) -> bool {

@@ -48,6 +48,19 @@ struct Positions {
 }
 
 #[derive(Deserialize)]
+struct ActionsOf {
+    #[serde(flatten)]
+    of: WithinText,
+    context: ActionContext,
+}
+
+#[derive(Deserialize)]
+struct ActionContext {
+    /// The kinds that are wanted; every kind if absent.
+    only: Option<Vec<String>>,
+}
+
+#[derive(Deserialize)]
 struct OfItem {
     item: ItemPlace,
 }
@@ -485,10 +498,16 @@ impl LanguageServer {
             .collect())
     }
 
-    fn actions(&mut self, asked: WithinText) -> Answer {
-        let (path, text) = self.text(&asked.text_document.uri)?;
-        let within = bytes_of(&text, asked.range);
-        let actions = self.workspace.actions(&path, within);
+    fn actions(&mut self, asked: ActionsOf) -> Answer {
+        let (path, text) = self.text(&asked.of.text_document.uri)?;
+        let within = bytes_of(&text, asked.of.range);
+        // What mends a whole text is looked for when somebody wants it: it takes a while.
+        let only = asked.context.only.unwrap_or_default();
+        let actions = if only.iter().any(|kind| "source.fixAll".starts_with(kind.as_str())) {
+            self.workspace.fix_all(&path).into_iter().collect()
+        } else {
+            self.workspace.actions(&path, within)
+        };
         let preferred = actions.iter().position(|action| action.kind == ActionKind::Fix);
         let shown = |(at, action): (usize, &Action)| {
             json!({

@@ -6,7 +6,7 @@ mod plan;
 mod scripts;
 mod unused;
 
-use crate::ast::{Ident, Item, ItemKind, ScenarioItem, Span};
+use crate::ast::{File, Ident, Item, ItemKind, ScenarioItem, Span};
 use crate::cast::Cast;
 use crate::index::Index;
 use crate::lower::loaded_scripts::LoadedScripts;
@@ -57,6 +57,8 @@ pub struct CompileOutcome {
     pub plans: Option<Plans>,
     /// Everything that was found, by file, place and code.
     pub problems: Vec<Problem>,
+    /// The syntax tree of the root.
+    pub tree: Option<File>,
     /// Every file that was read, in the order they were loaded.
     pub sources: Sources,
     /// The names of the files a watcher should watch, scripts included.
@@ -165,7 +167,8 @@ pub fn compile(
         plans: (!failed).then_some(plans),
         index: library.index.and_then(|index| index.into_inner().ok()).unwrap_or_default(),
         problems,
-        inputs: library.inputs.clone(),
+        tree: library.files.into_iter().next().map(Arc::unwrap_or_clone),
+        inputs: library.inputs,
         sources: library.sources,
         origins,
     }

@@ -9,7 +9,7 @@ use crate::dsl::ast::{File, Span};
 use crate::dsl::index::Index;
 use crate::dsl::problem::Code;
 use crate::dsl::source::{FileId, Source, SourceLoader, Sources};
-use crate::dsl::{CompileOptions, compile, parse};
+use crate::dsl::{CompileOptions, compile};
 use crate::files::{FileLoader, name_of, path_of};
 use crate::load::{compile_options, user_of_parts};
 use std::collections::{BTreeMap, BTreeSet};
@@ -44,15 +44,20 @@ impl Analysis {
     /// Compiles a text. `texts`: the open ones, which stand for their files.
     pub(super) fn of(path: &Path, text: Arc<str>, texts: &BTreeMap<PathBuf, Arc<str>>) -> Analysis {
         let source = Source { name: name_of(path), text: text.clone() };
-        let tree = parse::parse(&source, FileId(0), &mut Vec::new());
         let loader = FileLoader::beside(&source.name).with_texts(texts.clone());
         let mut outcome = compile(source.clone(), &loader, &options(None));
+        let tree = outcome.tree.take().unwrap_or_else(|| File {
+            id: FileId(0),
+            items: Vec::new(),
+            lost: BTreeSet::new(),
+        });
         let mut outline = of_file(&tree);
         // Behind a bracket that is still open nothing can be read: what names and values are is
         // found in the text as it will be.
         if let Some(closed) = closed(&text) {
             let mended = Source { name: source.name.clone(), text: closed.text.as_str().into() };
-            outline = of_file(&parse::parse(&mended, FileId(0), &mut Vec::new()));
+            let outcome_of_mended = compile(mended, &loader, &options(None));
+            outline = outcome_of_mended.tree.as_ref().map(of_file).unwrap_or_default();
             let bytes = |range: &Range<usize>| closed.before(range.start)..closed.before(range.end);
             move_all(&mut outline, &bytes);
             let place = |span: Span| match span.file {
@@ -62,7 +67,7 @@ impl Analysis {
                 }
                 _ => span,
             };
-            outcome.index = compile(mended, &loader, &options(None)).index.moved(place);
+            outcome.index = outcome_of_mended.index.moved(place);
         }
         let mut reports = TextReport::all(&outcome.problems, &outcome.sources);
         let mut inputs: BTreeSet<PathBuf> = outcome.inputs.iter().map(|it| path_of(it)).collect();

@@ -59,7 +59,7 @@ impl Analysis {
 
     /// The names of arguments that stand without them.
     fn argument_names(&self) -> Vec<InlayHint> {
-        let kinds = self.kinds();
+        let (kinds, taking) = (self.kinds(), self.taking());
         let pairs: BTreeMap<usize, usize> =
             brackets(&self.text).iter().map(|it| (it.open, it.close)).collect();
         let mut hints = Vec::new();
@@ -79,14 +79,16 @@ impl Analysis {
             if !self.text.get(own.end..).is_some_and(|rest| rest.starts_with('(')) {
                 continue;
             }
-            let Some(params) = self.params_of(declared) else { continue };
+            let Some((_, params)) = taking.iter().find(|(item, _)| item.holds(declared)) else {
+                continue;
+            };
             let inner = own.end + 1..close.saturating_sub(1);
             for (argument, param) in self.arguments(&inner).into_iter().zip(params) {
                 let text = self.text.get(argument.clone()).unwrap_or_default();
                 let has_name = text.split_once(':').is_some_and(|(key, _)| {
                     key.trim().chars().all(|sign| sign.is_alphanumeric() || sign == '_')
                 });
-                if !has_name && text != param && !text.is_empty() {
+                if !has_name && text != *param && !text.is_empty() {
                     hints.push(InlayHint {
                         at: argument.start,
                         text: format!("{param}:"),

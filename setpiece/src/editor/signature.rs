@@ -1,5 +1,6 @@
 //! What the brackets behind a name take.
 
+use super::place::is_scenario;
 use super::text::{code, word_at};
 use super::words::{self, WordKind};
 use super::{Analysis, FilePlace, Workspace};
@@ -165,11 +166,25 @@ impl Analysis {
             .and_then(|span| self.place(*span))
     }
 
-    /// The names of the parameters of a declaration.
-    pub(super) fn params_of(&self, declared: Span) -> Option<Vec<String>> {
-        let source = self.sources.get(declared.file)?;
-        let tree = parse(source, declared.file, &mut Vec::new());
-        let item = tree.items.iter().find(|item| item.span.holds(declared))?;
-        Some(item.kind.params().iter().map(|param| param.name.node.clone()).collect())
+    /// The items of the text's files that take arguments, with the names of their parameters.
+    pub(super) fn taking(&self) -> Vec<(Span, Vec<String>)> {
+        let mut taking = Vec::new();
+        for (file, source) in self.sources.iter() {
+            let parsed;
+            let tree = if file == FileId(0) {
+                &self.tree
+            } else if is_scenario(Path::new(&source.name)) {
+                parsed = parse(source, file, &mut Vec::new());
+                &parsed
+            } else {
+                continue;
+            };
+            let items = tree.items.iter().filter(|item| !item.kind.params().is_empty());
+            taking.extend(items.map(|item| {
+                let params = item.kind.params().iter();
+                (item.span, params.map(|param| param.name.node.clone()).collect())
+            }));
+        }
+        taking
     }
 }

@@ -1,7 +1,8 @@
 """Draws a recorded episode with kloppy and mplsoccer: its frames, and its passes and shots.
 
+`setpiece.make(…, record="replays")` records one.
+
 pip install setpiece[kloppy] mplsoccer
-setpiece run academy_run_pass_and_shoot_with_keeper --agent bot --record replays
 setpiece replay replays/….pitchr --format cdf -o episode
 python draw_tracking.py episode episode.png
 """

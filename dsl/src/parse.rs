@@ -15,6 +15,8 @@ mod item;
 mod level;
 mod reader;
 mod recover;
+
+pub use recover::statement_words;
 mod reward;
 mod scan;
 mod scenario;

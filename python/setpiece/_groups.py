@@ -78,6 +78,12 @@ class FootballGroups:
                 f"{self.num_envs} environments can't be split into {self.num_groups} equal groups",
                 name="groups",
             )
+        if arguments.get("levels") is not None:
+            raise UnavailableError(
+                "groups have no source of levels, because each would have its own",
+                name="levels",
+                help="make_vec has one for all environments",
+            )
         if arguments.get("opponents"):
             raise UnavailableError(
                 "groups can't ask opponents of yours, because they are played in threads",

@@ -22,6 +22,7 @@ from setpiece._rows import Picker
 from setpiece._spaces import check_observation
 from setpiece._video import read_form
 from setpiece._vocabulary import Action
+from setpiece._words import check_word
 
 BAD_REPLAY = "SP0014"
 
@@ -181,8 +182,7 @@ class Replay:
         `ReplayError` if this build diverges from the recording.
         """
         target = check_path("folder", folder)
-        if form not in FORMS:
-            raise ParameterError(f"expected one of {FORMS}, found `{form!r}`", name="form")
+        check_word("form", form, FORMS)
         with self._named():
             return self._recorded.export(target, form)
 

@@ -344,6 +344,8 @@ class ManyMatches(Protocol):
     def agents(self) -> tuple[str, ...]: ...
     @property
     def single_observation_space(self) -> spaces.Space[Any]: ...
+    @property
+    def single_action_space(self) -> spaces.Space[Any]: ...
 
 
 def box_of_one_agent(envs: ManyMatches) -> spaces.Box:
@@ -354,3 +356,14 @@ def box_of_one_agent(envs: ManyMatches) -> spaces.Box:
     if len(envs.agents) == 1:
         return space
     return spaces.Box(space.low[0], space.high[0], dtype=space.low.dtype.type)
+
+
+def action_of_one_agent(envs: ManyMatches) -> spaces.Discrete | spaces.Box:
+    """Returns what one agent does in a vector; the space of several has their axis first."""
+    space = envs.single_action_space
+    if isinstance(space, spaces.MultiDiscrete):
+        return spaces.Discrete(int(space.nvec.flat[0]))
+    assert isinstance(space, spaces.Discrete | spaces.Box)
+    if isinstance(space, spaces.Box) and len(envs.agents) > 1:
+        return spaces.Box(space.low[0], space.high[0], dtype=np.float32)
+    return space

@@ -98,7 +98,7 @@ KEEPER = {
 def load_tracking(folder: str | PathLike[str]) -> TrackingDataset:
     """Reads the tracking data of a folder.
 
-    Frames have the ids of the steps, `ball_speed` and players' `speed` in m/s.
+    Frames have the ids of the steps and players' `speed` in m/s; those of tables `ball_speed`, too.
 
     Raises `FileNotFoundError` if the folder holds neither `tracking.jsonl` nor `tracking.csv`.
     """

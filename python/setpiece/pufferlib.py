@@ -18,7 +18,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from gymnasium import spaces
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
@@ -26,7 +25,7 @@ from setpiece._groups import FootballGroups
 from setpiece._native import Scenario
 from setpiece._optional import need
 from setpiece._source import Source
-from setpiece._spaces import box_of_one_agent
+from setpiece._spaces import action_of_one_agent, box_of_one_agent
 from setpiece._vector import FootballVectorEnv
 from setpiece._vector_levels import Params
 
@@ -75,7 +74,7 @@ class FootballPuffer(pufferlib.PufferEnv):
         self.n_agents = len(self.vector.agents)
         self.num_agents = num_envs * self.n_agents
         self.single_observation_space = box_of_one_agent(self.vector)
-        self.single_action_space = _one_action_space(self.vector)
+        self.single_action_space = action_of_one_agent(self.vector)
         super().__init__(buf)
 
     def reset(self, seed: int | None = None) -> tuple[Any, Infos]:
@@ -124,7 +123,7 @@ class FootballPufferGroups:
         self.num_agents = groups.num_envs * self.n_agents
         self.agents_per_batch = groups.batch_size * self.n_agents
         self.single_observation_space = box_of_one_agent(groups)
-        self.single_action_space = _one_action_space(groups)
+        self.single_action_space = action_of_one_agent(groups)
         joint = pufferlib.spaces.joint_space
         self.observation_space = joint(self.single_observation_space, self.agents_per_batch)
         self.action_space = joint(self.single_action_space, self.agents_per_batch)
@@ -205,16 +204,6 @@ def make(
         **arguments,
     )
     return FootballPufferGroups(made)
-
-
-def _one_action_space(envs: FootballVectorEnv | FootballGroups) -> spaces.Space[Any]:
-    """The actions of one agent."""
-    space = envs.single_action_space
-    if isinstance(space, spaces.MultiDiscrete):
-        return spaces.Discrete(int(space.nvec.flat[0]))
-    if isinstance(space, spaces.Box) and len(envs.agents) > 1:
-        return spaces.Box(space.low[0], space.high[0], dtype=np.float32)
-    return space
 
 
 def _ended(infos: dict[str, Any]) -> Infos:

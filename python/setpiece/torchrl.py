@@ -23,7 +23,7 @@ from setpiece._levels import LevelsArgument
 from setpiece._optional import need
 from setpiece._options import check_flag
 from setpiece._source import Source
-from setpiece._spaces import box_of_one_agent
+from setpiece._spaces import action_of_one_agent, box_of_one_agent
 from setpiece._vector import FootballVectorEnv
 from setpiece._vector_levels import Params
 
@@ -134,8 +134,11 @@ class FootballTensorEnv(EnvBase):
             seen = Unbounded(shape=shape, dtype=dtype, device=device)
         n_actions = vector.action_masks().shape[-1]
         mask = Binary(n_actions, shape=(*size, n_actions), dtype=torch.bool, device=device)
-        if isinstance(vector.single_action_space, spaces.Box):
-            act: Any = Bounded(-1, 1, shape=(*size, 4), dtype=torch.float32, device=device)
+        space = action_of_one_agent(vector)
+        if isinstance(space, spaces.Box):
+            every = (*size, *space.low.shape)
+            ends = [torch.as_tensor(one).expand(every).clone() for one in (space.low, space.high)]
+            act: Any = Bounded(*ends, shape=every, dtype=torch.float32, device=device)
         else:
             act = Categorical(n_actions, shape=size, dtype=torch.int64, device=device)
         pay = Unbounded(shape=(*size, 1), dtype=torch.float32, device=device)

@@ -219,7 +219,7 @@ fn run(args: Args) -> u8 {
         Command::Build { source, output, format } => build(&source, &output, format, &out),
         Command::Fmt(args) => Ok(fmt::fmt(&args, &out)),
         Command::Explain { code } => Ok(explain::explain(code.as_deref(), &out)),
-        Command::Lsp => Ok(lsp::serve()),
+        Command::Lsp => Ok(lsp::serve(args.allow_outside)),
         Command::Doc(args) => doc::doc(&args, &out),
         Command::Run(args) => play::run_command(&args, &out),
         Command::Test(args) => test::test(&args, &out),

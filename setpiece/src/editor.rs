@@ -6,6 +6,7 @@
 mod actions;
 mod analysis;
 mod complete;
+mod cursor;
 mod declared;
 mod edits;
 mod fixes;
@@ -48,6 +49,7 @@ pub use report::TextReport;
 pub use signature::Signature;
 pub use tokens::{Token, TokenKind};
 
+use crate::files::{FileLoader, name_of};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -56,11 +58,29 @@ use std::sync::Arc;
 #[derive(Clone, Debug, Default)]
 pub struct Workspace {
     texts: BTreeMap<PathBuf, Arc<str>>,
+    /// Whether imports and scripts may be outside a text's folder.
+    allow_outside: bool,
     /// What was found out about a text as it is now; dropped when a file that it reads changes.
     known: BTreeMap<PathBuf, Arc<Analysis>>,
 }
 
 impl Workspace {
+    /// Nothing is open yet. `allow_outside`: whether imports and scripts may be outside a text's
+    /// folder.
+    pub fn new(allow_outside: bool) -> Workspace {
+        Workspace { allow_outside, ..Workspace::default() }
+    }
+
+    /// What reads the files that a text imports: the open texts stand for theirs.
+    fn loader(&self, path: &Path) -> FileLoader {
+        let loader = if self.allow_outside {
+            FileLoader::anywhere()
+        } else {
+            FileLoader::beside(&name_of(path))
+        };
+        loader.with_texts(self.texts.clone())
+    }
+
     /// Opens a text, or takes its new content.
     pub fn set(&mut self, path: &Path, text: &str) {
         if self.text(path).is_some_and(|known| **known == *text) {
@@ -102,7 +122,7 @@ impl Workspace {
             return Some(known.clone());
         }
         let text = self.file_text(path)?;
-        let analysis = Arc::new(Analysis::of(path, text, &self.texts));
+        let analysis = Arc::new(Analysis::of(path, text, &self.loader(path)));
         self.known.insert(path.to_owned(), analysis.clone());
         Some(analysis)
     }

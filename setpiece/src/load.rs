@@ -142,27 +142,45 @@ fn load_file_with(path: &Path, options: &LoadOptions<'_>) -> Result<Loaded, Erro
     let bytes = read_file(path, most_bytes(path))?;
     let format = |why| Error::Format { path: path.to_owned(), why };
     if binary::CONTAINER.marks(&bytes) {
-        return of_file(binary::from_bytes(&bytes).map_err(format)?, path, options.cast);
+        return of_file(binary::from_bytes(&bytes).map_err(format)?, path, options);
     }
     if let Some(kind) = Packed::of(&bytes) {
         return Err(Error::File { path: path.to_owned(), why: FileFault::Packed(kind) });
     }
     let text = into_text(bytes, path)?;
     if compiled || text.starts_with("{\"format\"") {
-        return of_file(file::from_json(&text).map_err(format)?, path, options.cast);
+        return of_file(file::from_json(&text).map_err(format)?, path, options);
     }
     compile_source(Source { name: name_of(path), text: text.into() }, options)
 }
 
 /// A scenario from a compiled file.
-fn of_file(scenario: Scenario, path: &Path, cast: &[Cast]) -> Result<Loaded, Error> {
-    if let Some(cast) = cast.first() {
+fn of_file(scenario: Scenario, path: &Path, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
+    if let Some(cast) = options.cast.first() {
         return Err(Error::Cast { ai: cast.ai.clone() });
+    }
+    if let Some(wanted) = options.scenario.filter(|wanted| *wanted != scenario.name) {
+        let similar = Some(scenario.name.clone());
+        return Err(Error::Unknown { name: wanted.to_owned(), similar });
     }
     Ok(Loaded { inputs: vec![path.to_owned()], ..Loaded::without_text(scenario) })
 }
 
 impl Loaded {
+    /// The regions of a start that has been drawn: where each is written, and its shape.
+    ///
+    /// They are there if they were asked for: [`LoadOptions::regions`].
+    #[cfg(feature = "editor")]
+    pub(crate) fn regions(
+        &self,
+        drawer: &setpiece_engine::draw::Drawer,
+    ) -> impl Iterator<Item = (Span, setpiece_dsl::Outline<f64>)> {
+        let shape = |region: &setpiece_dsl::RegionOrigin| {
+            region.shape.map(&mut |reg| drawer.register(reg).unwrap_or_default()).drawn()
+        };
+        self.origins.regions.iter().map(move |region| (region.span, shape(region)))
+    }
+
     /// A compiled scenario, whose text is unknown.
     pub fn without_text(scenario: impl Into<Arc<Scenario>>) -> Loaded {
         Loaded {

@@ -5,6 +5,7 @@
 mod answers;
 mod convert;
 mod library;
+mod looks;
 
 use crate::editor::Workspace;
 use convert::{path_of, range_of, read};
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// What the server can do, as the answer to `initialize` says it.
 pub fn capabilities() -> Value {
-    let kinds: Vec<&str> = answers::TOKEN_KINDS.iter().map(|(_, name)| *name).collect();
+    let kinds: Vec<&str> = looks::TOKEN_KINDS.iter().map(|(_, name)| *name).collect();
     json!({
         "capabilities": {
             "positionEncoding": "utf-16",
@@ -69,12 +70,15 @@ pub struct LanguageServer {
 }
 
 impl LanguageServer {
-    /// A server for an editor; `params`: what its `initialize` says of it.
-    pub fn new(params: &Value) -> LanguageServer {
+    /// A server for an editor.
+    ///
+    /// - `params`: what its `initialize` says of it.
+    /// - `allow_outside`: whether imports and scripts may be outside a text's folder.
+    pub fn new(params: &Value, allow_outside: bool) -> LanguageServer {
         let snippets =
             params.pointer("/capabilities/textDocument/completion/completionItem/snippetSupport");
         LanguageServer {
-            workspace: Workspace::default(),
+            workspace: Workspace::new(allow_outside),
             open: BTreeMap::new(),
             shown: BTreeSet::new(),
             is_stale: false,

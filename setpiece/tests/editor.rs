@@ -89,6 +89,23 @@ fn a_problem_stands_in_the_file_that_has_it() {
     assert!(codes.contains(&"SP0005".to_owned()) || !codes.is_empty(), "{codes:?}");
 }
 
+#[test]
+fn a_file_outside_is_read_only_if_it_may_be() {
+    let (inner, outer) =
+        (Path::new("/nowhere/pitches/a/one.pitch"), Path::new("/nowhere/pitches/shared.pitch"));
+    let text = "import \"../shared.pitch\"\nscenario a extends academy {\n    ball at (0, 0)\n    \
+        team left { CF at (0, 0) }\n    reward pressing\n}\n";
+    for (allowed, codes) in [(true, &[][..]), (false, &["SP0001"][..])] {
+        let mut workspace = Workspace::new(allowed);
+        workspace.set(inner, text);
+        workspace.set(outer, SHARED);
+        let found: Vec<String> =
+            workspace.reports()[inner].iter().map(|report| report.code.to_string()).collect();
+        assert_eq!(found.iter().filter(|code| *code == "SP0001").count(), codes.len(), "{found:?}");
+        assert_eq!(found.is_empty(), allowed);
+    }
+}
+
 /// The reports are those of `setpiece check`, but for what only a dry run shows.
 #[test]
 fn reports_are_those_of_a_check() {

@@ -32,7 +32,7 @@ impl Client {
     fn new() -> Client {
         let initialize = json!({ "capabilities": { "textDocument": { "completion": {
             "completionItem": { "snippetSupport": true } } } } });
-        let mut client = Client { server: LanguageServer::new(&initialize), asked: 0 };
+        let mut client = Client { server: LanguageServer::new(&initialize, false), asked: 0 };
         client.open(URI, TEXT);
         client
     }

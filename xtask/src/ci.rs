@@ -114,7 +114,7 @@ pub(crate) fn python() -> Result<PathBuf, String> {
 }
 
 /// Builds the wheel and runs the Python tests with the heavy packages, so that all of `tests/full`
-/// runs.
+/// runs but `PufferLib`'s part: its distribution downloads what it builds with (`docs/tools.md`).
 pub(crate) fn python_full() -> Result<(), String> {
     // The heavy packages need another version of Gymnasium than the environment that builds the
     // wheel.

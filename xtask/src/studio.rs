@@ -1,7 +1,7 @@
 //! The studio's page: built by npm from `studio/`, kept in `studio/dist`, embedded in the command.
 
 use crate::npm;
-use crate::shell::{root, run};
+use crate::shell::{built_command, root, run};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -33,11 +33,11 @@ pub(crate) fn drive_if_there() -> Result<(), String> {
 
 /// Builds the command, and runs the page's tests; the page's packages are installed.
 fn tests(shots: bool) -> Result<(), String> {
-    run(Command::new("cargo").args(["build", "--package", "setpiece"]).current_dir(root()))?;
+    let command = built_command()?;
     let mut tests = npm::npm();
     tests
         .args(["test", "--silent"])
-        .env("SETPIECE", root().join("target/debug/setpiece"))
+        .env("SETPIECE", command)
         .env("CHROMIUM", browser())
         .current_dir(root().join("studio"));
     if shots {

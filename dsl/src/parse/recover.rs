@@ -16,6 +16,7 @@ use setpiece_grammar::{PitchParser, Rule};
 use std::ops::Range;
 
 pub(super) use words::Context;
+pub use words::statement_words;
 
 /// Junk that was just reported about.
 struct Reported {

@@ -6,18 +6,20 @@ use crate::lsp::{LanguageServer, capabilities};
 use lsp_server::{Connection, Message};
 
 /// Serves one editor until it leaves; gives the exit code.
-pub(super) fn serve() -> u8 {
+///
+/// `allow_outside`: whether imports and scripts may be outside a text's folder.
+pub(super) fn serve(allow_outside: bool) -> u8 {
     let (connection, threads) = Connection::stdio();
-    let fine = talk(&connection).is_some();
+    let fine = talk(&connection, allow_outside).is_some();
     drop(connection);
     if threads.join().is_ok() && fine { FINE } else { FAULT }
 }
 
 /// The conversation; `None` if the editor breaks it off.
-fn talk(connection: &Connection) -> Option<()> {
+fn talk(connection: &Connection, allow_outside: bool) -> Option<()> {
     let (id, params) = connection.initialize_start().ok()?;
     connection.initialize_finish(id, capabilities()).ok()?;
-    let mut server = LanguageServer::new(&params);
+    let mut server = LanguageServer::new(&params, allow_outside);
     while let Ok(message) = connection.receiver.recv() {
         if let Message::Request(request) = &message
             && connection.handle_shutdown(request).ok()?

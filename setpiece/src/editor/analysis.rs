@@ -12,7 +12,7 @@ use crate::dsl::source::{FileId, Source, SourceLoader, Sources};
 use crate::dsl::{CompileOptions, compile};
 use crate::files::{FileLoader, name_of, path_of};
 use crate::load::{compile_options, user_of_parts};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -41,11 +41,10 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// Compiles a text. `texts`: the open ones, which stand for their files.
-    pub(super) fn of(path: &Path, text: Arc<str>, texts: &BTreeMap<PathBuf, Arc<str>>) -> Analysis {
+    /// Compiles a text.
+    pub(super) fn of(path: &Path, text: Arc<str>, loader: &FileLoader) -> Analysis {
         let source = Source { name: name_of(path), text: text.clone() };
-        let loader = FileLoader::beside(&source.name).with_texts(texts.clone());
-        let mut outcome = compile(source.clone(), &loader, &options(None));
+        let mut outcome = compile(source.clone(), loader, &options(None));
         let tree = outcome.tree.take().unwrap_or_else(|| File {
             id: FileId(0),
             items: Vec::new(),
@@ -56,7 +55,7 @@ impl Analysis {
         // found in the text as it will be.
         if let Some(closed) = closed(&text) {
             let mended = Source { name: source.name.clone(), text: closed.text.as_str().into() };
-            let outcome_of_mended = compile(mended, &loader, &options(None));
+            let outcome_of_mended = compile(mended, loader, &options(None));
             outline = outcome_of_mended.tree.as_ref().map(of_file).unwrap_or_default();
             let bytes = |range: &Range<usize>| closed.before(range.start)..closed.before(range.end);
             move_all(&mut outline, &bytes);
@@ -72,7 +71,7 @@ impl Analysis {
         let mut reports = TextReport::all(&outcome.problems, &outcome.sources);
         let mut inputs: BTreeSet<PathBuf> = outcome.inputs.iter().map(|it| path_of(it)).collect();
         if reports.iter().any(|report| report.code == Code::NoScenario)
-            && let Some(user) = user_of_parts(&source, &loader, &outcome.problems)
+            && let Some(user) = user_of_parts(&source, loader, &outcome.problems)
         {
             reports = TextReport::all(&user.problems, &user.sources);
             reports.retain(|report| !report.place.path.starts_with("<check>"));
@@ -121,12 +120,11 @@ impl Analysis {
 pub(super) fn scenario_of(
     path: &Path,
     text: &Arc<str>,
-    texts: &BTreeMap<PathBuf, Arc<str>>,
+    loader: &FileLoader,
     name: &str,
 ) -> Option<Loaded> {
     let source = Source { name: name_of(path), text: text.clone() };
-    let loader = FileLoader::beside(&source.name).with_texts(texts.clone());
-    let outcome = compile(source, &loader, &options(Some(name.to_owned())));
+    let outcome = compile(source, loader, &options(Some(name.to_owned())));
     Some(Loaded {
         scenario: outcome.scenario?.into(),
         warnings: Vec::new(),

@@ -1,5 +1,6 @@
 //! What may stand at a place of a text.
 
+use super::cursor::{CursorPlace, context, inline_script};
 use super::keywords::{KEYWORDS, Keyword, KeywordBlock};
 use super::outline::flat;
 use super::place::{is_scenario, is_script};
@@ -44,29 +45,6 @@ pub enum CompletionKind {
     File,
 }
 
-/// What is being written where the cursor stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum CursorPlace<'a> {
-    /// Nothing can be completed: a comment, or a text in quotes.
-    Nothing,
-    /// The path of an `import`.
-    Import,
-    /// What follows a dot; with the word before it.
-    Member(&'a str),
-    /// The unit of a number.
-    Unit,
-    /// An item of the file.
-    TopLevel,
-    /// The first word of a statement in this block.
-    Statement(&'a str),
-    /// The key of an option in this block.
-    Key(&'a str),
-    /// What follows this word: `extends`, `reward`, `formation`.
-    After(&'a str),
-    /// An expression, or another part of a statement.
-    Inside,
-}
-
 impl Workspace {
     /// What may stand at a byte of a text, in no order; the editor chooses by what is typed.
     pub fn complete(&mut self, path: &Path, offset: usize) -> Vec<Completion> {
@@ -93,106 +71,10 @@ impl Workspace {
             CursorPlace::Statement(block) => analysis.statements(block),
             CursorPlace::Key(block) => keys(block),
             CursorPlace::After(what) => analysis.after(what),
+            CursorPlace::Measure => words_of(&[WordKind::Measure]).collect(),
             CursorPlace::Inside => analysis.values(),
         }
     }
-}
-
-/// What is written at the end of a text; `typed`: the part of the word that stands there already.
-fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
-    let line = before.rsplit('\n').next().unwrap_or_default();
-    let quoted = line.matches('"').count() % 2 == 1;
-    if quoted {
-        let is_import = line.trim_start().starts_with("import");
-        return if is_import { CursorPlace::Import } else { CursorPlace::Nothing };
-    }
-    if line.contains("//") {
-        return CursorPlace::Nothing;
-    }
-    if let Some(base) = before.strip_suffix('.') {
-        let range = word_at(base, base.len());
-        return CursorPlace::Member(base.get(range).unwrap_or_default());
-    }
-    if typed.starts_with(|char: char| char.is_ascii_digit()) {
-        return CursorPlace::Unit;
-    }
-    let trimmed = before.trim_end();
-    let last = trimmed.get(word_at(trimmed, trimmed.len())).unwrap_or_default();
-    let block = block_around(before);
-    let begins = trimmed.is_empty()
-        || trimmed.ends_with(['{', '}'])
-        || line.trim().is_empty()
-        || (trimmed.ends_with(',') && is_of_options(block));
-    if matches!(last, "extends" | "reward" | "play" | "with") && !begins {
-        return CursorPlace::After(last);
-    }
-    if trimmed.ends_with("formation:") {
-        return CursorPlace::After("formation");
-    }
-    match (begins, block) {
-        (true, "") => CursorPlace::TopLevel,
-        (true, block) if is_of_options(block) => CursorPlace::Key(block),
-        (true, block) => CursorPlace::Statement(block),
-        (false, _) => CursorPlace::Inside,
-    }
-}
-
-/// Whether the block of this word has options instead of statements.
-fn is_of_options(block: &str) -> bool {
-    matches!(block, "rules" | "world" | "pitch" | "agents" | "ball" | "start" | "stats" | "player")
-}
-
-/// The first word of the statement whose block is open at the end of a text: `rules` in
-/// `rules { offside: off, `. `player` for a player's options; nothing outside every block.
-fn block_around(before: &str) -> &str {
-    let mut depth = 0;
-    for (at, char) in before.char_indices().rev() {
-        match char {
-            '}' => depth += 1,
-            '{' if depth > 0 => depth -= 1,
-            '{' => {
-                let head = before.get(..at).unwrap_or_default();
-                let begin = head.rfind(['\n', '{', '}']).map_or(0, |at| at + 1);
-                let head = head.get(begin..).unwrap_or_default().trim_start();
-                let head = head.strip_prefix("abstract ").unwrap_or(head).trim_start();
-                let first = head.get(word_at(head, 0)).unwrap_or_default();
-                let outer = before.get(..begin).unwrap_or_default();
-                let is_player = !is_head(first)
-                    && block_around(outer.trim_end_matches('{')) == "team"
-                    || block_around(outer) == "team";
-                return if head.trim_end().ends_with("stats:") {
-                    "stats"
-                } else if is_player {
-                    "player"
-                } else {
-                    first
-                };
-            }
-            _ => {}
-        }
-    }
-    ""
-}
-
-/// The kind of block at the end of a text.
-pub(super) fn block_of(before: &str) -> KeywordBlock {
-    match block_around(before) {
-        "" => KeywordBlock::File,
-        "scenario" => KeywordBlock::Scenario,
-        "team" | "formation" => KeywordBlock::Team,
-        "reward" | "on" | "when" => KeywordBlock::Reward,
-        "behavior" | "repeat" | "choose" | "interrupt" => KeywordBlock::Behavior,
-        "check" => KeywordBlock::Check,
-        "curriculum" => KeywordBlock::Curriculum,
-        _ => KeywordBlock::Within,
-    }
-}
-
-/// Whether a word begins an item or a statement with a block.
-fn is_head(word: &str) -> bool {
-    KEYWORDS.iter().any(|known| {
-        known.name == word && matches!(known.block, KeywordBlock::File | KeywordBlock::Scenario)
-    })
 }
 
 /// The keywords that begin a statement in a block.
@@ -229,8 +111,8 @@ fn words_of(kinds: &[WordKind]) -> impl Iterator<Item = Completion> {
             WordKind::Function => "function",
             WordKind::Property => "property",
             WordKind::Place => "place",
-            WordKind::Option => "option",
-            WordKind::Stat => "ability",
+            WordKind::Option(_) => "option",
+            WordKind::Measure => "measure",
             WordKind::Act => "act",
             WordKind::Action => "action",
             WordKind::Mode => "mode",
@@ -263,37 +145,12 @@ fn members(base: &str) -> Vec<Completion> {
 
 /// The keys of a block of options.
 fn keys(block: &str) -> Vec<Completion> {
-    let page = match block {
-        "rules" => "start.md",
-        "world" => "world.md",
-        "pitch" => "pitch.md",
-        _ => "",
-    };
-    let of_tables =
-        words::all().filter(|known| known.kind == WordKind::Option && known.page == page);
-    let stats = words::all().filter(|known| known.kind == WordKind::Stat && block == "stats");
-    let own: &[&str] = match block {
-        "agents" => &["left", "right", "others", "switching"],
-        "ball" => &["velocity", "height", "spin", "owner"],
-        "start" => &["score", "elapsed"],
-        "player" => &[
-            "ai",
-            "difficulty",
-            "controllable",
-            "stats",
-            "fatigue",
-            "yellow_cards",
-            "velocity",
-            "overlap",
-        ],
-        "rules" => &["half_time", "physics"],
-        _ => &[],
-    };
-    of_tables
-        .chain(stats)
-        .map(|known| word(known.name, known.doc, "option"))
-        .chain(own.iter().map(|name| word(name, "", "option")))
-        .map(|key| Completion { kind: CompletionKind::Key, ..key })
+    words::all()
+        .filter(|known| matches!(known.kind, WordKind::Option(of) if of == block))
+        .map(|known| Completion {
+            kind: CompletionKind::Key,
+            ..word(known.name, known.doc, "option")
+        })
         .collect()
 }
 
@@ -329,21 +186,14 @@ impl Workspace {
     }
 }
 
-/// The part of an inline script before the end of a text, if it ends in one.
-pub(super) fn inline_script(before: &str) -> Option<&str> {
-    const MARK: &str = "\"\"\"";
-    let at = before.rfind(MARK)?;
-    let is_open = before.matches(MARK).count() % 2 == 1;
-    is_open.then(|| before.get(at + MARK.len()..)).flatten()
-}
-
 impl Analysis {
     /// What a statement of this block begins with.
     fn statements(&self, block: &str) -> Vec<Completion> {
         match block {
             "scenario" => keywords(KeywordBlock::Scenario),
-            "team" | "formation" => keywords(KeywordBlock::Team)
+            "team" | "formation" => keys("team")
                 .into_iter()
+                .chain(keywords(KeywordBlock::Team))
                 .chain(words_of(&[WordKind::Role]))
                 .collect(),
             "reward" | "on" | "when" => keywords(KeywordBlock::Reward),

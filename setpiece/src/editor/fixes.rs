@@ -5,11 +5,15 @@
 
 use super::actions::{Action, ActionKind};
 use super::edits::Edit;
+use super::outline::{Symbol, SymbolKind, of_file};
 use super::place::is_scenario;
 use super::report::TextReport;
 use super::text::{brackets, line_around};
 use super::{Analysis, Workspace};
+use crate::dsl::ast::{Item, ItemKind};
+use crate::dsl::parse::parse;
 use crate::dsl::problem::Code;
+use crate::dsl::source::{FileId, Source};
 use crate::files::FileLoader;
 use std::ops::Range;
 use std::path::Path;
@@ -118,7 +122,7 @@ impl Workspace {
             Some((file.file_name()?.to_str()?.to_owned(), self.file_text(file)?))
         });
         let of_library = FileLoader::library_texts();
-        let at = import_at(&analysis.text);
+        let at = analysis.import_at();
         beside
             .chain(of_library)
             .filter(|(_, text)| declares(text, name))
@@ -240,42 +244,28 @@ fn is_number(text: &str) -> bool {
 
 /// Whether a text declares an item of this name.
 fn declares(text: &str, name: &str) -> bool {
-    !name.is_empty()
-        && text.lines().any(|line| {
-            let mut words = line.split(|sign: char| !(sign.is_alphanumeric() || sign == '_'));
-            let head = words.next().unwrap_or_default();
-            let next = words.next();
-            let kinds = [
-                "reward",
-                "formation",
-                "const",
-                "fn",
-                "region",
-                "table",
-                "ending",
-                "behavior",
-                "scenario",
-            ];
-            (kinds.contains(&head) && next == Some(name))
-                || (head == "abstract" && next == Some("scenario") && words.next() == Some(name))
-        })
+    let source = Source { name: String::new(), text: text.into() };
+    let tree = parse(&source, FileId(0), &mut Vec::new());
+    let is_plan = |symbol: &Symbol| symbol.kind == SymbolKind::Plan;
+    of_file(&tree).iter().any(|symbol| symbol.name == name && !is_plan(symbol))
 }
 
-/// Where another import stands: behind the last one, or above the first item.
-fn import_at(text: &str) -> usize {
-    let (mut at, mut found) = (0, None);
-    let mut first_item = None;
-    for line in text.split_inclusive('\n') {
-        let begin = line.trim_start();
-        if begin.starts_with("import ") {
-            found = Some(at + line.len());
-        } else if first_item.is_none()
-            && !begin.trim().is_empty()
-            && (begin.starts_with("///") || !begin.starts_with("//"))
-        {
-            first_item = Some(at);
+impl Analysis {
+    /// Where another import stands: behind the last one, or above the first item and its comment.
+    fn import_at(&self) -> usize {
+        let is_import = |item: &&Item| matches!(item.kind, ItemKind::Import { .. });
+        if let Some(last) = self.tree.items.iter().rfind(is_import) {
+            return line_around(&self.text, last.span.end as usize).end;
         }
-        at += line.len();
+        let Some(first) = self.tree.items.first() else { return 0 };
+        let mut at = line_around(&self.text, first.span.start as usize).start;
+        while at > 0 {
+            let above = line_around(&self.text, at - 1);
+            if !self.text.get(above.clone()).is_some_and(|line| line.starts_with("///")) {
+                break;
+            }
+            at = above.start;
+        }
+        at
     }
-    found.or(first_item).unwrap_or(0)
 }

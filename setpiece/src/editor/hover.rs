@@ -1,6 +1,6 @@
 //! What is said about the thing under the cursor.
 
-use super::complete::{block_of, inline_script};
+use super::cursor::{block_of, inline_script};
 use super::keywords::KEYWORDS;
 use super::place::is_script;
 use super::text::{brackets, word_at};

@@ -112,9 +112,7 @@ pub(super) const KEYWORDS: &[Keyword] = keywords! {
     Scenario "observe" { "observe" "an observation of your own" "observe vector {\n    $0\n}"; }
     Team "team" {
         "absent" "this player of the formation doesn't play";
-        "difficulty" "the strength of the team's bots, 0 to 1" "difficulty: ${1:0.6}";
         "each" "options of several players" "each ${1:outfield} { $0 }";
-        "formation" "the players of a formation" "formation: ${1:four_four_2}";
         "maybe" "a player who is there in a share of the episodes" "maybe ${1:30%} ${2:CM} at $0";
         "place" "an inherited player stands elsewhere" "place ${1:CB} at $0";
     }
@@ -222,7 +220,7 @@ pub(super) const KEYWORDS: &[Keyword] = keywords! {
 
 #[cfg(test)]
 mod tests {
-    use super::KEYWORDS;
+    use super::{KEYWORDS, KeywordBlock};
     use crate::editor::words;
 
     /// A word of the grammar that an editor can't explain would be a gap in hover and completion.
@@ -235,5 +233,27 @@ mod tests {
             .filter(|word| !words::all().any(|known| known.name == *word))
             .collect();
         assert_eq!(lost, [""; 0]);
+    }
+
+    /// A statement that the parser knows can be completed where it may begin.
+    #[test]
+    fn every_statement_is_offered_in_its_block() {
+        for (word, block) in [
+            ("", KeywordBlock::File),
+            ("scenario", KeywordBlock::Scenario),
+            ("team", KeywordBlock::Team),
+            ("reward", KeywordBlock::Reward),
+            ("behavior", KeywordBlock::Behavior),
+            ("check", KeywordBlock::Check),
+            ("curriculum", KeywordBlock::Curriculum),
+        ] {
+            let known = |name: &&&str| {
+                KEYWORDS.iter().any(|known| known.block == block && known.name == **name)
+            };
+            let words = crate::dsl::parse::statement_words(word);
+            assert!(!words.is_empty(), "{word}");
+            let lost: Vec<_> = words.iter().filter(|name| !known(name)).collect();
+            assert!(lost.is_empty(), "{word}: {lost:?}");
+        }
     }
 }

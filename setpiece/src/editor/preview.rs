@@ -53,7 +53,8 @@ impl Workspace {
         } else {
             let is_last = names.last() == Some(&name.as_str());
             let known = analysis.loaded.as_ref().filter(|_| is_last).cloned();
-            let loaded = known.or_else(|| scenario_of(path, &analysis.text, &self.texts, &name));
+            let loaded =
+                known.or_else(|| scenario_of(path, &analysis.text, &self.loader(path), &name));
             loaded.map_or_else(|| Err("it can't be compiled".to_owned()), |it| drawn(&it))
         };
         Some(Preview { scenario: name, picture })
@@ -102,8 +103,7 @@ fn regions(loaded: &Loaded, environment: &Environment) -> String {
     // A start that is refused has regions, too.
     let _ = drawer.draw(&loaded.scenario, bindings, roster, SEED, 0);
     let mut text = String::new();
-    for region in &loaded.origins.regions {
-        let shape = region.shape.map(&mut |reg| drawer.register(reg).unwrap_or_default()).drawn();
+    for (_, shape) in loaded.regions(&drawer) {
         outline(&shape, &mut text);
     }
     text

@@ -1,8 +1,10 @@
 //! The words of the language with what they mean, from the tables that the compiler checks against.
 
 use crate::scenario::vocabulary::{
-    Action, EventKind, Function, GameMode, Landmark, PROPERTIES, PitchFigure, PitchRegion,
-    Primitive, Qualifier, RegionName, Role, Rule, StartKind, Stat, Type, WorldFigure,
+    Action, AgentsOption, BallOption, EventKind, Function, GameMode, Landmark, MeasureWord,
+    PROPERTIES, PitchFigure, PitchRegion, PlayerOption, Primitive, Qualifier, QuantityWord,
+    RegionName, Role, Rule, StartKind, StartOption, Stat, SubstituteOption, TeamOption, Type,
+    WorldFigure,
 };
 
 /// What kind of word it is.
@@ -20,10 +22,10 @@ pub(super) enum WordKind {
     Property,
     /// A place or an area of the pitch.
     Place,
-    /// A key of `rules`, `world` or `pitch`.
-    Option,
-    /// A number of `stats`.
-    Stat,
+    /// A key of the block that begins with this word.
+    Option(&'static str),
+    /// What checks and curricula measure.
+    Measure,
     /// What a player of a behaviour does.
     Act,
     /// An action of an agent.
@@ -50,11 +52,11 @@ pub(super) struct Word {
 /// Every word, by kind. A word may be of several kinds.
 pub(super) fn all() -> impl Iterator<Item = Word> {
     macro_rules! table {
-        ($name:ident, $kind:ident, $page:literal) => {
+        ($name:ident, $kind:ident $(($block:literal))?, $page:literal) => {
             $name::ALL.iter().map(|word| Word {
                 name: word.name(),
                 doc: word.doc(),
-                kind: WordKind::$kind,
+                kind: WordKind::$kind $(($block))?,
                 page: $page,
             })
         };
@@ -73,10 +75,18 @@ pub(super) fn all() -> impl Iterator<Item = Word> {
         .chain(table!(Landmark, Place, "place.md"))
         .chain(table!(RegionName, Place, "region.md"))
         .chain(table!(PitchRegion, Place, "region.md"))
-        .chain(table!(Rule, Option, "start.md"))
-        .chain(table!(WorldFigure, Option, "world.md"))
-        .chain(table!(PitchFigure, Option, "pitch.md"))
-        .chain(table!(Stat, Stat, "team.md"))
+        .chain(table!(Rule, Option("rules"), "start.md"))
+        .chain(table!(WorldFigure, Option("world"), "world.md"))
+        .chain(table!(PitchFigure, Option("pitch"), "pitch.md"))
+        .chain(table!(AgentsOption, Option("agents"), "scenario.md"))
+        .chain(table!(TeamOption, Option("team"), "team.md"))
+        .chain(table!(PlayerOption, Option("player"), "team.md"))
+        .chain(table!(SubstituteOption, Option("substitute"), "start.md"))
+        .chain(table!(BallOption, Option("ball"), "place.md"))
+        .chain(table!(StartOption, Option("start"), "start.md"))
+        .chain(table!(Stat, Option("stats"), "team.md"))
+        .chain(table!(MeasureWord, Measure, "level.md"))
+        .chain(table!(QuantityWord, Measure, "level.md"))
         .chain(table!(Primitive, Act, "behavior.md"))
         .chain(table!(Action, Action, "expression.md"))
         .chain(table!(GameMode, Mode, "expression.md"))

@@ -5,12 +5,8 @@ use super::convert::{
     text_edits, workspace_edit,
 };
 use super::{LanguageServer, fault};
-use crate::dsl::problem::Severity;
 use crate::editor::text::Lines;
-use crate::editor::{
-    Action, ActionKind, Analysis, CompletionKind, FoldedKind, ItemNode, ItemUses, LensKind, Symbol,
-    SymbolKind, TextReport, TokenKind,
-};
+use crate::editor::{Action, ActionKind, Analysis, CompletionKind, ItemNode, ItemUses, SymbolKind};
 use gen_lsp_types as lsp;
 use lsp_server::{ErrorCode, ResponseError};
 use serde::Deserialize;
@@ -19,18 +15,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What the protocol calls the kinds of names.
-pub(super) const TOKEN_KINDS: [(TokenKind, &str); 7] = [
-    (TokenKind::Scenario, "class"),
-    (TokenKind::Reward, "event"),
-    (TokenKind::Formation, "struct"),
-    (TokenKind::Function, "function"),
-    (TokenKind::Parameter, "parameter"),
-    (TokenKind::Value, "variable"),
-    (TokenKind::Player, "property"),
-];
-
-type Answer = Result<Value, ResponseError>;
+pub(super) type Answer = Result<Value, ResponseError>;
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
@@ -38,13 +23,6 @@ struct RenameTo {
     #[serde(flatten)]
     at: AtPlace,
     new_name: String,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Positions {
-    text_document: lsp::TextDocumentIdentifier,
-    positions: Vec<lsp::Position>,
 }
 
 #[derive(Deserialize)]
@@ -75,13 +53,6 @@ struct ItemPlace {
 #[derive(Deserialize)]
 struct Query {
     query: String,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct PreviewOf {
-    text_document: lsp::TextDocumentIdentifier,
-    position: Option<lsp::Position>,
 }
 
 impl LanguageServer {
@@ -168,7 +139,7 @@ impl LanguageServer {
     }
 
     /// A text that is asked about.
-    fn text(&self, uri: &lsp::Uri) -> Result<(PathBuf, Arc<str>), ResponseError> {
+    pub(super) fn text(&self, uri: &lsp::Uri) -> Result<(PathBuf, Arc<str>), ResponseError> {
         let path = path_of(uri);
         let text = self.workspace.file_text(&path);
         let text = text.ok_or_else(|| {
@@ -185,43 +156,15 @@ impl LanguageServer {
     }
 
     /// What is known of a text that is asked about.
-    fn analysis(&mut self, uri: &lsp::Uri) -> Result<(PathBuf, Arc<Analysis>), ResponseError> {
+    pub(super) fn analysis(
+        &mut self,
+        uri: &lsp::Uri,
+    ) -> Result<(PathBuf, Arc<Analysis>), ResponseError> {
         let (path, _) = self.text(uri)?;
         let analysis = self.workspace.analysis(&path);
         let analysis =
             analysis.ok_or_else(|| fault(ErrorCode::RequestFailed, "the text is gone"))?;
         Ok((path, analysis))
-    }
-
-    /// A report as the protocol has it; `text`: the text of its file.
-    pub(super) fn diagnostic(&self, report: &TextReport, text: &str) -> Value {
-        let related: Vec<Value> = report
-            .related
-            .iter()
-            .filter_map(|(place, words)| {
-                Some(json!({ "location": self.location(place)?, "message": words }))
-            })
-            .collect();
-        let message = match &report.help {
-            Some(help) => format!("{}\nhelp: {help}", report.message),
-            None => report.message.clone(),
-        };
-        let code = report.code.to_string();
-        // A name or statement that does nothing is shown faint.
-        let is_unused = report.message.contains("never used");
-        json!({
-            "range": range_of(text, &report.place.range),
-            "severity": match report.severity {
-                Severity::Error => 1,
-                Severity::Warning => 2,
-            },
-            "code": code,
-            "codeDescription": { "href": format!("{}/errors/{code}/", crate::DOCS) },
-            "source": "setpiece",
-            "message": message,
-            "relatedInformation": related,
-            "tags": if is_unused { vec![1] } else { Vec::new() },
-        })
     }
 
     fn hover(&mut self, asked: AtPlace) -> Answer {
@@ -349,11 +292,6 @@ impl LanguageServer {
         }))
     }
 
-    fn symbols(&mut self, asked: OfText) -> Answer {
-        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
-        Ok(analysis.symbols().iter().map(|symbol| shown_symbol(&analysis, symbol)).collect())
-    }
-
     fn all_symbols(&mut self, query: &str) -> Value {
         let query = query.to_lowercase();
         let paths: Vec<PathBuf> = self.workspace.paths().map(Path::to_owned).collect();
@@ -373,129 +311,6 @@ impl LanguageServer {
             }
         }
         found.into()
-    }
-
-    fn links(&mut self, asked: OfText) -> Answer {
-        let (path, analysis) = self.analysis(&asked.text_document.uri)?;
-        Ok(analysis
-            .links(&path)
-            .iter()
-            .filter_map(|link| {
-                let range = range_by(&analysis.lines, &analysis.text, &link.range);
-                Some(json!({ "range": range, "target": self.uri(&link.path)? }))
-            })
-            .collect())
-    }
-
-    fn folds(&mut self, asked: OfText) -> Answer {
-        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
-        let line = |at: usize| analysis.lines.position(&analysis.text, at).line;
-        Ok(analysis
-            .folds()
-            .iter()
-            .map(|fold| {
-                let (start, end) = (line(fold.range.start), line(fold.range.end.saturating_sub(1)));
-                let (kind, end) = match fold.kind {
-                    // The line of the closing bracket stays.
-                    FoldedKind::Block => ("region", end.saturating_sub(1).max(start)),
-                    FoldedKind::Comment => ("comment", end),
-                    FoldedKind::Imports => ("imports", end),
-                };
-                json!({ "startLine": start, "endLine": end, "kind": kind })
-            })
-            .collect())
-    }
-
-    fn selections(&mut self, asked: Positions) -> Answer {
-        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
-        let of = |at: lsp::Position| {
-            let at = offset_of(&analysis.lines, &analysis.text, at);
-            analysis.selections(at).iter().rev().fold(Value::Null, |parent, range| {
-                let range = range_by(&analysis.lines, &analysis.text, range);
-                if parent.is_null() {
-                    json!({ "range": range })
-                } else {
-                    json!({ "range": range, "parent": parent })
-                }
-            })
-        };
-        Ok(asked.positions.into_iter().map(of).collect())
-    }
-
-    fn tokens(&mut self, asked: OfText) -> Answer {
-        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
-        let (mut line, mut column) = (0, 0);
-        let mut data: Vec<usize> = Vec::new();
-        for token in analysis.tokens() {
-            let at = analysis.lines.position(&analysis.text, token.range.start);
-            let text = analysis.text.get(token.range).unwrap_or_default();
-            let kind = TOKEN_KINDS.iter().position(|(kind, _)| *kind == token.kind);
-            let lines = at.line - line;
-            let columns = if lines == 0 { at.column - column } else { at.column };
-            data.extend([
-                lines as usize,
-                columns as usize,
-                text.encode_utf16().count(),
-                kind.unwrap_or_default(),
-                usize::from(token.is_declaration) | (usize::from(token.is_of_library) << 1),
-            ]);
-            (line, column) = (at.line, at.column);
-        }
-        Ok(json!({ "data": data }))
-    }
-
-    fn hints(&mut self, asked: WithinText) -> Answer {
-        let (_, analysis) = self.analysis(&asked.text_document.uri)?;
-        let within = bytes_of(&analysis.text, asked.range);
-        Ok(analysis
-            .hints(&within)
-            .iter()
-            .map(|hint| {
-                let range = range_by(&analysis.lines, &analysis.text, &(hint.at..hint.at));
-                let mut shown = json!({
-                    "position": range.get("start"),
-                    "label": hint.text,
-                    "paddingLeft": !hint.is_before,
-                    "paddingRight": hint.is_before,
-                });
-                if let Some(shown) = shown.as_object_mut() {
-                    if hint.is_before {
-                        shown.insert("kind".to_owned(), 2.into());
-                    }
-                    if !hint.doc.is_empty() {
-                        shown.insert("tooltip".to_owned(), hint.doc.clone().into());
-                    }
-                }
-                shown
-            })
-            .collect())
-    }
-
-    fn lenses(&mut self, asked: OfText) -> Answer {
-        let uri = &asked.text_document.uri;
-        let (path, text) = self.text(uri)?;
-        let lenses = self.workspace.lenses(&path);
-        Ok(lenses
-            .iter()
-            .map(|lens| {
-                let range = range_of(&text, &lens.range);
-                let shown = path.display().to_string();
-                let (command, arguments) = match &lens.kind {
-                    LensKind::Run(name) => ("setpiece.run", json!([shown, name])),
-                    LensKind::Draw(name) => ("setpiece.draw", json!([shown, name])),
-                    LensKind::Check(name) => ("setpiece.check", json!([shown, name])),
-                    LensKind::Uses(places) => {
-                        let places: Vec<Value> =
-                            places.iter().filter_map(|place| self.location(place)).collect();
-                        let at = range.get("start").cloned();
-                        ("setpiece.uses", json!([uri, at, places]))
-                    }
-                };
-                let command =
-                    json!({ "title": lens.title, "command": command, "arguments": arguments });
-                json!({ "range": range, "command": command })
-            })
-            .collect())
     }
 
     fn actions(&mut self, asked: ActionsOf) -> Answer {
@@ -525,17 +340,6 @@ impl LanguageServer {
         Ok(actions.iter().enumerate().map(shown).collect())
     }
 
-    /// The picture of a start: `{ scenario, svg }`, or `{ scenario, message }`; null without a
-    /// scenario.
-    fn preview(&mut self, asked: PreviewOf) -> Answer {
-        let (path, text) = self.text(&asked.text_document.uri)?;
-        let at = asked.position.map_or(text.len(), |at| offset_of(&Lines::of(&text), &text, at));
-        Ok(self.workspace.preview(&path, at).map_or(Value::Null, |it| match it.picture {
-            Ok(svg) => json!({ "scenario": it.scenario, "svg": svg }),
-            Err(message) => json!({ "scenario": it.scenario, "message": message }),
-        }))
-    }
-
     /// An item as the hierarchies have it.
     fn node(&self, node: &ItemNode) -> Option<Value> {
         let text = self.workspace.file_text(&node.place.path)?;
@@ -556,7 +360,7 @@ impl LanguageServer {
     }
 }
 
-fn symbol_kind(kind: SymbolKind) -> u32 {
+pub(super) fn symbol_kind(kind: SymbolKind) -> u32 {
     match kind {
         SymbolKind::Scenario => 5,
         SymbolKind::Reward | SymbolKind::Ending => 24,
@@ -567,16 +371,4 @@ fn symbol_kind(kind: SymbolKind) -> u32 {
         SymbolKind::Plan => 2,
         SymbolKind::Player => 19,
     }
-}
-
-fn shown_symbol(analysis: &Analysis, symbol: &Symbol) -> Value {
-    let range = |bytes: &Range<usize>| range_by(&analysis.lines, &analysis.text, bytes);
-    let inside: Vec<Value> = symbol.inside.iter().map(|it| shown_symbol(analysis, it)).collect();
-    json!({
-        "name": symbol.name,
-        "kind": symbol_kind(symbol.kind),
-        "range": range(&symbol.whole),
-        "selectionRange": range(&symbol.range),
-        "children": inside,
-    })
 }

@@ -5,7 +5,9 @@ use axum::extract::ws::{Message as Frame, WebSocket};
 use lsp_server::{Message, Request, Response};
 
 /// Serves a page until it leaves.
-pub(super) async fn converse(mut socket: WebSocket) {
+///
+/// `allow_outside`: whether imports and scripts may be outside the text's folder.
+pub(super) async fn converse(mut socket: WebSocket, allow_outside: bool) {
     let mut server = None;
     while let Some(Ok(frame)) = socket.recv().await {
         let text = match frame {
@@ -15,7 +17,8 @@ pub(super) async fn converse(mut socket: WebSocket) {
         };
         let known = std::mem::take(&mut server);
         // A text may take a while; the other tabs don't wait for it.
-        let answered = tokio::task::spawn_blocking(move || answer(known, &text)).await;
+        let answered =
+            tokio::task::spawn_blocking(move || answer(known, &text, allow_outside)).await;
         let Ok((next, answers)) = answered else { return };
         server = next;
         for answer in answers {
@@ -27,13 +30,17 @@ pub(super) async fn converse(mut socket: WebSocket) {
 }
 
 /// What is to be sent for a message, and the server after it.
-fn answer(server: Option<LanguageServer>, text: &str) -> (Option<LanguageServer>, Vec<String>) {
+fn answer(
+    server: Option<LanguageServer>,
+    text: &str,
+    allow_outside: bool,
+) -> (Option<LanguageServer>, Vec<String>) {
     // What is no message of the protocol can't be answered.
     let Ok(message) = serde_json::from_str::<Message>(text) else { return (server, Vec::new()) };
     match (server, message) {
         (_, Message::Request(Request { id, method, params })) if method == "initialize" => {
             let answer = Response::new_ok(id, capabilities());
-            (Some(LanguageServer::new(&params)), vec![json(&answer.into())])
+            (Some(LanguageServer::new(&params, allow_outside)), vec![json(&answer.into())])
         }
         (Some(mut server), message) => {
             let mut answers = server.receive(message);

@@ -42,6 +42,8 @@ struct Shared {
     port: u16,
     token: Arc<str>,
     framed: bool,
+    /// Whether imports and scripts may be outside the text's folder.
+    allow_outside: bool,
     commands: mpsc::UnboundedSender<Command>,
     replies: broadcast::Sender<Arc<str>>,
 }
@@ -169,6 +171,7 @@ fn serve_until(
         .build()
         .map_err(|why| why.to_string())?;
     let token: Arc<str> = guard::token()?.into();
+    let allow_outside = session.allows_outside();
     runtime.block_on(async move {
         let address = SocketAddr::from((Ipv4Addr::LOCALHOST, options.port));
         let listener = TcpListener::bind(address).await.map_err(|why| why.to_string())?;
@@ -182,7 +185,8 @@ fn serve_until(
             drop(gone);
         });
         let framed = options.framed;
-        let shared = Shared { port, token: token.clone(), framed, commands, replies };
+        let shared =
+            Shared { port, token: token.clone(), framed, allow_outside, commands, replies };
         let address = format!("http://127.0.0.1:{port}/?token={token}");
         ready(Ready { address, port, commands: shared.commands.clone(), is_gone });
         let mut routes =
@@ -245,13 +249,12 @@ async fn language(
     Query(ticket): Query<Ticket>,
     upgrade: WebSocketUpgrade,
 ) -> Response {
-    if let Err(why) = admitted(&shared, &headers, &ticket) {
-        return refused(why);
+    match opened(&shared, &headers, &ticket, upgrade) {
+        Ok(upgrade) => {
+            upgrade.on_upgrade(move |socket| language::converse(socket, shared.allow_outside))
+        }
+        Err(why) => refused(why),
     }
-    upgrade
-        .max_message_size(REQUEST_MAX_BYTES)
-        .max_frame_size(REQUEST_MAX_BYTES)
-        .on_upgrade(language::converse)
 }
 
 /// The socket of a tab.
@@ -261,13 +264,21 @@ async fn socket(
     Query(ticket): Query<Ticket>,
     upgrade: WebSocketUpgrade,
 ) -> Response {
-    if let Err(why) = admitted(&shared, &headers, &ticket) {
-        return refused(why);
+    match opened(&shared, &headers, &ticket, upgrade) {
+        Ok(upgrade) => upgrade.on_upgrade(move |socket| talk(socket, shared)),
+        Err(why) => refused(why),
     }
-    upgrade
-        .max_message_size(REQUEST_MAX_BYTES)
-        .max_frame_size(REQUEST_MAX_BYTES)
-        .on_upgrade(move |socket| talk(socket, shared))
+}
+
+/// A socket for a page that may have one.
+fn opened(
+    shared: &Shared,
+    headers: &HeaderMap,
+    ticket: &Ticket,
+    upgrade: WebSocketUpgrade,
+) -> Result<WebSocketUpgrade, Refusal> {
+    admitted(shared, headers, ticket)?;
+    Ok(upgrade.max_message_size(REQUEST_MAX_BYTES).max_frame_size(REQUEST_MAX_BYTES))
 }
 
 async fn talk(mut socket: WebSocket, shared: Shared) {

@@ -97,6 +97,11 @@ pub struct Session {
 }
 
 impl Session {
+    /// Whether imports and scripts may be outside the file's folder.
+    pub(super) fn allows_outside(&self) -> bool {
+        self.options.allow_outside
+    }
+
     /// Opens a scenario by its name in the library or as a file, a level, or a recorded episode;
     /// `beside`:
     /// a recorded episode that is shown beside it.

@@ -128,10 +128,8 @@ impl StudioStage {
             |span| loaded.sources.text(span).split_whitespace().collect::<Vec<_>>().join(" ");
         let origins = &loaded.origins;
         let mut regions: Vec<RegionReply> = Vec::new();
-        for region in &origins.regions {
-            let shape =
-                region.shape.map(&mut |reg| drawer.register(reg).unwrap_or_default()).drawn();
-            let name = name(region.span);
+        for (span, shape) in loaded.regions(&drawer) {
+            let name = name(span);
             // A named region in which something is drawn is one region.
             if !regions.iter().any(|known| known.name == name && known.shape == shape) {
                 regions.push(RegionReply { name, shape });

@@ -26,6 +26,21 @@ pub(in crate::parse) enum Context {
     Fields,
 }
 
+/// The words with which statements begin in a block, by the block's word; `""` for a file.
+pub fn statement_words(block: &str) -> &'static [&'static str] {
+    let context = match block {
+        "" => Context::File,
+        "scenario" => Context::Scenario,
+        "team" => Context::Team,
+        "reward" => Context::Reward,
+        "behavior" => Context::Behavior,
+        "check" => Context::Check,
+        "curriculum" => Context::Curriculum,
+        _ => return &[],
+    };
+    context.keywords()
+}
+
 impl Context {
     /// Every list.
     pub(in crate::parse) const ALL: [Context; 9] = [

@@ -1,6 +1,6 @@
 //! Everything that must pass, fastest failures first.
 
-use crate::shell::{root, run};
+use crate::shell::{command_of_tests, is_there, root, run};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -29,15 +29,16 @@ pub(crate) fn ci() -> Result<(), String> {
     }
     crate::studio::check()?;
     rust_tests()?;
+    let command = command_of_tests();
     run(Command::new("cargo")
         .args(["doc", "--workspace", "--no-deps", "--quiet"])
         .env("RUSTDOCFLAGS", "-D warnings"))?;
-    crate::editors::drive_if_there()?;
-    crate::vscode::vscode_if_there()?;
+    crate::editors::drive_if_there(&command)?;
+    crate::vscode::vscode_if_there(&command)?;
     let wheel = python()?;
     crate::docs::build(&wheel)?;
     // Last, because a policy of the wheel plays there too.
-    crate::studio::drive_if_there()
+    crate::studio::drive_if_there(&command)
 }
 
 /// Checks the dependencies of both workspaces by `deny.toml`.
@@ -68,19 +69,12 @@ pub(crate) fn deny() -> Result<(), String> {
 }
 
 fn has_deny() -> bool {
-    Command::new("cargo")
-        .args(["deny", "--version"])
-        .output()
-        .is_ok_and(|output| output.status.success())
+    is_there(Command::new("cargo").arg("deny"))
 }
 
 /// The Rust tests, by nextest where it is installed.
 pub(crate) fn rust_tests() -> Result<(), String> {
-    let nextest = Command::new("cargo")
-        .args(["nextest", "--version"])
-        .output()
-        .is_ok_and(|output| output.status.success());
-    if nextest {
+    if is_there(Command::new("cargo").arg("nextest")) {
         cargo(&["nextest", "run", "--workspace", "--no-fail-fast"])?;
         cargo(&["test", "--workspace", "--doc", "--quiet"])
     } else {

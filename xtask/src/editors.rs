@@ -5,7 +5,7 @@ mod dialect;
 
 use crate::grammar::{self, QUERIES};
 use crate::npm;
-use crate::shell::{built_command, copy_folder, read, root, run, write};
+use crate::shell::{copy_folder, is_there, read, root, run, write};
 use dialect::{Dialect, HELIX, NEOVIM, ZED};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -78,23 +78,20 @@ fn repository(folder: &Path) -> Result<String, String> {
 }
 
 /// Drives the server from Node and from Neovim.
-pub(crate) fn drive() -> Result<(), String> {
-    let command = built_command()?;
-    drive_by_node(&command)?;
-    drive_by_neovim(&command)
+pub(crate) fn drive(command: &Path) -> Result<(), String> {
+    drive_by_node(command)?;
+    drive_by_neovim(command)
 }
 
 /// Drives the server from the clients that are there, and names the others.
-pub(crate) fn drive_if_there() -> Result<(), String> {
-    let (node, neovim) = (npm::is_there(), has_neovim());
-    let command = if node || neovim { built_command()? } else { PathBuf::new() };
-    if node {
-        drive_by_node(&command)?;
+pub(crate) fn drive_if_there(command: &Path) -> Result<(), String> {
+    if npm::is_there() {
+        drive_by_node(command)?;
     } else {
         println!("editors: left out, no npm here: no client of Node drives the server");
     }
-    if neovim {
-        drive_by_neovim(&command)
+    if has_neovim() {
+        drive_by_neovim(command)
     } else {
         println!("editors: left out, no Neovim here: `apt-get install neovim` brings it");
         Ok(())
@@ -129,5 +126,5 @@ fn drive_by_neovim(command: &Path) -> Result<(), String> {
 }
 
 fn has_neovim() -> bool {
-    Command::new("nvim").arg("--version").output().is_ok_and(|output| output.status.success())
+    is_there(&mut Command::new("nvim"))
 }

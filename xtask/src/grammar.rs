@@ -2,7 +2,7 @@
 
 mod captures;
 
-use crate::shell::{copy_folder, root, run, write};
+use crate::shell::{self, copy_folder, root, run, write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -14,10 +14,7 @@ pub(crate) const QUERIES: [&str; 6] =
 
 /// Whether tree-sitter's command is there.
 pub(crate) fn is_there() -> bool {
-    let runs = |program: &str| {
-        Command::new(program).arg("--version").output().is_ok_and(|out| out.status.success())
-    };
-    runs("tree-sitter") && runs("node")
+    ["tree-sitter", "node"].into_iter().all(|program| shell::is_there(&mut Command::new(program)))
 }
 
 /// Generates the parser, and has it and its queries read every sound file; reports those with an

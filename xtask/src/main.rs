@@ -19,6 +19,7 @@ mod vscode;
 mod workflows;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
+use shell::built_command;
 use std::process::ExitCode;
 
 /// The chores of this repository.
@@ -124,8 +125,10 @@ fn main() -> ExitCode {
         Command::Release(args) => ("release", release::release(&args)),
         Command::Archive(args) => ("archive", archive::archive(&args)),
         Command::Editors { drive: false } => ("editors", editors::assemble()),
-        Command::Editors { drive: true } => ("editors", editors::drive()),
-        Command::Vscode => ("vscode", vscode::vscode()),
+        Command::Editors { drive: true } => {
+            ("editors", built_command().and_then(|command| editors::drive(&command)))
+        }
+        Command::Vscode => ("vscode", built_command().and_then(|command| vscode::vscode(&command))),
         Command::Schema => ("schema", schema()),
         Command::Calibrate { args } => ("calibrate", ci::lab("calibrate", &args)),
         Command::Soak { args } => ("soak", ci::lab("soak", &args)),

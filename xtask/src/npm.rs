@@ -1,12 +1,12 @@
 //! npm, for the folders that it builds and tests.
 
-use crate::shell::run;
+use crate::shell::{self, run};
 use std::path::Path;
 use std::process::Command;
 
 /// Whether npm is there.
 pub(crate) fn is_there() -> bool {
-    npm().arg("--version").output().is_ok()
+    shell::is_there(&mut npm())
 }
 
 /// Installs the packages that a folder's lock file names.

@@ -32,9 +32,19 @@ pub(crate) fn built_command() -> Result<PathBuf, String> {
         let named = PathBuf::from(named);
         return named.canonicalize().map_err(|why| format!("{}: {why}", named.display()));
     }
-    run(Command::new("cargo").args(["build", "--package", "setpiece"]))?;
-    let built = if cfg!(windows) { "setpiece.exe" } else { "setpiece" };
-    Ok(root().join("target/debug").join(built))
+    run(Command::new("cargo").args(["build", "--workspace", "--bin", "setpiece"]))?;
+    Ok(command_of_tests())
+}
+
+/// The command where the Rust tests leave it. A build for itself would compile its dependencies
+/// again, because the tests want other features of them.
+pub(crate) fn command_of_tests() -> PathBuf {
+    root().join("target/debug").join(if cfg!(windows) { "setpiece.exe" } else { "setpiece" })
+}
+
+/// Whether a program is there: whether it says its version.
+pub(crate) fn is_there(program: &mut Command) -> bool {
+    program.arg("--version").output().is_ok_and(|output| output.status.success())
 }
 
 /// Replaces a folder by a copy of another one.

@@ -17,23 +17,22 @@ pub(crate) fn build() -> Result<(), String> {
 /// documentation.
 pub(crate) fn drive(shots: bool) -> Result<(), String> {
     build()?;
-    tests(shots)
+    tests(&built_command()?, shots)
 }
 
 /// Runs the page's tests where npm and the browser are; elsewhere says that it doesn't.
-pub(crate) fn drive_if_there() -> Result<(), String> {
+pub(crate) fn drive_if_there(command: &Path) -> Result<(), String> {
     if !npm::is_there() || !Path::new(&browser()).exists() {
         println!(
             "studio: left out, its tests need npm and Chromium: `apt-get install chromium`, or set CHROMIUM"
         );
         return Ok(());
     }
-    tests(false)
+    tests(command, false)
 }
 
-/// Builds the command, and runs the page's tests; the page's packages are installed.
-fn tests(shots: bool) -> Result<(), String> {
-    let command = built_command()?;
+/// Runs the page's tests; the page's packages are installed.
+fn tests(command: &Path, shots: bool) -> Result<(), String> {
     let mut tests = npm::npm();
     tests
         .args(["test", "--silent"])

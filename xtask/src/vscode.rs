@@ -2,8 +2,9 @@
 
 use crate::ci::system_python;
 use crate::npm;
-use crate::shell::{built_command, root, run};
+use crate::shell::{root, run};
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::process::Command;
 
 /// What the package holds.
@@ -21,18 +22,17 @@ const HOLDS: &[&str] = &[
 ];
 
 /// Checks, tests and packs the extension where npm is; elsewhere says that it doesn't.
-pub(crate) fn vscode_if_there() -> Result<(), String> {
+pub(crate) fn vscode_if_there(command: &Path) -> Result<(), String> {
     if npm::is_there() {
-        return vscode();
+        return vscode(command);
     }
     println!("vscode: left out, no npm here: the extension is neither tested nor packed");
     Ok(())
 }
 
 /// Checks, tests and packs the extension to `target/setpiece.vsix`.
-pub(crate) fn vscode() -> Result<(), String> {
+pub(crate) fn vscode(command: &Path) -> Result<(), String> {
     let folder = root().join("editors/vscode");
-    let command = built_command()?;
     npm::install(&folder)?;
     run(npm::npm().args(["run", "--silent", "check"]).current_dir(&folder))?;
     run(npm::npm().args(["test", "--silent"]).env("SETPIECE", command).current_dir(&folder))?;

@@ -15,12 +15,14 @@ mod item;
 mod level;
 mod reader;
 mod recover;
-
-pub use recover::statement_words;
 mod reward;
 mod scan;
 mod scenario;
 mod team;
+mod wanted;
+
+pub use recover::statement_words;
+pub use wanted::{Wanted, wanted};
 
 use crate::ast;
 use crate::problem::Problem;

@@ -16,6 +16,7 @@ mod property;
 mod role;
 mod rule;
 mod types;
+mod value;
 mod world;
 
 pub use action::{Action, StickyAction};
@@ -33,6 +34,7 @@ pub use property::{Field, Owner, PROPERTIES, Property};
 pub use role::{Role, Stat, Team};
 pub use rule::{GameMode, Rule, StartKind, Verdict};
 pub use types::{Type, Unit};
+pub use value::ValueWord;
 pub use world::{WIND_MAX_MPS, WorldFigure};
 
 /// Declares an enum whose variants have a name in the language and a line of documentation.

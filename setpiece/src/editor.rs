@@ -6,6 +6,7 @@
 mod actions;
 mod analysis;
 mod complete;
+mod completion;
 mod cursor;
 mod declared;
 mod edits;
@@ -29,11 +30,12 @@ mod select;
 mod signature;
 pub mod text;
 mod tokens;
+mod wanted;
 mod words;
 
 pub use actions::{Action, ActionKind};
 pub use analysis::Analysis;
-pub use complete::{Completion, CompletionKind};
+pub use completion::{Completion, CompletionKind};
 pub use edits::Edit;
 pub use fold::{FoldedKind, FoldedLines};
 pub use hierarchy::{ItemNode, ItemUses};

@@ -201,7 +201,34 @@ fn completion_knows_the_place() {
             &["import"],
         ),
         (scenario("rules { ‸ }"), &["offside", "half_time"], &["GK"]),
-        (scenario("reward r { give 0.1 on ‸ }"), &["pass", "shot", "goal"], &[]),
+        (scenario("reward r { give 0.1 on ‸ }"), &["pass", "shot", "goal"], &["ball", "distance"]),
+        (
+            scenario("reward r { give 0.1 on pass ‸ }"),
+            &["completed", "by", "to", "when"],
+            &["ball", "shot"],
+        ),
+        (scenario("reward r { give 0.1 on pass by ‸"), &["striker", "us", "left"], &["distance"]),
+        (scenario("reward r { give 0.1\n        ‸"), &["on", "when", "as", "give"], &["ball"]),
+        (
+            scenario("reward r { give 0.01 * closing(‸"),
+            &["ball", "striker", "them"],
+            &["by", "pass"],
+        ),
+        (scenario("end ‸"), &["limit", "success", "failure", "when"], &["ball", "CM"]),
+        (scenario("end success when ‸"), &["goal", "ball", "not", "elapsed"], &["ahead"]),
+        (scenario("end limit 400 ‸"), &["steps"], &["pass", "ball"]),
+        (scenario("ball ‸"), &["at", "in", "ahead", "between"], &["striker", "pass"]),
+        (scenario("ball at ‸"), &["striker", "left", "centre"], &["completed", "by"]),
+        (scenario("record n = ‸"), &["count", "max", "ball"], &["import"]),
+        (scenario("record n = count of ‸"), &["pass", "goal"], &["import", "ahead"]),
+        (scenario("remove ‸"), &["reward", "end", "record"], &["ball_lost", "striker"]),
+        (scenario("team ‸"), &["left", "right"], &["striker"]),
+        (scenario("param x: ‸"), &["length", "number"], &["striker"]),
+        (scenario("team right { CB ‸"), &["at", "in", "jitter", "absent"], &["pass"]),
+        (scenario("team right { keeper: ‸"), &["GK"], &["distance"]),
+        (scenario("team right { difficulty: ‸"), &["far"], &["at"]),
+        (scenario("observe vector { me.speed ‸"), &["noise", "delayed", "as"], &["pass"]),
+        ("behavior b { do ‸ }".to_owned(), &["press", "hold"], &["ball"]),
         (scenario("end limit 40‸"), &["steps", "m/s"], &["pass"]),
         (scenario("// a ‸"), &[], &["ball"]),
         ("import \"‸".to_owned(), &["std/rewards.pitch"], &["ball"]),
@@ -230,6 +257,18 @@ fn completion_knows_the_place() {
             assert!(!found.iter().any(|it| it == word), "`{word}` in {text}\n{found:?}");
         }
     }
+}
+
+/// A role is offered as a role: only a name refers to a player.
+#[test]
+fn who_has_no_name_is_not_offered_as_a_player() {
+    let (mut workspace, path, at) =
+        marked("scenario a {\n    team left { CM at (0, 0)  top: CF at (0.1, 0) }\n    ball at ‸");
+    let found = workspace.complete(&path, at);
+    let detail = |name: &str| -> Vec<&str> {
+        found.iter().filter(|it| it.text == name).map(|it| it.detail.as_str()).collect()
+    };
+    assert_eq!((detail("CM"), detail("top")), (vec!["role"], vec!["a player"]));
 }
 
 #[test]
@@ -305,6 +344,8 @@ fn fixes_mend_what_they_are_about() {
         ("team right { CF at (0.5 0.1) }", "team right { CF at (0.5, 0.1) }"),
         ("team right { CFF at (0.5, 0.1) }", "team right { CF at (0.5, 0.1) }"),
         ("reward \"scoring\"", "reward scoring"),
+        ("limit 200", "end limit 200 steps"),
+        ("reward r { give 0.1 * closing(ball, right.goal) }", "right.goal) / 1m }"),
     ] {
         let text = format!(
             "scenario a extends academy {{\n    ball at (0.5, 0)\n    team left {{ CF at (0.4, 0) }}\n    {line}\n}}\n"

@@ -1,25 +1,13 @@
 //! The language's own names, which nothing that an author declares may hide.
 
-use setpiece_scenario::vocabulary::{EventKind, Function, Owner, PROPERTIES, Property, Type};
+use setpiece_scenario::vocabulary::{
+    EventKind, Function, Owner, PROPERTIES, PitchRegion, Property, Type, ValueWord,
+};
 
 /// Names of values that are no properties.
-pub(crate) const VALUES: &[&str] = &[
-    "left",
-    "right",
-    "none",
-    "us",
-    "them",
-    "me",
-    "mates",
-    "players",
-    "ball",
-    "centre",
-    "pitch",
-    "centre_circle",
-    "score",
-    "nobody",
-    "event",
-];
+pub(crate) fn values() -> impl Iterator<Item = &'static str> {
+    ValueWord::NAMES.iter().chain(PitchRegion::NAMES).copied()
+}
 
 /// The property of the match that a name stands for.
 pub(crate) fn match_property(name: &str) -> Option<&'static Property> {
@@ -29,7 +17,7 @@ pub(crate) fn match_property(name: &str) -> Option<&'static Property> {
 
 /// Whether a name means something wherever a value stands.
 pub(crate) fn is_value(name: &str) -> bool {
-    VALUES.contains(&name) || match_property(name).is_some()
+    values().any(|value| value == name) || match_property(name).is_some()
 }
 
 /// What a word belongs to that a value can't be called.

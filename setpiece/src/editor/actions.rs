@@ -39,6 +39,10 @@ impl Workspace {
     pub fn actions(&mut self, path: &Path, within: Range<usize>) -> Vec<Action> {
         let Some(analysis) = self.analysis(path) else { return Vec::new() };
         let mut actions = self.fixes(path, &within);
+        // What is wrong is mended first.
+        if analysis.errors_at(path, &within) {
+            return actions;
+        }
         let others = [
             analysis.other_units(path, &within),
             analysis.parameter(path, &within),

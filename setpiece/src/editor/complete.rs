@@ -1,49 +1,20 @@
 //! What may stand at a place of a text.
 
+use super::completion::{Completion, CompletionKind, keys, keywords, units, word, words_of};
 use super::cursor::{CursorPlace, context, inline_script};
-use super::keywords::{KEYWORDS, Keyword, KeywordBlock};
+use super::keywords::KeywordBlock;
 use super::outline::flat;
 use super::place::{is_scenario, is_script};
 use super::text::word_at;
-use super::words::{self, WordKind};
+use super::wanted::further;
+use super::words::WordKind;
 use super::{Analysis, Symbol, SymbolKind, Workspace, script};
 use crate::dsl::ast::{Item, ItemKind};
 use crate::dsl::parse::parse;
 use crate::dsl::source::{FileId, SourceLoader};
 use crate::files::FileLoader;
-use crate::scenario::vocabulary::{EventField, Owner, PROPERTIES, Team, Unit};
-use std::collections::BTreeSet;
+use crate::scenario::vocabulary::{EventField, Owner, PROPERTIES, Role};
 use std::path::Path;
-
-/// Something that may be written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Completion {
-    /// What is written.
-    pub text: String,
-    /// What it is, in a few words.
-    pub detail: String,
-    /// What it means; may be empty.
-    pub doc: String,
-    /// What is written instead, with `${1:places}` to fill in; empty if it is the text.
-    pub snippet: String,
-    /// Its kind.
-    pub kind: CompletionKind,
-}
-
-/// What kind of thing is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CompletionKind {
-    /// A word that begins or joins a statement.
-    Keyword,
-    /// A name that a file declares.
-    Name,
-    /// A word of the language's tables.
-    Word,
-    /// The key of an option.
-    Key,
-    /// A file that can be imported.
-    File,
-}
 
 impl Workspace {
     /// What may stand at a byte of a text, in no order; the editor chooses by what is typed.
@@ -64,62 +35,19 @@ impl Workspace {
             CursorPlace::Nothing => Vec::new(),
             CursorPlace::Import => self.files(path),
             CursorPlace::Member(of) => members(of),
-            CursorPlace::Unit => {
-                Unit::ALL.iter().map(|unit| word(unit.name(), unit.doc(), "unit")).collect()
-            }
+            CursorPlace::Unit => units(),
             CursorPlace::TopLevel => keywords(KeywordBlock::File),
-            CursorPlace::Statement(block) => analysis.statements(block),
+            CursorPlace::Statement(block) => {
+                let mut found = analysis.statements(block);
+                found.extend(further(before));
+                found
+            }
             CursorPlace::Key(block) => keys(block),
             CursorPlace::After(what) => analysis.after(what),
             CursorPlace::Measure => words_of(&[WordKind::Measure]).collect(),
-            CursorPlace::Inside => analysis.values(),
+            CursorPlace::Inside => analysis.inside(before),
         }
     }
-}
-
-/// The keywords that begin a statement in a block.
-fn keywords(block: KeywordBlock) -> Vec<Completion> {
-    let known = KEYWORDS.iter().filter(|known| known.block == block);
-    let completion = |known: &Keyword| Completion {
-        text: known.name.to_owned(),
-        detail: "statement".to_owned(),
-        doc: known.doc.to_owned(),
-        snippet: known.snippet.to_owned(),
-        kind: CompletionKind::Keyword,
-    };
-    known.map(completion).collect()
-}
-
-fn word(text: &str, doc: &str, detail: &str) -> Completion {
-    Completion {
-        text: text.to_owned(),
-        detail: detail.to_owned(),
-        doc: doc.to_owned(),
-        snippet: String::new(),
-        kind: CompletionKind::Word,
-    }
-}
-
-/// The words of some kinds.
-fn words_of(kinds: &[WordKind]) -> impl Iterator<Item = Completion> {
-    let kinds = kinds.to_vec();
-    words::all().filter(move |known| kinds.contains(&known.kind)).map(|known| {
-        let detail = match known.kind {
-            WordKind::Role => "role",
-            WordKind::Event => "event",
-            WordKind::Qualifier => "kind of event",
-            WordKind::Function => "function",
-            WordKind::Property => "property",
-            WordKind::Place => "place",
-            WordKind::Option(_) => "option",
-            WordKind::Measure => "measure",
-            WordKind::Act => "act",
-            WordKind::Action => "action",
-            WordKind::Mode => "mode",
-            WordKind::Type => "type",
-        };
-        word(known.name, known.doc, detail)
-    })
 }
 
 /// What may follow `BASE.`.
@@ -141,17 +69,6 @@ fn members(base: &str) -> Vec<Completion> {
         }
         _ => owned(Owner::Player).collect(),
     }
-}
-
-/// The keys of a block of options.
-fn keys(block: &str) -> Vec<Completion> {
-    words::all()
-        .filter(|known| matches!(known.kind, WordKind::Option(of) if of == block))
-        .map(|known| Completion {
-            kind: CompletionKind::Key,
-            ..word(known.name, known.doc, "option")
-        })
-        .collect()
 }
 
 impl Workspace {
@@ -209,7 +126,7 @@ impl Analysis {
     }
 
     /// What may follow a word.
-    fn after(&self, what: &str) -> Vec<Completion> {
+    pub(super) fn after(&self, what: &str) -> Vec<Completion> {
         let is_meant = |kind: &ItemKind| match what {
             "reward" => matches!(kind, ItemKind::Reward(_)),
             "formation" => matches!(kind, ItemKind::Formation(_)),
@@ -235,10 +152,12 @@ impl Analysis {
     }
 
     /// The parameters, players and values of the text's scenarios.
-    fn own_names(&self) -> Vec<Completion> {
+    pub(super) fn own_names(&self) -> Vec<Completion> {
         let name = |symbol: &Symbol| {
             let kind = match symbol.kind {
                 SymbolKind::Parameter => "a parameter",
+                // Who has no name can't be referred to.
+                SymbolKind::Player if Role::from_name(&symbol.name).is_some() => return None,
                 SymbolKind::Player => "a player",
                 SymbolKind::Value => "a value",
                 SymbolKind::Function => "a function or region",
@@ -257,9 +176,8 @@ impl Analysis {
         inside.filter_map(name).collect()
     }
 
-    /// What may stand in an expression.
-    fn values(&self) -> Vec<Completion> {
-        let mut own = self.own_names();
+    /// The items that have a value.
+    pub(super) fn value_items(&self) -> Vec<Completion> {
         let is_value = |kind: &ItemKind| {
             matches!(
                 kind,
@@ -267,37 +185,7 @@ impl Analysis {
             )
         };
         let items = self.items().filter(|item| is_value(&item.kind));
-        own.extend(items.filter_map(|item| named(&item)));
-        let of_match = PROPERTIES.iter().filter(|property| property.owner == Owner::Match);
-        own.extend(of_match.map(|property| word(property.name, property.doc, property.ty.name())));
-        own.extend(Team::ALL.iter().map(|team| word(team.name(), team.doc(), "team")));
-        for (text, doc) in [
-            ("us", "the own team"),
-            ("them", "the other team"),
-            ("me", "the agent's player, or the player of the behaviour"),
-            ("mates", "the own team without the player"),
-            ("ball", "the ball"),
-            ("event", "the event, inside `on`"),
-            ("nobody", "no player"),
-        ] {
-            own.push(word(text, doc, "in the match"));
-        }
-        own.extend(words_of(&[
-            WordKind::Function,
-            WordKind::Event,
-            WordKind::Qualifier,
-            WordKind::Place,
-            WordKind::Role,
-            WordKind::Mode,
-        ]));
-        own.extend(
-            keywords(KeywordBlock::Within)
-                .into_iter()
-                .map(|known| Completion { detail: "in a statement".to_owned(), ..known }),
-        );
-        let mut seen = BTreeSet::new();
-        own.retain(|known| seen.insert((known.text.clone(), known.kind == CompletionKind::Name)));
-        own
+        items.filter_map(|item| named(&item)).collect()
     }
 
     /// The items of the text and of the files that it sees.

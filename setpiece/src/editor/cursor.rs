@@ -3,6 +3,9 @@
 use super::keywords::{KEYWORDS, KeywordBlock};
 use super::text::word_at;
 
+/// A statement is looked for in this many lines above a cursor.
+const LINES: usize = 12;
+
 /// What is being written where the cursor stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CursorPlace<'a> {
@@ -91,6 +94,11 @@ fn is_of_options(block: &str) -> bool {
 /// The first word of the statement whose block is open at the end of a text: `rules` in
 /// `rules { offside: off, `. `player` for a player's options; nothing outside every block.
 fn block_around(before: &str) -> &str {
+    open_block(before).0
+}
+
+/// The word of the block that is open at the end of a text, and where its inside begins.
+fn open_block(before: &str) -> (&str, usize) {
     let mut depth = 0;
     for (at, char) in before.char_indices().rev() {
         match char {
@@ -106,18 +114,46 @@ fn block_around(before: &str) -> &str {
                 let is_player = !is_head(first)
                     && block_around(outer.trim_end_matches('{')) == "team"
                     || block_around(outer) == "team";
-                return if head.trim_end().ends_with("stats:") {
+                let word = if head.trim_end().ends_with("stats:") {
                     "stats"
                 } else if is_player {
                     "player"
+                } else if first == "else" {
+                    block_around(outer)
                 } else {
                     first
                 };
+                return (word, at + 1);
             }
             _ => {}
         }
     }
-    ""
+    ("", 0)
+}
+
+/// The end of a text from where its last statement may begin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct UnfinishedStatement<'a> {
+    /// The word of the block that it stands in.
+    pub(super) block: &'a str,
+    /// The text from there on.
+    pub(super) text: &'a str,
+}
+
+/// Where the last statement of a text may begin, the latest line first.
+pub(super) fn unfinished(before: &str) -> Vec<UnfinishedStatement<'_>> {
+    let (mut block, mut start) = open_block(before);
+    if block == "observe" {
+        // Its block is no list of statements, but a part of one.
+        let head = before.get(..start).unwrap_or_default();
+        (block, start) = ("scenario", head.rfind(block).unwrap_or(start));
+    }
+    let inside = before.get(start..).unwrap_or_default();
+    let lines = inside.rmatch_indices('\n').map(|(at, _)| at + 1).take(LINES);
+    lines
+        .chain([0])
+        .filter_map(|at| Some(UnfinishedStatement { block, text: inside.get(at..)? }))
+        .collect()
 }
 
 /// The kind of block at the end of a text.

@@ -29,11 +29,7 @@ impl Workspace {
     /// What mends the problems that touch some bytes of a text.
     pub(super) fn fixes(&mut self, path: &Path, within: &Range<usize>) -> Vec<Action> {
         let Some(analysis) = self.analysis(path) else { return Vec::new() };
-        let touches = |report: &&TextReport| {
-            let own = &report.place.range;
-            own.start <= within.end && within.start <= own.end
-        };
-        let reports = analysis.own_reports(path).filter(touches).take(REPORTS);
+        let reports = analysis.own_reports(path).filter(|it| it.touches(within)).take(REPORTS);
         let reports: Vec<TextReport> = reports.cloned().collect();
         reports.iter().flat_map(|report| self.fixes_of(path, &analysis, report)).collect()
     }
@@ -49,7 +45,10 @@ impl Workspace {
                 .own_reports(path)
                 .filter(|report| report.place.range.start >= from)
                 .find_map(|report| {
-                    let fix = after.clone().fixes_of(path, &analysis, report).into_iter().next();
+                    let fixes = after.clone().fixes_of(path, &analysis, report);
+                    // Which of several units is meant only the author knows.
+                    let is_open = names_unit(report) && fixes.len() > 1;
+                    let fix = fixes.into_iter().next().filter(|_| !is_open);
                     Some((report.place.range.start, fix?))
                 });
             let Some((at, fix)) = next else { break };
@@ -153,7 +152,7 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
     let line = line_around(&analysis.text, range.start);
     let whole_line = analysis.text.get(line).unwrap_or_default().to_owned();
     // An example isn't what the author meant; of one with a unit, the unit is.
-    let is_example = help.contains("for example") || help.contains("the unit");
+    let is_example = help.contains("for example") || names_unit(report);
     // What could be written is no answer to what should be.
     let lists = help.contains("use one of") || help.starts_with("it has");
     if lists {
@@ -161,8 +160,11 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
     }
     for text in quoted(help) {
         let unit = text.trim_start_matches(|sign: char| sign.is_ascii_digit() || sign == '.');
-        let has_unit = unit.len() < text.len() && unit.starts_with(char::is_alphabetic);
-        if has_unit && is_number(marked) {
+        let has_unit =
+            unit.len() < text.len() && unit.trim_start().starts_with(char::is_alphabetic);
+        if text.starts_with("/ ") {
+            tries.push(write(range.clone(), format!("{marked} {text}")));
+        } else if has_unit && is_number(marked) {
             tries.push(write(range.clone(), format!("{marked}{unit}")));
         } else if !has_unit && !is_example && !invents(text, marked, &whole_line) {
             tries.push(write(range.clone(), text.to_owned()));
@@ -201,11 +203,17 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
         tries.push(leave(line, "the line"));
     }
     if let [only] = tries.as_mut_slice()
+        && !is_example
         && !help.starts_with("did you mean")
     {
         only.title.clone_from(help);
     }
     tries
+}
+
+/// Whether a report asks for the unit of a number.
+fn names_unit(report: &TextReport) -> bool {
+    report.help.as_ref().is_some_and(|help| help.contains("the unit"))
 }
 
 /// A text in a line of a title.

@@ -164,12 +164,11 @@ impl Analysis {
         if !endings.is_empty() {
             parts.push(format!("end {}", endings.join(", ")));
         }
-        let inherited_rewards = origins.rewards.iter().filter(|reward| !is_own(reward)).count();
-        if inherited_rewards > 0 {
-            parts.push(format!(
-                "{inherited_rewards} reward{}",
-                if inherited_rewards == 1 { "" } else { "s" }
-            ));
+        let rewards = origins.rewards.iter().zip(&scenario.rewards);
+        let rewards: Vec<&str> =
+            rewards.filter(|(at, _)| !is_own(at)).map(|(_, it)| it.name.as_str()).collect();
+        if !rewards.is_empty() {
+            parts.push(format!("reward {}", rewards.join(", ")));
         }
         let params = origins.params.iter().zip(&scenario.params);
         let params: Vec<&str> =

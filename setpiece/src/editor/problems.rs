@@ -2,7 +2,9 @@
 
 use super::place::{is_in_library, is_scenario, is_script};
 use super::{Analysis, TextReport, Workspace};
+use crate::dsl::problem::Severity;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -60,5 +62,10 @@ impl Analysis {
         path: &'a Path,
     ) -> impl Iterator<Item = &'a TextReport> {
         self.reports.iter().filter(move |report| report.place.path == path)
+    }
+
+    /// Whether an error touches some bytes of the text.
+    pub(super) fn errors_at(&self, path: &Path, within: &Range<usize>) -> bool {
+        self.own_reports(path).any(|it| it.severity == Severity::Error && it.touches(within))
     }
 }

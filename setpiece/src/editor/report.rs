@@ -3,6 +3,7 @@
 use super::place::FilePlace;
 use crate::dsl::problem::{Code, Problem, Severity};
 use crate::dsl::source::Sources;
+use std::ops::Range;
 
 /// A problem as an editor shows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +23,12 @@ pub struct TextReport {
 }
 
 impl TextReport {
+    /// Whether its place and some bytes meet.
+    pub(super) fn touches(&self, within: &Range<usize>) -> bool {
+        let own = &self.place.range;
+        own.start <= within.end && within.start <= own.end
+    }
+
     /// Problems in words, by file and place. One without a place in a file is left out.
     pub(super) fn all(problems: &[Problem], sources: &Sources) -> Vec<TextReport> {
         let mut reports: Vec<TextReport> =

@@ -1,6 +1,6 @@
 //! What may be written in a script, and what its words mean.
 
-use super::complete::{Completion, CompletionKind};
+use super::completion::{Completion, CompletionKind};
 use crate::engine::judge::script::{Member, Subject, functions, interface, members};
 
 /// What stands before a dot, as a chain of names: `ctx.params` in `ctx.params.`.

@@ -4,7 +4,7 @@ use crate::scenario::vocabulary::{
     Action, AgentsOption, BallOption, EventKind, Function, GameMode, Landmark, MeasureWord,
     PROPERTIES, PitchFigure, PitchRegion, PlayerOption, Primitive, Qualifier, QuantityWord,
     RegionName, Role, Rule, StartKind, StartOption, Stat, SubstituteOption, TeamOption, Type,
-    WorldFigure,
+    ValueWord, WorldFigure,
 };
 
 /// What kind of word it is.
@@ -22,6 +22,8 @@ pub(super) enum WordKind {
     Property,
     /// A place or an area of the pitch.
     Place,
+    /// A team, a player or another value that the language names.
+    Value,
     /// A key of the block that begins with this word.
     Option(&'static str),
     /// What checks and curricula measure.
@@ -72,6 +74,7 @@ pub(super) fn all() -> impl Iterator<Item = Word> {
         .chain(table!(Qualifier, Qualifier, "event.md"))
         .chain(table!(Function, Function, "expression.md"))
         .chain(properties)
+        .chain(table!(ValueWord, Value, "expression.md"))
         .chain(table!(Landmark, Place, "place.md"))
         .chain(table!(RegionName, Place, "region.md"))
         .chain(table!(PitchRegion, Place, "region.md"))

@@ -435,7 +435,7 @@ impl<'w> Lower<'_, 'w> {
         known.extend(
             visible.filter(|(_, found)| values(&found.item.kind)).map(|(name, _)| name.to_owned()),
         );
-        known.extend(names::VALUES.iter().map(|&name| name.to_owned()));
+        known.extend(names::values().map(str::to_owned));
         known.extend(Role::ALL.iter().map(|role| role.name().to_owned()));
         let of_match = PROPERTIES.iter().filter(|property| property.owner == Owner::Match);
         known.extend(of_match.map(|property| property.name.to_owned()));

@@ -200,7 +200,11 @@ impl<'w> Lower<'_, 'w> {
             return Value::error();
         }
         debug_assert!(!matches!(self.stage, ProgramStage::Start(_)));
+        let found = self.world.found();
         let now = apart(self);
+        if self.world.found() > found {
+            return Value::error();
+        }
         self.when = When::Prev;
         let before = apart(self);
         self.when = When::Now;

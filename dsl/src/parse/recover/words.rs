@@ -28,17 +28,7 @@ pub(in crate::parse) enum Context {
 
 /// The words with which statements begin in a block, by the block's word; `""` for a file.
 pub fn statement_words(block: &str) -> &'static [&'static str] {
-    let context = match block {
-        "" => Context::File,
-        "scenario" => Context::Scenario,
-        "team" => Context::Team,
-        "reward" => Context::Reward,
-        "behavior" => Context::Behavior,
-        "check" => Context::Check,
-        "curriculum" => Context::Curriculum,
-        _ => return &[],
-    };
-    context.keywords()
+    Context::of_block(block).keywords()
 }
 
 impl Context {
@@ -54,6 +44,21 @@ impl Context {
         Context::Curriculum,
         Context::Fields,
     ];
+
+    /// The list in a block that begins with this word.
+    pub(in crate::parse) fn of_block(word: &str) -> Context {
+        match word {
+            "" => Context::File,
+            "scenario" => Context::Scenario,
+            "team" | "formation" => Context::Team,
+            "reward" | "on" | "when" => Context::Reward,
+            "behavior" | "repeat" | "choose" | "interrupt" | "if" => Context::Behavior,
+            "suite" => Context::Suite,
+            "check" => Context::Check,
+            "curriculum" => Context::Curriculum,
+            _ => Context::Fields,
+        }
+    }
 
     /// The rule of a statement.
     pub(super) const fn statement(self) -> Rule {
@@ -71,7 +76,7 @@ impl Context {
     }
 
     /// The rule that reads statements to the end and takes no junk.
-    pub(super) const fn probe(self) -> Rule {
+    pub(in crate::parse) const fn probe(self) -> Rule {
         match self {
             Context::File => Rule::file_probe,
             Context::Scenario => Rule::scenario_probe,

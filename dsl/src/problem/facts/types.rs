@@ -5,6 +5,7 @@ use crate::check::types::Ty;
 use crate::problem::Code;
 use crate::problem::said::{Said, say};
 use crate::source::Span;
+use setpiece_scenario::vocabulary::Landmark;
 
 /// A longer text is not repeated in a message, letters.
 const TEXT_MAX: usize = 40;
@@ -279,7 +280,7 @@ fn expected(wanted: &str, found: Ty, text: &str) -> Said {
 fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
     let said = expected(&wanted.noun(), found, text);
     match instead {
-        Instead::Usual => match usual(wanted, found) {
+        Instead::Usual => match usual(wanted, found, text) {
             Some(help) => said.help(help),
             None => said,
         },
@@ -337,9 +338,15 @@ fn condition(found: Ty, text: &str) -> String {
 }
 
 /// What the two types suggest.
-fn usual(wanted: Ty, found: Ty) -> Option<String> {
+fn usual(wanted: Ty, found: Ty, text: &str) -> Option<String> {
     let both_numbers = found.dim().is_some() && wanted.dim().is_some();
     match (found, wanted) {
+        (Ty::Role, Ty::Point | Ty::Player) => {
+            Some(format!("give the player a name, as in `anchor: {text} …`, and write the name"))
+        }
+        (Ty::Bool, Ty::Point) if Landmark::from_name(text).is_some() => {
+            Some(format!("a place belongs to a team: `right.{text}`, or `them.{text}` in a reward"))
+        }
         (Ty::LENGTH, Ty::Number) => Some(
             "divide by a length, as in `/ 1m`, or use `grf_distance` for normalised units"
                 .to_owned(),

@@ -1,0 +1,166 @@
+//! What may follow within a statement: what the grammar would read there, and what that can be.
+
+use super::Analysis;
+use super::completion::{Completion, CompletionKind, joining, units, word, words_of};
+use super::cursor::{UnfinishedStatement, unfinished};
+use super::words::WordKind;
+use crate::dsl::parse::{Wanted, wanted};
+use crate::scenario::vocabulary::{Owner, PROPERTIES};
+use std::collections::BTreeSet;
+
+/// Words that begin a place, with what follows them.
+const PLACES: [(&str, &str); 9] = [
+    ("at", "at ${1:(0.5, 0)}"),
+    ("in", "in ${1:left.half}"),
+    ("ahead", "ahead of ${1:ball} by ${2:2m}"),
+    ("behind", "behind ${1:ball} by ${2:2m}"),
+    ("left", "left of ${1:ball} by ${2:2m}"),
+    ("right", "right of ${1:ball} by ${2:2m}"),
+    ("between", "between ${1:ball} and ${2:right.goal}"),
+    ("beyond", "beyond ${1:ball} by ${2:2m} from ${3:right.goal}"),
+    ("offset", "offset from ${1:ball} along ${2:90deg} by ${3:2m}"),
+];
+
+/// What `… of` gathers over the steps of an episode.
+const OVER_TIME: [(&str, &str); 8] = [
+    ("count", "how many events, or at how many steps it holds"),
+    ("sum", "the sum over the steps"),
+    ("mean", "the mean over the steps"),
+    ("max", "the greatest value of any step"),
+    ("min", "the least value of any step"),
+    ("first", "the value at the first step"),
+    ("last", "the value now"),
+    ("series", "the value of every step"),
+];
+
+impl Analysis {
+    /// What may stand at the end of a text, within a statement.
+    pub(super) fn inside(&self, before: &str) -> Vec<Completion> {
+        for UnfinishedStatement { block, text } in unfinished(before) {
+            let readings = wanted(block, text);
+            if !readings.is_empty() {
+                return self.readings(&readings, block, text);
+            }
+        }
+        self.values()
+    }
+
+    /// What may be read behind a text.
+    fn readings(&self, readings: &[Wanted], block: &str, text: &str) -> Vec<Completion> {
+        let last = text.split_whitespace().next_back().unwrap_or_default();
+        let is_option = |key: &str| words_of(&[WordKind::Option("team")]).any(|it| it.text == key);
+        // `difficulty: ` in a team has a value, `striker: ` a role.
+        let wants_role = block == "team"
+            && readings.contains(&Wanted::Role)
+            && !is_option(last.trim_end_matches(':'));
+        let mut found: Vec<Completion> = readings
+            .iter()
+            .flat_map(|reading| match reading {
+                Wanted::Keyword(name) => joining(name).into_iter().collect(),
+                Wanted::Place => PLACES
+                    .iter()
+                    .filter_map(|(name, snippet)| {
+                        Some(Completion { snippet: (*snippet).to_owned(), ..joining(name)? })
+                    })
+                    .collect(),
+                Wanted::Event => words_of(&[WordKind::Event]).collect(),
+                Wanted::Qualifier => words_of(&[WordKind::Qualifier]).collect(),
+                Wanted::Role => words_of(&[WordKind::Role]).collect(),
+                Wanted::Type => words_of(&[WordKind::Type]).collect(),
+                Wanted::Act => words_of(&[WordKind::Act]).chain(self.after("with")).collect(),
+                Wanted::Unit => units(),
+                Wanted::Name => self.named_after(text),
+                Wanted::Value if wants_role => Vec::new(),
+                Wanted::Operand if matches!(last, "by" | "to" | "for") => self.actors(),
+                Wanted::Operand => self.values(),
+                Wanted::Value => self.conditions(),
+            })
+            .collect();
+        let mut seen = BTreeSet::new();
+        found.retain(|it| seen.insert((it.text.clone(), it.kind == CompletionKind::Name)));
+        found
+    }
+
+    /// What may be or begin a value or a condition.
+    fn conditions(&self) -> Vec<Completion> {
+        let over = OVER_TIME.iter().map(|(name, doc)| Completion {
+            snippet: format!("{name} of $0"),
+            ..word(name, doc, "over the episode")
+        });
+        let logic = ["if", "not"].into_iter().filter_map(joining);
+        let events = words_of(&[WordKind::Event]);
+        self.values().into_iter().chain(events).chain(logic).chain(over).collect()
+    }
+
+    /// What a name may be behind a keyword.
+    fn named_after(&self, text: &str) -> Vec<Completion> {
+        let mut words = text.split_whitespace().rev();
+        match (words.next().unwrap_or_default(), words.next().unwrap_or_default()) {
+            ("start", _) => words_of(&[WordKind::Mode]).collect(),
+            ("place", _) => self.actors(),
+            (what, "remove") => self.removable(what),
+            _ => Vec::new(),
+        }
+    }
+
+    /// What a scenario has under a name and may remove, as far as it was compiled.
+    fn removable(&self, what: &str) -> Vec<Completion> {
+        let Some(loaded) = &self.loaded else { return Vec::new() };
+        let scenario = &loaded.scenario;
+        let names: Vec<&str> = match what {
+            "reward" => scenario.rewards.iter().map(|it| it.name.as_str()).collect(),
+            "end" => scenario.endings.list.iter().map(|it| it.label.as_str()).collect(),
+            "record" => scenario.records.iter().map(|it| it.name.as_str()).collect(),
+            _ => Vec::new(),
+        };
+        let name = |name: &str| Completion {
+            kind: CompletionKind::Name,
+            ..word(name, "", "of this scenario")
+        };
+        names.into_iter().map(name).collect()
+    }
+
+    /// Teams, players, and who else an event is by.
+    fn actors(&self) -> Vec<Completion> {
+        let players = self.own_names().into_iter().filter(|it| it.detail == "a player");
+        let is_actor = |name: &str| !matches!(name, "ball" | "centre" | "score" | "event");
+        let known = words_of(&[WordKind::Value]).filter(|it| is_actor(&it.text));
+        players.chain(known).collect()
+    }
+
+    /// What may be or begin a value.
+    pub(super) fn values(&self) -> Vec<Completion> {
+        let mut found = self.own_names();
+        found.extend(self.value_items());
+        let of_match = PROPERTIES.iter().filter(|property| property.owner == Owner::Match);
+        found.extend(of_match.map(|it| word(it.name, it.doc, it.ty.name())));
+        found.extend(words_of(&[
+            WordKind::Value,
+            WordKind::Function,
+            WordKind::Place,
+            WordKind::Role,
+            WordKind::Mode,
+        ]));
+        found.extend(joining("own"));
+        let mut seen = BTreeSet::new();
+        found.retain(|it| seen.insert((it.text.clone(), it.kind == CompletionKind::Name)));
+        found
+    }
+}
+
+/// The words that go on with a statement on a new line.
+pub(super) fn further(before: &str) -> Vec<Completion> {
+    let begun = before.trim_end();
+    let goes_on = unfinished(before)
+        .into_iter()
+        .filter(|it| !it.text.trim().is_empty() && it.text.trim_end().len() < it.text.len())
+        .find(|it| begun.ends_with(it.text.trim_end()));
+    let Some(UnfinishedStatement { block, text }) = goes_on else { return Vec::new() };
+    wanted(block, text)
+        .into_iter()
+        .filter_map(|reading| match reading {
+            Wanted::Keyword(name) => joining(name),
+            _ => None,
+        })
+        .collect()
+}

@@ -12,7 +12,7 @@ use convert::{path_of, range_of, read};
 use gen_lsp_types as lsp;
 use lsp_server::{ErrorCode, Message, Notification, Response, ResponseError};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// What the server can do, as the answer to `initialize` says it.
@@ -61,8 +61,8 @@ pub struct LanguageServer {
     workspace: Workspace,
     /// How the editor calls the open texts, and the versions of them.
     open: BTreeMap<PathBuf, (lsp::Uri, Option<i32>)>,
-    /// The files whose problems the editor shows.
-    shown: BTreeSet<PathBuf>,
+    /// The files whose problems the editor shows, under its names for them.
+    shown: BTreeMap<PathBuf, lsp::Uri>,
     /// Whether texts have changed since the last problems were sent.
     is_stale: bool,
     /// Whether the editor fills places in what it inserts.
@@ -80,7 +80,7 @@ impl LanguageServer {
         LanguageServer {
             workspace: Workspace::new(allow_outside),
             open: BTreeMap::new(),
-            shown: BTreeSet::new(),
+            shown: BTreeMap::new(),
             is_stale: false,
             has_snippets: snippets.and_then(Value::as_bool).unwrap_or_default(),
         }
@@ -149,16 +149,17 @@ impl LanguageServer {
             return Vec::new();
         }
         let mut found = self.workspace.reports();
-        for gone in std::mem::take(&mut self.shown) {
-            found.entry(gone).or_default();
+        let shown = std::mem::take(&mut self.shown);
+        for gone in shown.keys() {
+            found.entry(gone.clone()).or_default();
         }
         let mut messages = Vec::new();
         for (path, reports) in found {
-            let (Some(uri), Some(text)) = (self.uri(&path), self.workspace.file_text(&path)) else {
-                continue;
-            };
+            let Some(uri) = shown.get(&path).cloned().or_else(|| self.uri(&path)) else { continue };
+            // A text that is gone has no problems any more.
+            let text = self.workspace.file_text(&path).unwrap_or_default();
             if !reports.is_empty() {
-                self.shown.insert(path.clone());
+                self.shown.insert(path.clone(), uri.clone());
             }
             let diagnostics: Vec<Value> =
                 reports.iter().map(|report| self.diagnostic(report, &text)).collect();

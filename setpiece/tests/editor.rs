@@ -6,6 +6,9 @@
     reason = "a test fails by panicking"
 )]
 
+#[path = "editor/layout.rs"]
+mod layout;
+
 use setpiece::editor::text::Lines;
 use setpiece::editor::{ActionKind, FoldedKind, LensKind, RenameError, Workspace};
 use std::path::{Path, PathBuf};
@@ -227,10 +230,20 @@ fn completion_knows_the_place() {
         (scenario("team right { CB ‸"), &["at", "in", "jitter", "absent"], &["pass"]),
         (scenario("team right { keeper: ‸"), &["GK"], &["distance"]),
         (scenario("team right { difficulty: ‸"), &["far"], &["at"]),
-        (scenario("observe vector { me.speed ‸"), &["noise", "delayed", "as"], &["pass"]),
+        (scenario("observe vector { me.speed ‸"), &["noise", "delayed", "as"], &["import"]),
         ("behavior b { do ‸ }".to_owned(), &["press", "hold"], &["ball"]),
         (scenario("end limit 40‸"), &["steps", "m/s"], &["pass"]),
         (scenario("// a ‸"), &[], &["ball"]),
+        (scenario("/* a ‸ */"), &[], &["ball"]),
+        (scenario("// }\n    ‸"), &["ball", "team"], &["scenario"]),
+        (scenario("reward scoring as \"}\"\n    ‸"), &["ball", "team"], &["scenario"]),
+        ("behavior b { if me has ball { ‸".to_owned(), &["do", "if"], &["press", "ball"]),
+        ("behavior b { choose { 2: ‸".to_owned(), &["do"], &["press", "ball"]),
+        (
+            scenario("reward r { when me has ball { give 1 } else { ‸"),
+            &["give", "when"],
+            &["ball", "distance"],
+        ),
         ("import \"‸".to_owned(), &["std/rewards.pitch"], &["ball"]),
         ("scenario b extends ‸".to_owned(), &["academy", "academy_corner"], &["ball"]),
         (
@@ -256,6 +269,24 @@ fn completion_knows_the_place() {
         for word in has_not {
             assert!(!found.iter().any(|it| it == word), "`{word}` in {text}\n{found:?}");
         }
+    }
+}
+
+/// An answer takes time that grows with the text, not with what is nested in it.
+#[test]
+fn deep_nesting_is_answered() {
+    for text in ["{\n".repeat(60), "behavior b {\n".repeat(2_000), "(\n".repeat(2_000)] {
+        let (mut workspace, path, at) = marked(&format!("{text}‸"));
+        workspace.complete(&path, at);
+        assert_eq!(workspace.hover(&path, at), None);
+    }
+}
+
+#[test]
+fn comments_and_quotes_are_not_explained() {
+    for text in ["// goal‸", "/* goal‸ */", "import \"goal‸\""] {
+        let (mut workspace, path, at) = marked(text);
+        assert_eq!(workspace.hover(&path, at), None, "{text}");
     }
 }
 
@@ -517,26 +548,6 @@ fn hierarchies_follow_extends_and_uses() {
         callees.contains(&"near".to_owned()) && callees.contains(&"base".to_owned()),
         "{callees:?}"
     );
-}
-
-#[test]
-fn formatting_by_lines_is_formatting() {
-    let path = Path::new("/nowhere/format.pitch");
-    let text = ATTACK
-        .replace("    ball at (0.5, 0)", "  ball   at (0.5,0)")
-        .replace("        CM at", " CM at");
-    let mut workspace = Workspace::default();
-    workspace.set(path, &text);
-    let edits = workspace.format(path);
-    assert_eq!(edits.len(), 2, "{edits:?}");
-    let mut after = text.clone();
-    for edit in edits.iter().rev() {
-        after.replace_range(edit.place.range.clone(), &edit.text);
-    }
-    assert_eq!(after, ATTACK);
-    let at = behind(&text, "  ball");
-    assert_eq!(workspace.format_range(path, &(at..at)).len(), 1);
-    assert_eq!(workspace.format_typed(path, at).len(), 1);
 }
 
 #[test]

@@ -209,6 +209,36 @@ fn diagnostics_have_a_page_and_go_when_the_text_is_mended() {
     assert_eq!(client.published(), [(URI.to_owned(), Vec::new())]);
 }
 
+/// A text that was never on disk is gone once it is closed, and so are its problems.
+#[test]
+fn problems_of_a_text_that_is_gone_are_taken_back() {
+    for uri in [URI, "untitled:Untitled-1"] {
+        let mut client = Client::new();
+        client.open(uri, TEXT);
+        let shown = client.published();
+        assert!(shown.iter().any(|(it, found)| it == uri && !found.is_empty()), "{shown:?}");
+        client.say("textDocument/didClose", json!({ "textDocument": { "uri": uri } }));
+        let taken_back = client.published();
+        assert!(taken_back.contains(&(uri.to_owned(), Vec::new())), "{taken_back:?}");
+    }
+}
+
+#[test]
+fn only_the_kinds_of_action_that_are_asked_for_are_given() {
+    let mut client = Client::new();
+    let mut kinds = |only: Option<&[&str]>| -> Vec<String> {
+        let (start, end) = (position("    reward "), position("reward scorin"));
+        let asked = json!({ "textDocument": { "uri": URI },
+            "range": { "start": start, "end": end }, "context": { "diagnostics": [], "only": only } });
+        let found = client.result("textDocument/codeAction", asked);
+        found.as_array().unwrap().iter().map(|it| it["kind"].as_str().unwrap().into()).collect()
+    };
+    assert!(kinds(None).contains(&"quickfix".to_owned()));
+    assert!(kinds(Some(&["quickfix"])).iter().all(|kind| kind == "quickfix"));
+    assert_eq!(kinds(Some(&["source"])), ["source.fixAll"]);
+    assert_eq!(kinds(Some(&["refactor.extract"])), [""; 0]);
+}
+
 #[test]
 fn hierarchies_go_on_from_their_items() {
     let mut client = Client::new();

@@ -2,6 +2,7 @@
 
 use super::edits::Edit;
 use super::{Analysis, SymbolKind, Workspace};
+use crate::dsl::ast::{ItemKind, ScenarioStmt, ScenarioStmtKind};
 use crate::dsl::problem::Code;
 use crate::scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use std::ops::Range;
@@ -68,6 +69,9 @@ impl Analysis {
     /// A place of two plain numbers in the other unit: normalised as metres, or metres as
     /// normalised.
     fn other_units(&self, path: &Path, within: &Range<usize>) -> Option<Action> {
+        if self.has_own_pitch() {
+            return None;
+        }
         let (range, _) = self.value_where(within.start, |text| text.starts_with('('))?;
         let inner = self.text.get(range.clone())?.strip_prefix('(')?.strip_suffix(')')?;
         let (x, y) = inner.split_once(',')?;
@@ -91,6 +95,16 @@ impl Analysis {
             edits: vec![Edit::replace(path, range, text)],
             code: None,
         })
+    }
+
+    /// Whether a scenario of the text, or the compiled one, has a pitch of another size.
+    fn has_own_pitch(&self) -> bool {
+        let is_pitch = |stmt: &ScenarioStmt| matches!(stmt.kind, ScenarioStmtKind::Pitch(_));
+        let written = self.tree.items.iter().any(|item| match &item.kind {
+            ItemKind::Scenario(it) => it.body.iter().any(is_pitch),
+            _ => false,
+        });
+        written || self.loaded.as_ref().is_some_and(|it| !it.scenario.start.pitch.is_empty())
     }
 
     /// A constant of a scenario as a parameter.
@@ -128,6 +142,10 @@ impl Analysis {
     /// A region that is written where it is used, under a name.
     fn region(&self, path: &Path, within: &Range<usize>) -> Option<Action> {
         let scenario = self.around(within.start, &[SymbolKind::Scenario])?;
+        // A reward and a team have frames of their own, in which a region of the scenario isn't.
+        if self.around(within.start, &[SymbolKind::Reward, SymbolKind::Team]).is_some() {
+            return None;
+        }
         let (range, _) = self
             .index
             .values()
@@ -158,7 +176,8 @@ impl Analysis {
     fn formation(&self, path: &Path, within: &Range<usize>) -> Option<Action> {
         let scenario = self.around(within.start, &[SymbolKind::Scenario])?;
         let team = self.around(within.start, &[SymbolKind::Team])?;
-        if team.name != "team left" || team.inside.is_empty() {
+        // A formation is stretched to the pitch.
+        if team.name != "team left" || team.inside.is_empty() || self.has_own_pitch() {
             return None;
         }
         let first = team.inside.first()?.whole.start;

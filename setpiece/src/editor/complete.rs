@@ -114,10 +114,8 @@ impl Analysis {
                 .chain(words_of(&[WordKind::Role]))
                 .collect(),
             "reward" | "on" | "when" => keywords(KeywordBlock::Reward),
-            "behavior" | "repeat" | "choose" | "interrupt" => keywords(KeywordBlock::Behavior)
-                .into_iter()
-                .chain(words_of(&[WordKind::Act]))
-                .collect(),
+            // An act stands behind `do`.
+            "behavior" | "repeat" | "interrupt" | "if" => keywords(KeywordBlock::Behavior),
             "check" => keywords(KeywordBlock::Check),
             "curriculum" => keywords(KeywordBlock::Curriculum),
             "suite" => self.after("extends"),

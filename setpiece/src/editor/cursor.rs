@@ -1,7 +1,7 @@
 //! What is being written where a cursor stands, by the text before it: whole or broken.
 
-use super::keywords::{KEYWORDS, KeywordBlock};
-use super::text::word_at;
+use super::keywords::KeywordBlock;
+use super::text::{code, ends_in_code, word_at};
 
 /// A statement is looked for in this many lines above a cursor.
 const LINES: usize = 12;
@@ -39,7 +39,7 @@ pub(super) fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
         let is_import = line.trim_start().starts_with("import");
         return if is_import { CursorPlace::Import } else { CursorPlace::Nothing };
     }
-    if line.contains("//") {
+    if !ends_in_code(before) {
         return CursorPlace::Nothing;
     }
     if let Some(base) = before.strip_suffix('.') {
@@ -69,9 +69,9 @@ pub(super) fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
             CursorPlace::Measure
         }
         (true, "") => CursorPlace::TopLevel,
+        (false, _) | (true, "choose" | "observe") => CursorPlace::Inside,
         (true, block) if is_of_options(block) => CursorPlace::Key(block),
         (true, block) => CursorPlace::Statement(block),
-        (false, _) => CursorPlace::Inside,
     }
 }
 
@@ -91,44 +91,56 @@ fn is_of_options(block: &str) -> bool {
     )
 }
 
-/// The first word of the statement whose block is open at the end of a text: `rules` in
-/// `rules { offside: off, `. `player` for a player's options; nothing outside every block.
-fn block_around(before: &str) -> &str {
-    open_block(before).0
+/// A block that is open at the end of a text.
+#[derive(Clone, Copy, Debug)]
+struct OpenBlock<'a> {
+    /// The first word of its statement: `rules` of `rules { offside: off, `. `player` for a
+    /// player's options.
+    word: &'a str,
+    /// The byte where its statement begins.
+    head: usize,
+    /// The byte where its inside begins.
+    start: usize,
 }
 
-/// The word of the block that is open at the end of a text, and where its inside begins.
-fn open_block(before: &str) -> (&str, usize) {
-    let mut depth = 0;
-    for (at, char) in before.char_indices().rev() {
-        match char {
-            '}' => depth += 1,
-            '{' if depth > 0 => depth -= 1,
+/// The blocks that are open at the end of a text, the innermost last.
+fn open_blocks(before: &str) -> Vec<OpenBlock<'_>> {
+    let (mut open, mut begin): (Vec<OpenBlock<'_>>, usize) = (Vec::new(), 0);
+    for (at, sign) in code(before) {
+        match sign {
+            '\n' => begin = at + 1,
             '{' => {
-                let head = before.get(..at).unwrap_or_default();
-                let begin = head.rfind(['\n', '{', '}']).map_or(0, |at| at + 1);
-                let head = head.get(begin..).unwrap_or_default().trim_start();
-                let head = head.strip_prefix("abstract ").unwrap_or(head).trim_start();
-                let first = head.get(word_at(head, 0)).unwrap_or_default();
-                let outer = before.get(..begin).unwrap_or_default();
-                let is_player = !is_head(first)
-                    && block_around(outer.trim_end_matches('{')) == "team"
-                    || block_around(outer) == "team";
-                let word = if head.trim_end().ends_with("stats:") {
-                    "stats"
-                } else if is_player {
-                    "player"
-                } else if first == "else" {
-                    block_around(outer)
-                } else {
-                    first
-                };
-                return (word, at + 1);
+                let outer = open.last().map_or("", |block| block.word);
+                let head = before.get(begin..at).unwrap_or_default();
+                let word = head_word(head.trim(), outer);
+                open.push(OpenBlock { word, head: begin, start: at + 1 });
+                begin = at + 1;
+            }
+            '}' => {
+                open.pop();
+                begin = at + 1;
             }
             _ => {}
         }
     }
-    ("", 0)
+    open
+}
+
+/// The word of a block by the head of its statement, and by the block around it.
+fn head_word<'a>(head: &'a str, outer: &'a str) -> &'a str {
+    let head = head.strip_prefix("abstract ").unwrap_or(head).trim_start();
+    let first = head.get(word_at(head, 0)).unwrap_or_default();
+    match (first, outer) {
+        _ if head.ends_with("stats:") => "stats",
+        (_, "team" | "formation") => "player",
+        ("else", _) => outer,
+        _ => first,
+    }
+}
+
+/// The word of the block that is open at the end of a text; nothing outside every block.
+fn block_around(before: &str) -> &str {
+    open_blocks(before).last().map_or("", |block| block.word)
 }
 
 /// The end of a text from where its last statement may begin.
@@ -142,12 +154,22 @@ pub(super) struct UnfinishedStatement<'a> {
 
 /// Where the last statement of a text may begin, the latest line first.
 pub(super) fn unfinished(before: &str) -> Vec<UnfinishedStatement<'_>> {
-    let (mut block, mut start) = open_block(before);
-    if block == "observe" {
-        // Its block is no list of statements, but a part of one.
-        let head = before.get(..start).unwrap_or_default();
-        (block, start) = ("scenario", head.rfind(block).unwrap_or(start));
+    let open = open_blocks(before);
+    let Some(last) = open.last() else { return statement_lines("", before, 0) };
+    if !matches!(last.word, "observe" | "choose") {
+        return statement_lines(last.word, before, last.start);
     }
+    // Their blocks are no lists of statements, but parts of one.
+    let outer = open.len().checked_sub(2).and_then(|at| open.get(at));
+    statement_lines(outer.map_or("", |outer| outer.word), before, last.head)
+}
+
+/// The end of a text from each of its last lines, but not from before a byte.
+fn statement_lines<'a>(
+    block: &'a str,
+    before: &'a str,
+    start: usize,
+) -> Vec<UnfinishedStatement<'a>> {
     let inside = before.get(start..).unwrap_or_default();
     let lines = inside.rmatch_indices('\n').map(|(at, _)| at + 1).take(LINES);
     lines
@@ -163,18 +185,11 @@ pub(super) fn block_of(before: &str) -> KeywordBlock {
         "scenario" => KeywordBlock::Scenario,
         "team" | "formation" => KeywordBlock::Team,
         "reward" | "on" | "when" => KeywordBlock::Reward,
-        "behavior" | "repeat" | "choose" | "interrupt" => KeywordBlock::Behavior,
+        "behavior" | "repeat" | "choose" | "interrupt" | "if" => KeywordBlock::Behavior,
         "check" => KeywordBlock::Check,
         "curriculum" => KeywordBlock::Curriculum,
         _ => KeywordBlock::Within,
     }
-}
-
-/// Whether a word begins an item or a statement with a block.
-fn is_head(word: &str) -> bool {
-    KEYWORDS.iter().any(|known| {
-        known.name == word && matches!(known.block, KeywordBlock::File | KeywordBlock::Scenario)
-    })
 }
 
 /// The part of an inline script before the end of a text, if it ends in one.

@@ -23,7 +23,7 @@ const TRIES: usize = 12;
 /// For how many reports of a selection edits are tried.
 const REPORTS: usize = 6;
 /// How often the fixes of a text are applied one after the other: each may uncover another report.
-const ROUNDS: usize = 200;
+const ROUNDS: usize = 50;
 
 impl Workspace {
     /// What mends the problems that touch some bytes of a text.

@@ -3,7 +3,7 @@
 use super::cursor::{block_of, inline_script};
 use super::keywords::KEYWORDS;
 use super::place::is_script;
-use super::text::{brackets, word_at};
+use super::text::{brackets, ends_in_code, word_at};
 use super::words::{self, Word};
 use super::{Analysis, FilePlace, Workspace, script};
 use crate::dsl::index::ValueFact;
@@ -35,6 +35,9 @@ impl Workspace {
         if let Some(before) = of_script {
             let about = script::about(before, text.get(word.clone())?)?;
             return Some(Hover { text: about, range: word });
+        }
+        if !ends_in_code(before) {
+            return None;
         }
         let declaration = self.declaration(path, offset);
         let analysis = self.analysis(path)?;

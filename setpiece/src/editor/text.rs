@@ -172,25 +172,34 @@ pub fn code(text: &str) -> impl Iterator<Item = (usize, char)> {
             return false;
         }
         let rest = text.get(at..).unwrap_or_default();
+        if sign == '\n' && matches!(within, Within::Line | Within::Quotes) {
+            within = Within::Code;
+        }
         let (next, length) = match within {
             Within::Code if rest.starts_with("//") => (Within::Line, 2),
             Within::Code if rest.starts_with("/*") => (Within::Block, 2),
             Within::Code if rest.starts_with("\"\"\"") => (Within::Script, 3),
             Within::Code if sign == '"' => (Within::Quotes, 1),
             Within::Code => return true,
-            Within::Line if sign == '\n' => (Within::Code, 1),
             Within::Block if rest.starts_with("*/") => (Within::Code, 2),
             Within::Script if rest.starts_with("\"\"\"") => (Within::Code, 3),
             Within::Quotes if sign == '\\' => {
                 (within, 1 + rest.chars().nth(1).map_or(0, char::len_utf8))
             }
-            Within::Quotes if matches!(sign, '"' | '\n') => (Within::Code, 1),
+            Within::Quotes if sign == '"' => (Within::Code, 1),
             _ => (within, sign.len_utf8()),
         };
         within = next;
         skip = at + length;
         false
     })
+}
+
+/// Whether what is written behind a text is code: not in a comment, nor in quotes.
+pub fn ends_in_code(text: &str) -> bool {
+    // A blank ends nothing and begins nothing.
+    let longer = format!("{text} ");
+    code(&longer).last().is_some_and(|(at, _)| at == text.len())
 }
 
 #[cfg(test)]
@@ -237,6 +246,25 @@ mod tests {
         assert_eq!(closed("a { (b) }"), None);
         let it = closed("f( } x{ y").map(|it| (it.before(0), it.before(it.text.len())));
         assert_eq!(it, Some((0, 9)));
+    }
+
+    #[test]
+    fn comments_and_quotes_are_no_code() {
+        let signs: String = code("a // b\n\"c\" /* d */ e").map(|(_, sign)| sign).collect();
+        assert_eq!(signs, "a \n  e");
+        for (text, is_code) in [
+            ("", true),
+            ("a ", true),
+            ("// b", false),
+            ("// b\n", true),
+            ("/* b\n", false),
+            ("/* b */", true),
+            ("as \"b", false),
+            ("as \"b\"", true),
+            ("script rhai \"\"\"fn", false),
+        ] {
+            assert_eq!(ends_in_code(text), is_code, "{text}");
+        }
     }
 
     #[test]

@@ -317,22 +317,28 @@ impl LanguageServer {
         let (path, text) = self.text(&asked.of.text_document.uri)?;
         let within = bytes_of(&text, asked.of.range);
         // What mends a whole text is looked for when somebody wants it: it takes a while.
-        let only = asked.context.only.unwrap_or_default();
-        let actions = if only.iter().any(|kind| "source.fixAll".starts_with(kind.as_str())) {
-            self.workspace.fix_all(&path).into_iter().collect()
-        } else {
-            self.workspace.actions(&path, within)
+        let only = asked.context.only;
+        let is_wanted = |kind: ActionKind| {
+            let name = kind_of_action(kind);
+            let covers = |asked: &String| {
+                name.strip_prefix(asked.as_str())
+                    .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            };
+            match &only {
+                Some(only) => only.iter().any(covers),
+                None => kind != ActionKind::FixAll,
+            }
         };
+        let mut actions = self.workspace.actions(&path, within);
+        actions.retain(|action| is_wanted(action.kind));
+        if is_wanted(ActionKind::FixAll) {
+            actions.extend(self.workspace.fix_all(&path));
+        }
         let preferred = actions.iter().position(|action| action.kind == ActionKind::Fix);
         let shown = |(at, action): (usize, &Action)| {
             json!({
                 "title": action.title,
-                "kind": match action.kind {
-                    ActionKind::Fix => "quickfix",
-                    ActionKind::FixAll => "source.fixAll",
-                    ActionKind::Extract => "refactor.extract",
-                    ActionKind::Rewrite => "refactor.rewrite",
-                },
+                "kind": kind_of_action(action.kind),
                 "isPreferred": preferred == Some(at),
                 "edit": workspace_edit(&self.workspace, &action.edits, |path| self.uri(path)),
             })
@@ -357,6 +363,16 @@ impl LanguageServer {
         let (path, text) = self.text(&item.uri)?;
         let at: Range<usize> = bytes_of(&text, item.selection_range);
         Ok(self.workspace.node(&path, at.start))
+    }
+}
+
+/// The protocol's name of a kind of action.
+fn kind_of_action(kind: ActionKind) -> &'static str {
+    match kind {
+        ActionKind::Fix => "quickfix",
+        ActionKind::FixAll => "source.fixAll",
+        ActionKind::Extract => "refactor.extract",
+        ActionKind::Rewrite => "refactor.rewrite",
     }
 }
 

@@ -232,10 +232,18 @@ pub(crate) fn flatten<'a>(
             .collect(),
     };
     let mut known = BTreeSet::new();
+    let mut declared = BTreeMap::new();
     for (level, (scenario, _)) in links.iter().enumerate() {
         let own = BTreeMap::new();
-        let mut adding =
-            Adding { flat: &mut flat, problems, is_child: level > 0, own, known: &mut known };
+        let mut adding = Adding {
+            library,
+            flat: &mut flat,
+            problems,
+            is_child: level > 0,
+            own,
+            known: &mut known,
+            declared: &mut declared,
+        };
         adding.removals(&scenario.body);
         adding.begin_teams(&scenario.body);
         for param in &scenario.params {
@@ -256,6 +264,7 @@ pub(crate) fn flatten<'a>(
 }
 
 struct Adding<'a, 'f> {
+    library: &'a Library,
     flat: &'f mut Flat<'a>,
     problems: &'f mut Vec<Problem>,
     is_child: bool,
@@ -263,6 +272,8 @@ struct Adding<'a, 'f> {
     own: BTreeMap<(&'static str, String), Span>,
     /// What any of the parents has ever named: most names are new, and needn't be looked for.
     known: &'f mut BTreeSet<(&'static str, &'a str)>,
+    /// Where a scenario of the chain was the first to declare a value, record, reward or ending.
+    declared: &'f mut BTreeMap<(&'static str, &'a str), Span>,
 }
 
 impl<'a> Adding<'a, '_> {
@@ -357,6 +368,7 @@ impl<'a> Adding<'a, '_> {
     /// Records have names of their own: they stand apart from values.
     fn record(&mut self, binding: &'a Binding) {
         let name = &binding.name;
+        self.relate("record", &name.node, name.span);
         if let Some(first) = self.earlier("record", &name.node, name.span) {
             self.problems.push(Problem::new(
                 name.span,
@@ -382,8 +394,17 @@ impl<'a> Adding<'a, '_> {
         }
     }
 
+    /// Notes that a declaration stands for the first one of its name in the chain.
+    fn relate(&mut self, kind: &'static str, name: &'a str, at: Span) {
+        let first = *self.declared.entry((kind, name)).or_insert(at);
+        if first != at {
+            self.library.relate(at, first);
+        }
+    }
+
     /// Declares a name that expressions may use.
-    fn declare(&mut self, name: &Ident) {
+    fn declare(&mut self, name: &'a Ident) {
+        self.relate("value", &name.node, name.span);
         if let Some(first) = self.earlier("value", &name.node, name.span) {
             self.problems.push(Problem::new(
                 name.span,
@@ -484,6 +505,9 @@ impl<'a> Adding<'a, '_> {
 
     fn reward(&mut self, reward: &'a RewardUse, stmt: &'a ScenarioStmt) {
         let name = reward_name(reward);
+        if let Some((name, at)) = self.reward_at(reward) {
+            self.relate("reward", name, at);
+        }
         let known = self.flat.rewards.iter().position(|(known, _, _)| *known == name);
         if let Some(first) = self.earlier("reward", &name, stmt.span) {
             let what = match &reward.what {
@@ -523,6 +547,13 @@ impl<'a> Adding<'a, '_> {
             return;
         };
         let name = label.bare();
+        let at = match condition {
+            Some(_) => Some(last_part(label)),
+            None => self.item_at(label),
+        };
+        if let Some(at) = at {
+            self.relate("end", name, at);
+        }
         if let Some(first) = self.earlier("end", name, span) {
             self.problems.push(Problem::new(
                 label.name.span,
@@ -540,6 +571,33 @@ impl<'a> Adding<'a, '_> {
             None => self.flat.ends.push(ending),
         }
     }
+}
+
+impl<'a> Adding<'a, '_> {
+    /// The name of a reward and where it is declared: as its label, itself, or as the item.
+    fn reward_at(&self, reward: &'a RewardUse) -> Option<(&'a str, Span)> {
+        match (&reward.label, &reward.what) {
+            (Some(label), _) => {
+                let Span { file, start, end } = label.span;
+                let inner = Span { file, start: start + 1, end: end.saturating_sub(1) };
+                Some((label.node.as_str(), inner))
+            }
+            (None, RewardUseKind::Named(named)) => Some((named.bare(), self.item_at(named)?)),
+            (None, RewardUseKind::Inline { name, .. }) => Some((name.node.as_str(), name.span)),
+            (None, RewardUseKind::Script { .. }) => None,
+        }
+    }
+
+    fn item_at(&self, named: &Ref) -> Option<Span> {
+        let name = &named.name;
+        self.library.find(name.span.file, &name.node).map(|found| found.name.span)
+    }
+}
+
+/// The place of a name without the one of its import.
+fn last_part(label: &Ref) -> Span {
+    let span = label.name.span;
+    Span { start: span.end.saturating_sub(label.bare().len() as u32), ..span }
 }
 
 /// The name a reward of a scenario is known and reported by.

@@ -219,6 +219,14 @@ fn a_scenario_may_be_called_six_against_six() {
     assert_eq!(refused, Err(RenameError::NotAName("6_vs_6".to_owned())));
 }
 
+#[test]
+fn a_parameter_in_brackets_is_shown_alone() {
+    let text = "fn far(x: length = 1m, ‸y: number = max(1, 2)) = x * y";
+    let (mut workspace, path, at) = marked(text);
+    let shown = workspace.hover(&path, at).unwrap().text;
+    assert!(shown.contains("```pitch\ny: number = max(1, 2)\n```"), "{shown}");
+}
+
 /// Every `.pitch` file of a folder of the repository.
 fn pitches(folder: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
@@ -237,9 +245,10 @@ fn pitches(folder: &str) -> Vec<PathBuf> {
     found
 }
 
-/// Words of the language that a file also has as names: they stand for themselves where they aren't
-/// the name.
-const ALSO_WORDS: &[&str] = &["ball", "goal", "left", "right"];
+/// Where a word of the language stands that a file also has as a name: options and arguments before
+/// their colon, restarts, landmarks, qualifiers of events.
+const WORDS: &[&str] =
+    &["difficulty:", "gamma:", "wind:", "start corner", ".corner.", "shot on_target"];
 
 #[test]
 fn every_name_of_the_repository_has_a_declaration() {
@@ -256,19 +265,25 @@ fn every_name_of_the_repository_has_a_declaration() {
         while let Some(symbol) = symbols.pop() {
             symbols.extend(&symbol.inside);
             let is_word = symbol.name.chars().all(|it| it.is_alphanumeric() || it == '_');
-            if is_word && !matches!(symbol.kind, SymbolKind::Team | SymbolKind::Player) {
+            // A player without a name stands under the role.
+            let is_role =
+                symbol.kind == SymbolKind::Player && symbol.name == symbol.name.to_uppercase();
+            if is_word && !is_role && symbol.kind != SymbolKind::Team {
                 names.insert(symbol.name.clone());
             }
         }
         let code: BTreeSet<usize> = code(&text).map(|(at, _)| at).collect();
         let is_word = |sign: char| sign.is_alphanumeric() || sign == '_';
+        let words: Vec<_> = WORDS.iter().flat_map(|word| text.match_indices(word)).collect();
+        let is_of_language =
+            |at: usize| words.iter().any(|(start, word)| *start <= at && at < start + word.len());
         for name in &names {
             for (at, _) in text.match_indices(name.as_str()) {
                 let (before, after) = (&text[..at], &text[at + name.len()..]);
                 if !code.contains(&at)
                     || before.ends_with(is_word)
                     || after.starts_with(is_word)
-                    || ALSO_WORDS.contains(&name.as_str())
+                    || is_of_language(at)
                 {
                     continue;
                 }

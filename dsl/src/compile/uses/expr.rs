@@ -35,7 +35,9 @@ impl<'a> Uses<'a> {
             | ExprKind::HasBall(of)
             | ExprKind::OverTime { of, .. } => self.expr(of),
             ExprKind::Tuple(parts) | ExprKind::List(parts) => {
-                parts.iter().for_each(|part| self.expr(part));
+                for part in parts {
+                    self.expr(part);
+                }
             }
             ExprKind::Call { name, args } => self.call(name, args),
             ExprKind::Binary(_, one, other) => {
@@ -43,11 +45,15 @@ impl<'a> Uses<'a> {
                 self.expr(other);
             }
             ExprKind::If(condition, then, otherwise) => {
-                [condition, then, otherwise].into_iter().for_each(|part| self.expr(part));
+                for part in [condition, then, otherwise] {
+                    self.expr(part);
+                }
             }
             ExprKind::Changes(of, to) => {
                 self.expr(of);
-                to.iter().for_each(|to| self.expr(to));
+                if let Some(to) = to {
+                    self.expr(to);
+                }
             }
             ExprKind::Event(event) => self.event(event),
         }
@@ -154,7 +160,9 @@ impl<'a> Uses<'a> {
     }
 
     pub(super) fn args(&mut self, args: &'a [Arg], keys: Keys<'a>) {
-        args.iter().for_each(|arg| self.arg(arg, keys));
+        for arg in args {
+            self.arg(arg, keys);
+        }
     }
 
     fn arg(&mut self, arg: &'a Arg, keys: Keys<'a>) {

@@ -52,7 +52,9 @@ impl<'a> Uses<'a> {
                     uses.bind(&state.name);
                 }
             }
-            body.iter().for_each(|stmt| uses.reward_stmt(stmt));
+            for stmt in body {
+                uses.reward_stmt(stmt);
+            }
         });
     }
 
@@ -68,14 +70,18 @@ impl<'a> Uses<'a> {
             }
             RewardStmtKind::Give(give) => self.give(give),
             RewardStmtKind::On { events, when, body } => {
-                events.iter().for_each(|event| self.event(event));
+                for event in events {
+                    self.event(event);
+                }
                 self.exprs(when);
                 within(self, body);
             }
             RewardStmtKind::When { condition, then, otherwise } => {
                 self.expr(condition);
                 within(self, then);
-                otherwise.iter().for_each(|body| within(self, body));
+                if let Some(body) = otherwise {
+                    within(self, body);
+                }
             }
             RewardStmtKind::Assign { name, value } => self.assign(name, value),
             RewardStmtKind::Broken => {}
@@ -117,7 +123,9 @@ impl<'a> Uses<'a> {
                     uses.bind(&state.name);
                 }
             }
-            body.iter().for_each(|stmt| uses.behavior_stmt(stmt));
+            for stmt in body {
+                uses.behavior_stmt(stmt);
+            }
         });
     }
 
@@ -245,7 +253,9 @@ impl<'a> Uses<'a> {
     }
 
     pub(super) fn fields(&mut self, fields: &'a [Field]) {
-        fields.iter().for_each(|field| self.field(field));
+        for field in fields {
+            self.field(field);
+        }
     }
 
     fn field(&mut self, field: &'a Field) {

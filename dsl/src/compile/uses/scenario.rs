@@ -45,7 +45,9 @@ impl<'a> Uses<'a> {
         for stmt in &level.body {
             match &stmt.kind {
                 ScenarioStmtKind::Team { body, .. } => {
-                    body.iter().for_each(|stmt| self.team_stmt(stmt));
+                    for stmt in body {
+                        self.team_stmt(stmt);
+                    }
                 }
                 ScenarioStmtKind::Kickoff { fields, .. } => self.fields(fields),
                 ScenarioStmtKind::Let(it) | ScenarioStmtKind::Const(it) => self.expr(&it.value),
@@ -109,7 +111,9 @@ impl<'a> Uses<'a> {
             | ScenarioStmtKind::Const(it)
             | ScenarioStmtKind::Record(it) => self.binding(it),
             ScenarioStmtKind::LetTuple { names, value } => {
-                names.iter().for_each(|name| self.declare(name));
+                for name in names {
+                    self.declare(name);
+                }
                 self.expr(value);
             }
             ScenarioStmtKind::Region(region) => {
@@ -126,7 +130,9 @@ impl<'a> Uses<'a> {
                 self.fields(&ball.fields);
             }
             ScenarioStmtKind::Team { body, .. } => {
-                body.iter().for_each(|stmt| self.team_stmt(stmt));
+                for stmt in body {
+                    self.team_stmt(stmt);
+                }
             }
             ScenarioStmtKind::Kickoff { first, fields } => {
                 self.expr(first);

@@ -27,7 +27,9 @@ impl<'a> Uses<'a> {
             match kind {
                 Read::Param => {
                     let declared = self.param(name);
-                    declared.into_iter().for_each(|it| self.refer(span, it));
+                    if let Some(it) = declared {
+                        self.refer(span, it);
+                    }
                 }
                 Read::Named => match self.value(name) {
                     Some(it) => self.refer(span, it),

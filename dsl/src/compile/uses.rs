@@ -2,8 +2,8 @@
 //!
 //! The compiler looks only at what it compiles: a reward that nothing uses, what a child replaces
 //! and the keys of arguments stay out of its sight. Here every name of the tree is looked up once,
-//! where it stands, in the order in which the compiler looks: locals, the scenario, its players, its
-//! records, the file.
+//! where it stands, in the order in which the compiler looks: locals, the scenario, its players,
+//! its records, the file.
 
 mod expr;
 mod parts;

@@ -4,6 +4,7 @@
 //! parent's; fields merge key by key; unnamed endings, requirements and new rewards are added;
 //! `remove` acts on the parents' result.
 
+mod names;
 mod remove;
 mod team;
 
@@ -16,6 +17,8 @@ use crate::ast::{
 };
 use crate::problem::facts::{Calls, Names, Types};
 use crate::problem::{Guess, Problem};
+use names::last_part;
+pub(crate) use names::reward_name;
 use setpiece_scenario::vocabulary::Role;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -394,14 +397,6 @@ impl<'a> Adding<'a, '_> {
         }
     }
 
-    /// Notes that a declaration stands for the first one of its name in the chain.
-    fn relate(&mut self, kind: &'static str, name: &'a str, at: Span) {
-        let first = *self.declared.entry((kind, name)).or_insert(at);
-        if first != at {
-            self.library.relate(at, first);
-        }
-    }
-
     /// Declares a name that expressions may use.
     fn declare(&mut self, name: &'a Ident) {
         self.relate("value", &name.node, name.span);
@@ -570,49 +565,6 @@ impl<'a> Adding<'a, '_> {
             Some(slot) => *slot = ending,
             None => self.flat.ends.push(ending),
         }
-    }
-}
-
-impl<'a> Adding<'a, '_> {
-    /// The name of a reward and where it is declared: as its label, itself, or as the item.
-    fn reward_at(&self, reward: &'a RewardUse) -> Option<(&'a str, Span)> {
-        match (&reward.label, &reward.what) {
-            (Some(label), _) => {
-                let Span { file, start, end } = label.span;
-                let inner = Span { file, start: start + 1, end: end.saturating_sub(1) };
-                Some((label.node.as_str(), inner))
-            }
-            (None, RewardUseKind::Named(named)) => Some((named.bare(), self.item_at(named)?)),
-            (None, RewardUseKind::Inline { name, .. }) => Some((name.node.as_str(), name.span)),
-            (None, RewardUseKind::Script { .. }) => None,
-        }
-    }
-
-    fn item_at(&self, named: &Ref) -> Option<Span> {
-        let name = &named.name;
-        self.library.find(name.span.file, &name.node).map(|found| found.name.span)
-    }
-}
-
-/// The place of a name without the one of its import.
-fn last_part(label: &Ref) -> Span {
-    let span = label.name.span;
-    Span { start: span.end.saturating_sub(label.bare().len() as u32), ..span }
-}
-
-/// The name a reward of a scenario is known and reported by.
-pub(crate) fn reward_name(reward: &RewardUse) -> String {
-    match (&reward.label, &reward.what) {
-        (Some(label), _) => label.node.clone(),
-        (None, RewardUseKind::Named(named)) => named.bare().to_owned(),
-        (None, RewardUseKind::Inline { name, .. }) => name.node.clone(),
-        (None, RewardUseKind::Script { script, .. }) => match &script.source {
-            crate::ast::ScriptSource::File(path) => {
-                let stem = path.node.rsplit('/').next().unwrap_or_default();
-                stem.strip_suffix(".rhai").unwrap_or(stem).to_owned()
-            }
-            crate::ast::ScriptSource::Inline(_) => "script".to_owned(),
-        },
     }
 }
 

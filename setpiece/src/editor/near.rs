@@ -73,11 +73,10 @@ fn search(folder: &Path, depth: usize, files: &mut BTreeSet<PathBuf>) {
         let path = entry.path();
         let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
         match entry.file_type() {
-            Ok(kind) if kind.is_dir() => {
-                if depth > 0 && !is_hidden {
-                    search(&path, depth - 1, files);
-                }
+            Ok(kind) if kind.is_dir() && depth > 0 && !is_hidden => {
+                search(&path, depth - 1, files);
             }
+            Ok(kind) if kind.is_dir() => {}
             _ if is_scenario(&path) => drop(files.insert(path)),
             _ => {}
         }

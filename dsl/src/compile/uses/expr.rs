@@ -11,7 +11,7 @@ use setpiece_scenario::vocabulary::Function;
 
 /// What stands before the colon of an argument.
 #[derive(Clone, Copy)]
-pub(super) enum Keys<'a> {
+pub(super) enum ArgumentKeys<'a> {
     /// A parameter's name.
     Params(&'a [ParamDecl]),
     /// A word of the language.
@@ -118,18 +118,18 @@ impl<'a> Uses<'a> {
 
     fn call(&mut self, name: &'a Ident, args: &'a [Arg]) {
         if let Some(item) = self.found(name) {
-            return self.args(args, Keys::Params(item.kind.params()));
+            return self.args(args, ArgumentKeys::Params(item.kind.params()));
         }
         if let Some(flat) = &self.scenario
             && let Some(Named::Region(at)) = flat.named(&name.node)
             && let Some(region) = flat.regions.get(at).copied()
         {
             self.refer(name.span, region.name.span);
-            return self.args(args, Keys::Params(&region.params));
+            return self.args(args, ArgumentKeys::Params(&region.params));
         }
         let function = Function::from_name(&name.node);
         if function == Some(Function::Choice) {
-            return self.args(args, Keys::Values);
+            return self.args(args, ArgumentKeys::Values);
         }
         let goes_through =
             matches!(function, Some(Function::Count | Function::Any | Function::All));
@@ -140,7 +140,7 @@ impl<'a> Uses<'a> {
                 {
                     self.each(one, set, arg);
                 }
-                _ => self.arg(arg, Keys::Words),
+                _ => self.arg(arg, ArgumentKeys::Words),
             }
         }
     }
@@ -159,23 +159,23 @@ impl<'a> Uses<'a> {
         });
     }
 
-    pub(super) fn args(&mut self, args: &'a [Arg], keys: Keys<'a>) {
+    pub(super) fn args(&mut self, args: &'a [Arg], keys: ArgumentKeys<'a>) {
         for arg in args {
             self.arg(arg, keys);
         }
     }
 
-    fn arg(&mut self, arg: &'a Arg, keys: Keys<'a>) {
+    fn arg(&mut self, arg: &'a Arg, keys: ArgumentKeys<'a>) {
         if let Some(key) = &arg.key {
             match keys {
-                Keys::Params(params) => {
+                ArgumentKeys::Params(params) => {
                     let named = params.iter().find(|it| Some(&*it.name.node) == arg_name(arg));
                     if let Some(param) = named {
                         self.refer(key.span, param.name.span);
                     }
                 }
-                Keys::Words => {}
-                Keys::Values => self.expr(key),
+                ArgumentKeys::Words => {}
+                ArgumentKeys::Values => self.expr(key),
             }
         }
         self.block(|uses| {

@@ -1,7 +1,7 @@
 //! Names in rewards, behaviours and formations.
 
 use super::Uses;
-use super::expr::{Keys, path_of};
+use super::expr::{ArgumentKeys, path_of};
 use crate::ast::{
     BehaviorBody, BehaviorItem, BehaviorStmt, BehaviorStmtKind, DoStmt, DoWhat, Expr, ExprKind,
     Field, FieldValue, FormationItem, GiveStmt, GiveValue, Ident, ItemKind, Place, PlaceKind,
@@ -15,7 +15,8 @@ impl<'a> Uses<'a> {
     /// An item by its name, with arguments by the names of its parameters.
     pub(super) fn reference(&mut self, reference: &'a Ref) {
         let found = self.found(&reference.name);
-        let keys = found.map_or(Keys::Words, |item| Keys::Params(item.kind.params()));
+        let keys =
+            found.map_or(ArgumentKeys::Words, |item| ArgumentKeys::Params(item.kind.params()));
         self.args(&reference.args, keys);
     }
 
@@ -169,9 +170,10 @@ impl<'a> Uses<'a> {
         match &act.what {
             DoWhat::Named { name, args, .. } => {
                 let keys = if Primitive::from_name(&name.node).is_some() {
-                    Keys::Words
+                    ArgumentKeys::Words
                 } else {
-                    self.found(name).map_or(Keys::Words, |it| Keys::Params(it.kind.params()))
+                    self.found(name)
+                        .map_or(ArgumentKeys::Words, |it| ArgumentKeys::Params(it.kind.params()))
                 };
                 self.args(args, keys);
             }
@@ -282,6 +284,9 @@ impl<'a> Uses<'a> {
                 .find(at.file, &name)
                 .is_some_and(|found| matches!(found.item.kind, ItemKind::Behavior(_)));
         let found = if is_behavior { self.found_at(&name, at) } else { None };
-        self.args(args, found.map_or(Keys::Words, |item| Keys::Params(item.kind.params())));
+        self.args(
+            args,
+            found.map_or(ArgumentKeys::Words, |item| ArgumentKeys::Params(item.kind.params())),
+        );
     }
 }

@@ -5,6 +5,7 @@ mod cast;
 mod plan;
 mod scripts;
 mod unused;
+mod uses;
 
 use crate::ast::{File, Ident, Item, ItemKind, ScenarioItem, Span};
 use crate::cast::Cast;
@@ -141,6 +142,9 @@ pub fn compile(
     compilation.alone(items, &nothing);
     let Compilation { mut lowered, played, mut problems, unused, .. } = compilation;
     behavior::report_names(items, &mut problems);
+    if options.index {
+        uses::note(&library, &scripts, &Effort::new(), items);
+    }
     unused.report(items, &mut problems);
 
     let lost = library.files.iter().flat_map(|file| &file.lost).map(String::as_str).collect();

@@ -2,7 +2,7 @@
 //! expressions. Editors ask for it.
 
 use crate::source::Span;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The facts of a compilation by place, from what could be read of a text.
 ///
@@ -10,6 +10,10 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default)]
 pub struct Index {
     uses: BTreeMap<Span, Span>,
+    /// Names that declare something.
+    declarations: BTreeSet<Span>,
+    /// Declarations of one name that stand for each other.
+    related: BTreeSet<(Span, Span)>,
     values: BTreeMap<Span, ValueFact>,
 }
 
@@ -29,6 +33,16 @@ impl Index {
     /// Notes that the name at `at` refers to a declaration, by the place of its name.
     pub(crate) fn refer(&mut self, at: Span, declaration: Span) {
         self.uses.insert(at, declaration);
+    }
+
+    /// Notes that a name declares something.
+    pub(crate) fn declare(&mut self, at: Span) {
+        self.declarations.insert(at);
+    }
+
+    /// Notes that one declaration stands for another of the same name: a child's for its parent's.
+    pub(crate) fn relate(&mut self, one: Span, other: Span) {
+        self.related.insert((one, other));
     }
 
     /// Notes what an expression is; what is known first stays, unless the new fact knows more.
@@ -51,6 +65,8 @@ impl Index {
     pub fn moved(self, place: impl Fn(Span) -> Span) -> Index {
         Index {
             uses: self.uses.into_iter().map(|(at, it)| (place(at), place(it))).collect(),
+            declarations: self.declarations.into_iter().map(&place).collect(),
+            related: self.related.iter().map(|(one, it)| (place(*one), place(*it))).collect(),
             values: self.values.into_iter().map(|(at, fact)| (place(at), fact)).collect(),
         }
     }
@@ -63,6 +79,17 @@ impl Index {
     /// Every use of a name and where it is declared, by place.
     pub fn uses(&self) -> impl Iterator<Item = (Span, Span)> {
         self.uses.iter().map(|(at, declared)| (*at, *declared))
+    }
+
+    /// Every name of the text that declares something, by place.
+    pub fn declarations(&self) -> impl Iterator<Item = Span> {
+        self.declarations.iter().copied()
+    }
+
+    /// Pairs of declarations that have one name because one stands for the other: what a child
+    /// declares for what it replaces, players of one name in two layouts.
+    pub fn related(&self) -> impl Iterator<Item = (Span, Span)> {
+        self.related.iter().copied()
     }
 
     /// What is known of the expression that stands exactly there.

@@ -7,7 +7,9 @@ mod flatten;
 mod load;
 mod parts;
 
-pub(crate) use flatten::{Flat, FlatEnding, FlatParam, FlatTeam, Named, arg_name, flatten};
+pub(crate) use flatten::{
+    Flat, FlatEnding, FlatParam, FlatTeam, Named, arg_name, flatten, reward_name,
+};
 pub use load::Prelude;
 pub(crate) use load::{Library, MAX_FILES, MAX_IMPORTED_BYTES, NamedItem, load};
 pub(crate) use parts::{formation_chain, reward_chain};

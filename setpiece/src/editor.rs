@@ -20,6 +20,7 @@ mod layout;
 mod lenses;
 mod links;
 mod names;
+mod near;
 mod outline;
 mod place;
 mod preview;
@@ -43,7 +44,7 @@ pub use hints::InlayHint;
 pub use hover::Hover;
 pub use lenses::{Lens, LensKind};
 pub use links::FileLink;
-pub use names::RenameError;
+pub use names::{NamePlaces, RenameError};
 pub use outline::{Symbol, SymbolKind};
 pub use place::FilePlace;
 pub use preview::Preview;
@@ -62,6 +63,8 @@ pub struct Workspace {
     texts: BTreeMap<PathBuf, Arc<str>>,
     /// Whether imports and scripts may be outside a text's folder.
     allow_outside: bool,
+    /// The folders that an editor has open.
+    folders: Vec<PathBuf>,
     /// What was found out about a text as it is now; dropped when a file that it reads changes.
     known: BTreeMap<PathBuf, Arc<Analysis>>,
 }

@@ -78,7 +78,7 @@ impl LanguageServer {
         let snippets =
             params.pointer("/capabilities/textDocument/completion/completionItem/snippetSupport");
         LanguageServer {
-            workspace: Workspace::new(allow_outside),
+            workspace: Workspace::new(allow_outside).with_folders(convert::folders_of(params)),
             open: BTreeMap::new(),
             shown: BTreeMap::new(),
             is_stale: false,

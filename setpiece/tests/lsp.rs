@@ -309,3 +309,14 @@ fn what_cannot_be_answered_is_an_error_that_says_why() {
     client.open(uri, "scenario x extends academy {\n    ball at (0.5, 0)\n}\n");
     assert!(client.published().iter().any(|(it, _)| it == uri));
 }
+
+#[test]
+fn references_leave_the_declaration_out_if_they_are_asked_to() {
+    let mut client = Client::new();
+    for (is_wanted, number) in [(true, 2), (false, 1)] {
+        let mut params = place("when near");
+        params["context"] = json!({ "includeDeclaration": is_wanted });
+        let found = client.result("textDocument/references", params);
+        assert_eq!(found.as_array().unwrap().len(), number, "{found}");
+    }
+}

@@ -4,6 +4,7 @@
 //! parent's; fields merge key by key; unnamed endings, requirements and new rewards are added;
 //! `remove` acts on the parents' result.
 
+mod names;
 mod remove;
 mod team;
 
@@ -16,6 +17,8 @@ use crate::ast::{
 };
 use crate::problem::facts::{Calls, Names, Types};
 use crate::problem::{Guess, Problem};
+use names::last_part;
+pub(crate) use names::reward_name;
 use setpiece_scenario::vocabulary::Role;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -232,10 +235,18 @@ pub(crate) fn flatten<'a>(
             .collect(),
     };
     let mut known = BTreeSet::new();
+    let mut declared = BTreeMap::new();
     for (level, (scenario, _)) in links.iter().enumerate() {
         let own = BTreeMap::new();
-        let mut adding =
-            Adding { flat: &mut flat, problems, is_child: level > 0, own, known: &mut known };
+        let mut adding = Adding {
+            library,
+            flat: &mut flat,
+            problems,
+            is_child: level > 0,
+            own,
+            known: &mut known,
+            declared: &mut declared,
+        };
         adding.removals(&scenario.body);
         adding.begin_teams(&scenario.body);
         for param in &scenario.params {
@@ -256,6 +267,7 @@ pub(crate) fn flatten<'a>(
 }
 
 struct Adding<'a, 'f> {
+    library: &'a Library,
     flat: &'f mut Flat<'a>,
     problems: &'f mut Vec<Problem>,
     is_child: bool,
@@ -263,6 +275,8 @@ struct Adding<'a, 'f> {
     own: BTreeMap<(&'static str, String), Span>,
     /// What any of the parents has ever named: most names are new, and needn't be looked for.
     known: &'f mut BTreeSet<(&'static str, &'a str)>,
+    /// Where a scenario of the chain was the first to declare a value, record, reward or ending.
+    declared: &'f mut BTreeMap<(&'static str, &'a str), Span>,
 }
 
 impl<'a> Adding<'a, '_> {
@@ -357,6 +371,7 @@ impl<'a> Adding<'a, '_> {
     /// Records have names of their own: they stand apart from values.
     fn record(&mut self, binding: &'a Binding) {
         let name = &binding.name;
+        self.relate("record", &name.node, name.span);
         if let Some(first) = self.earlier("record", &name.node, name.span) {
             self.problems.push(Problem::new(
                 name.span,
@@ -383,7 +398,8 @@ impl<'a> Adding<'a, '_> {
     }
 
     /// Declares a name that expressions may use.
-    fn declare(&mut self, name: &Ident) {
+    fn declare(&mut self, name: &'a Ident) {
+        self.relate("value", &name.node, name.span);
         if let Some(first) = self.earlier("value", &name.node, name.span) {
             self.problems.push(Problem::new(
                 name.span,
@@ -484,6 +500,9 @@ impl<'a> Adding<'a, '_> {
 
     fn reward(&mut self, reward: &'a RewardUse, stmt: &'a ScenarioStmt) {
         let name = reward_name(reward);
+        if let Some((name, at)) = self.reward_at(reward) {
+            self.relate("reward", name, at);
+        }
         let known = self.flat.rewards.iter().position(|(known, _, _)| *known == name);
         if let Some(first) = self.earlier("reward", &name, stmt.span) {
             let what = match &reward.what {
@@ -523,6 +542,13 @@ impl<'a> Adding<'a, '_> {
             return;
         };
         let name = label.bare();
+        let at = match condition {
+            Some(_) => Some(last_part(label)),
+            None => self.item_at(label),
+        };
+        if let Some(at) = at {
+            self.relate("end", name, at);
+        }
         if let Some(first) = self.earlier("end", name, span) {
             self.problems.push(Problem::new(
                 label.name.span,
@@ -539,22 +565,6 @@ impl<'a> Adding<'a, '_> {
             Some(slot) => *slot = ending,
             None => self.flat.ends.push(ending),
         }
-    }
-}
-
-/// The name a reward of a scenario is known and reported by.
-pub(crate) fn reward_name(reward: &RewardUse) -> String {
-    match (&reward.label, &reward.what) {
-        (Some(label), _) => label.node.clone(),
-        (None, RewardUseKind::Named(named)) => named.bare().to_owned(),
-        (None, RewardUseKind::Inline { name, .. }) => name.node.clone(),
-        (None, RewardUseKind::Script { script, .. }) => match &script.source {
-            crate::ast::ScriptSource::File(path) => {
-                let stem = path.node.rsplit('/').next().unwrap_or_default();
-                stem.strip_suffix(".rhai").unwrap_or(stem).to_owned()
-            }
-            crate::ast::ScriptSource::Inline(_) => "script".to_owned(),
-        },
     }
 }
 

@@ -314,13 +314,22 @@ impl Library {
     }
 
     /// Notes that the name at `at` refers to a declaration. What isn't that name, such as a script
-    /// that reads it, is left out.
+    /// that reads it, is left out; of a name with dots the last part is meant.
     pub(crate) fn refer(&self, at: Span, declaration: Span) {
         self.note(|index| {
             let (used, name) = (self.sources.text(at), self.sources.text(declaration));
-            let head = used.strip_suffix(name);
-            if head.is_some_and(|head| head.is_empty() || head.ends_with('.')) {
-                index.refer(at, declaration);
+            let Some(head) = used.strip_suffix(name).filter(|_| !name.is_empty()) else { return };
+            if head.is_empty() || head.ends_with('.') {
+                index.refer(Span { start: at.start + head.len() as u32, ..at }, declaration);
+            }
+        });
+    }
+
+    /// Notes that one declaration stands for another of the same name.
+    pub(crate) fn relate(&self, one: Span, other: Span) {
+        self.note(|index| {
+            if self.sources.text(one) == self.sources.text(other) {
+                index.relate(one, other);
             }
         });
     }

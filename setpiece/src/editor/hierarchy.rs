@@ -52,7 +52,7 @@ impl Workspace {
     }
 
     /// What a file declares.
-    fn items_of(&self, path: &Path) -> Vec<Symbol> {
+    pub(super) fn items_of(&self, path: &Path) -> Vec<Symbol> {
         let Some(text) = self.file_text(path) else { return Vec::new() };
         let source = Source { name: name_of(path), text };
         of_file(&parse(&source, FileId(0), &mut Vec::new()))

@@ -184,6 +184,7 @@ impl Analysis {
         let before = source.text.get(..declaration.range.start)?;
         let start = before.rfind('\n').map_or(0, |at| at + 1);
         let line = source.text.get(start..)?.lines().next()?.trim();
+        let line = within_brackets(&source.text, declaration.range.start).unwrap_or(line);
         let comments = before.get(..start)?.lines().rev();
         let mut doc: Vec<&str> =
             comments.map_while(|line| line.trim().strip_prefix("///")).map(str::trim).collect();
@@ -194,6 +195,28 @@ impl Analysis {
         }
         Some(text)
     }
+}
+
+/// What stands between the commas around a name in round brackets: the declaration of a parameter.
+/// None if it is the name alone.
+fn within_brackets(text: &str, at: usize) -> Option<&str> {
+    let all = brackets(text);
+    let around = all.iter().filter(|it| it.open < at && at < it.close).max_by_key(|it| it.open)?;
+    let inner = around.open + 1..around.close.saturating_sub(1);
+    if !text.get(around.open..)?.starts_with('(') {
+        return None;
+    }
+    let is_free = |comma: &usize| {
+        !all.iter().any(|it| {
+            it.open >= inner.start && it.open < *comma && *comma < it.close && it.open > around.open
+        })
+    };
+    let commas = text.get(inner.clone())?.match_indices(',').map(|(comma, _)| inner.start + comma);
+    let commas: Vec<usize> = commas.filter(is_free).collect();
+    let start = commas.iter().copied().rfind(|comma| *comma < at).map_or(inner.start, |it| it + 1);
+    let end = commas.iter().copied().find(|comma| *comma >= at).unwrap_or(inner.end);
+    let whole = text.get(start..end)?.trim();
+    (whole != text.get(word_at(text, at))?).then_some(whole)
 }
 
 /// How near to a point somebody stands there, metres.

@@ -6,7 +6,7 @@ use super::outline::{Symbol, SymbolKind, flat};
 use super::place::{FilePlace, is_scenario};
 use super::{Analysis, TextReport, Workspace};
 use crate::dsl::ast::Span;
-use crate::dsl::problem::Severity;
+use crate::dsl::problem::{Severity, Stage};
 use crate::dsl::source::FileId;
 use crate::scenario::vocabulary::Role;
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,12 +22,49 @@ pub enum RenameError {
     /// The library declares it.
     #[error("the standard library declares this name")]
     OfLibrary,
+    /// It replaces something of the library.
+    #[error("`{item}` of the standard library also declares `{name}`")]
+    ReplacesLibrary {
+        /// The name.
+        name: String,
+        /// What of the library declares it.
+        item: String,
+    },
     /// The new name is none.
     #[error("`{0}` is not a name: a name has letters, digits and underscores")]
     NotAName(String),
+    /// A text in which the name stands has a mistake that hides what its names mean.
+    #[error("`{}` can't be read as a whole; mend it first", .0.display())]
+    Unreadable(PathBuf),
     /// The text would say something else.
     #[error("with the name `{0}` the text would say something else")]
     Captures(String),
+}
+
+/// A name wherever it stands.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NamePlaces {
+    /// Where it is declared. What a scenario declares again for something that it inherits has one
+    /// name with it.
+    pub declarations: Vec<FilePlace>,
+    /// Where it is used.
+    pub uses: Vec<FilePlace>,
+}
+
+impl NamePlaces {
+    /// All places, by file.
+    pub fn all(&self) -> Vec<FilePlace> {
+        let mut places: Vec<FilePlace> =
+            self.declarations.iter().chain(&self.uses).cloned().collect();
+        sort(&mut places);
+        places
+    }
+}
+
+fn sort(places: &mut Vec<FilePlace>) {
+    places
+        .sort_by(|one, other| (&one.path, one.range.start).cmp(&(&other.path, other.range.start)));
+    places.dedup();
 }
 
 impl Analysis {
@@ -36,7 +73,8 @@ impl Analysis {
         let holds =
             |span: Span| self.own(span).is_some_and(|own| own.start <= offset && offset <= own.end);
         let uses = self.index.uses().filter(|(at, _)| holds(*at));
-        let nearest = uses.min_by_key(|(at, _)| at.end - at.start);
+        // Between two names the one that begins there is meant.
+        let nearest = uses.min_by_key(|(at, _)| (at.end as usize == offset, at.end - at.start));
         let declared = || self.index.uses().map(|(_, declared)| declared).find(|span| holds(*span));
         let unused = || {
             // A player without a name stands under the role, a word of the language.
@@ -52,21 +90,31 @@ impl Analysis {
                 end: it.range.end as u32,
             })
         };
-        nearest.map(|(_, declared)| declared).or_else(declared).or_else(unused)
+        nearest
+            .map(|(_, declared)| declared)
+            .or_else(|| self.index.declarations().find(|span| holds(*span)))
+            .or_else(declared)
+            .or_else(unused)
     }
 
-    /// Where a declaration of a file is used in this text. In a dotted name its last part counts.
-    fn uses_of(&self, declaration: &FilePlace) -> Vec<Range<usize>> {
-        let length = declaration.range.len();
+    /// Where a declaration of a file is used in this text and in the scripts that it names.
+    fn uses_of(&self, path: &Path, declaration: &FilePlace) -> Vec<FilePlace> {
         let is_meant = |span: Span| self.place(span).as_ref() == Some(declaration);
         let uses = self.index.uses().filter(|(_, declared)| is_meant(*declared));
-        let mut places: Vec<Range<usize>> = uses
-            .filter_map(|(at, _)| self.own(at))
-            .map(|at| at.end.saturating_sub(length)..at.end)
+        let mut places: Vec<FilePlace> = uses
+            .filter_map(|(at, _)| match self.own(at) {
+                Some(range) => Some(FilePlace { path: path.to_owned(), range }),
+                None => self.place(at).filter(|place| !is_scenario(&place.path)),
+            })
             .collect();
-        places.sort_by_key(|place| place.start);
-        places.dedup();
+        sort(&mut places);
         places
+    }
+
+    /// The declarations that stand for each other.
+    fn related(&self) -> Vec<(FilePlace, FilePlace)> {
+        let pairs = self.index.related();
+        pairs.filter_map(|(one, other)| Some((self.place(one)?, self.place(other)?))).collect()
     }
 
     /// What every name of this text refers to, by its place.
@@ -79,10 +127,24 @@ impl Analysis {
         .collect()
     }
 
+    /// The files and bytes of the declarations that stand for each other.
+    fn relations(&self) -> BTreeSet<[(PathBuf, usize); 2]> {
+        let key = |place: FilePlace| (place.path, place.range.start);
+        self.related().into_iter().map(|(one, other)| [key(one), key(other)]).collect()
+    }
+
     /// How many errors there are.
     pub(super) fn errors(&self) -> usize {
         let is_error = |report: &&TextReport| report.severity == Severity::Error;
         self.reports.iter().filter(is_error).count()
+    }
+
+    /// Whether the text has a mistake of syntax, so that a part of it isn't known.
+    fn is_unreadable(&self, path: &Path) -> bool {
+        let is_syntax = |it: &TextReport| it.code.stage() == Stage::Syntax;
+        self.reports
+            .iter()
+            .any(|it| it.severity == Severity::Error && is_syntax(it) && it.place.path == path)
     }
 }
 
@@ -94,40 +156,58 @@ impl Workspace {
     }
 
     /// Every place where the name at a byte is used or declared, by path: in the open texts and in
-    /// the files beside them.
+    /// the files near them.
     pub fn references(&mut self, path: &Path, offset: usize) -> Vec<FilePlace> {
-        let Some(declaration) = self.declaration(path, offset) else { return Vec::new() };
-        let mut places = vec![declaration.clone()];
-        for path in self.files_with(&declaration) {
-            let Some(analysis) = self.analysis(&path) else { continue };
-            let used = analysis.uses_of(&declaration).into_iter();
-            places.extend(used.map(|range| FilePlace { path: path.clone(), range }));
+        self.places_of(path, offset).all()
+    }
+
+    /// Where the name at a byte is declared and used: in the open texts and in the files near them.
+    pub fn places_of(&mut self, path: &Path, offset: usize) -> NamePlaces {
+        let Some(declaration) = self.declaration(path, offset) else {
+            return NamePlaces::default();
+        };
+        let files = self.files_with(&declaration);
+        let mut found = NamePlaces { declarations: vec![declaration], uses: Vec::new() };
+        let mut pairs: Vec<(FilePlace, FilePlace)> = Vec::new();
+        for path in &files {
+            pairs.extend(self.analysis(path).iter().flat_map(|analysis| analysis.related()));
         }
-        places.sort_by(|one, other| {
-            (&one.path, one.range.start).cmp(&(&other.path, other.range.start))
-        });
-        places.dedup();
-        places
+        let mut next = 0;
+        while let Some(known) = found.declarations.get(next).cloned() {
+            next += 1;
+            for (one, other) in &pairs {
+                for (this, that) in [(one, other), (other, one)] {
+                    if *this == known && !found.declarations.contains(that) {
+                        found.declarations.push(that.clone());
+                    }
+                }
+            }
+        }
+        for path in &files {
+            let Some(analysis) = self.analysis(path) else { continue };
+            for declaration in &found.declarations {
+                found.uses.extend(analysis.uses_of(path, declaration));
+            }
+        }
+        found.uses.retain(|place| !found.declarations.contains(place));
+        sort(&mut found.declarations);
+        sort(&mut found.uses);
+        found
     }
 
-    /// The open texts, and the files beside them, that have the word of a declaration.
+    /// The open texts, and the files near them, that have the word of a declaration.
     fn files_with(&self, declaration: &FilePlace) -> Vec<PathBuf> {
-        let declaring = self.file_text(&declaration.path);
-        let name = declaring.as_deref().and_then(|text| text.get(declaration.range.clone()));
-        let Some(name) = name else { return Vec::new() };
-        let mut files: BTreeSet<PathBuf> = self.paths().map(Path::to_owned).collect();
-        let folders: BTreeSet<PathBuf> =
-            files.iter().filter_map(|path| path.parent().map(Path::to_owned)).collect();
-        let entries = folders.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
-        files.extend(
-            entries.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| is_scenario(path)),
-        );
+        let Some(name) = self.word(declaration) else { return Vec::new() };
         let has_name =
-            |path: &PathBuf| self.file_text(path).is_some_and(|text| text.contains(name));
-        files.into_iter().filter(has_name).collect()
+            |path: &PathBuf| self.file_text(path).is_some_and(|text| text.contains(&name));
+        self.files_near().into_iter().filter(has_name).collect()
     }
 
-    /// What gives the name at a byte another name, in the open texts and the files beside them.
+    fn word(&self, place: &FilePlace) -> Option<String> {
+        self.file_text(&place.path)?.get(place.range.clone()).map(str::to_owned)
+    }
+
+    /// What gives the name at a byte another name, in the open texts and the files near them.
     ///
     /// # Errors
     /// [`RenameError`], also if another name would be meant somewhere afterwards.
@@ -141,16 +221,29 @@ impl Workspace {
         if declaration.is_in_library() {
             return Err(RenameError::OfLibrary);
         }
-        let mut letters = name.chars();
-        let begins = letters.next().is_some_and(|first| first.is_alphabetic() || first == '_');
-        if !begins || !letters.all(|letter| letter.is_alphanumeric() || letter == '_') {
+        let places = self.places_of(path, offset);
+        if let Some(replaced) = places.declarations.iter().find(|it| it.is_in_library()) {
+            let item = self.item_around(replaced).unwrap_or_default();
+            let name = self.word(replaced).unwrap_or_default();
+            return Err(RenameError::ReplacesLibrary { name, item });
+        }
+        // The name of a scenario may begin with a digit.
+        let is_scenario =
+            self.node(path, offset).is_some_and(|node| node.kind == SymbolKind::Scenario);
+        let is_letter = |letter: char| letter.is_alphanumeric() || letter == '_';
+        let begins = |letter: char| is_letter(letter) && (is_scenario || !letter.is_numeric());
+        let has_letter = name.chars().any(|letter| !letter.is_numeric());
+        if !name.starts_with(begins) || !name.chars().all(is_letter) || !has_letter {
             return Err(RenameError::NotAName(name.to_owned()));
         }
-        let edits: Vec<Edit> = self
-            .references(path, offset)
-            .into_iter()
-            .map(|place| Edit { place, text: name.to_owned() })
-            .collect();
+        let edits: Vec<Edit> =
+            places.all().into_iter().map(|place| Edit { place, text: name.to_owned() }).collect();
+        for edit in &edits {
+            let path = &edit.place.path;
+            if self.analysis(path).is_some_and(|analysis| analysis.is_unreadable(path)) {
+                return Err(RenameError::Unreadable(path.clone()));
+            }
+        }
         if self.keeps_meaning(&edits) {
             Ok(edits)
         } else {
@@ -158,25 +251,52 @@ impl Workspace {
         }
     }
 
-    /// Whether every name of the open texts refers to the same place after some edits, and nothing
-    /// else is wrong.
+    /// The places of the name at a byte that may be typed at once: all of them, if they are of one
+    /// text and the name can be changed.
+    pub fn linked(&mut self, path: &Path, offset: usize) -> Vec<Range<usize>> {
+        let Some(text) = self.file_text(path) else { return Vec::new() };
+        let Some(word) = self.declaration(path, offset).and_then(|it| self.word(&it)) else {
+            return Vec::new();
+        };
+        let mut fresh = format!("{word}_");
+        while text.contains(&fresh) {
+            fresh.push('_');
+        }
+        let edits = self.rename(path, offset, &fresh).unwrap_or_default();
+        if edits.len() < 2 || edits.iter().any(|edit| edit.place.path != path) {
+            return Vec::new();
+        }
+        edits.into_iter().map(|edit| edit.place.range).collect()
+    }
+
+    /// The name of the item in which a declaration stands.
+    fn item_around(&self, place: &FilePlace) -> Option<String> {
+        let items = self.items_of(&place.path);
+        let around = items.into_iter().find(|it| it.whole.contains(&place.range.start))?;
+        Some(around.name)
+    }
+
+    /// Whether every name of the texts in sight refers to the same place after some edits, and
+    /// nothing else is wrong.
     fn keeps_meaning(&mut self, edits: &[Edit]) -> bool {
         let mut after = self.after(edits);
-        let paths: Vec<PathBuf> = after.paths().map(Path::to_owned).collect();
         let moved = |path: &Path, offset: usize| offset_after(path, offset, edits);
-        paths.iter().all(|path| {
+        let edited = edits.iter().map(|edit| edit.place.path.clone()).collect();
+        self.files_that_read(edited).iter().all(|path| {
             let (Some(was), Some(is)) = (self.analysis(path), after.analysis(path)) else {
                 return false;
+            };
+            let there = |(file, at): (PathBuf, usize)| {
+                let at = moved(&file, at);
+                (file, at)
             };
             let expected: BTreeMap<usize, (PathBuf, usize)> = was
                 .meanings()
                 .into_iter()
-                .map(|(at, (file, declared))| {
-                    let declared = moved(&file, declared);
-                    (moved(path, at), (file, declared))
-                })
+                .map(|(at, declared)| (moved(path, at), there(declared)))
                 .collect();
-            is.meanings() == expected && is.errors() <= was.errors()
+            let related = was.relations().into_iter().map(|pair| pair.map(there)).collect();
+            is.meanings() == expected && is.relations() == related && is.errors() <= was.errors()
         })
     }
 }

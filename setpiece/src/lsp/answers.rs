@@ -26,6 +26,19 @@ struct RenameTo {
 }
 
 #[derive(Deserialize)]
+struct ReferencesOf {
+    #[serde(flatten)]
+    at: AtPlace,
+    context: Option<ReferencesContext>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct ReferencesContext {
+    include_declaration: bool,
+}
+
+#[derive(Deserialize)]
 struct ActionsOf {
     #[serde(flatten)]
     of: WithinText,
@@ -195,9 +208,11 @@ impl LanguageServer {
         Ok(parents.iter().filter_map(|parent| self.location(&parent.place)).collect())
     }
 
-    fn references(&mut self, asked: AtPlace) -> Answer {
-        let (path, _, at) = self.at(&asked)?;
-        let places = self.workspace.references(&path, at);
+    fn references(&mut self, asked: ReferencesOf) -> Answer {
+        let (path, _, at) = self.at(&asked.at)?;
+        let found = self.workspace.places_of(&path, at);
+        let is_wanted = asked.context.is_none_or(|it| it.include_declaration);
+        let places = if is_wanted { found.all() } else { found.uses };
         Ok(places.iter().filter_map(|place| self.location(place)).collect())
     }
 
@@ -210,12 +225,10 @@ impl LanguageServer {
 
     fn prepare_rename(&mut self, asked: AtPlace) -> Answer {
         let (path, text, at) = self.at(&asked)?;
-        let places = self.workspace.references(&path, at);
-        let is_own = self
-            .workspace
-            .declaration(&path, at)
-            .is_some_and(|declaration| !declaration.is_in_library());
-        let here = places
+        let found = self.workspace.places_of(&path, at);
+        let is_own = found.declarations.iter().all(|declaration| !declaration.is_in_library());
+        let here = found
+            .all()
             .into_iter()
             .find(|place| place.path == path && place.range.start <= at && at <= place.range.end);
         Ok(here.filter(|_| is_own).map_or(Value::Null, |it| range_of(&text, &it.range)))
@@ -233,12 +246,11 @@ impl LanguageServer {
     /// The places of a name that are typed at once: all of them, if they are of one text.
     fn linked(&mut self, asked: AtPlace) -> Answer {
         let (path, text, at) = self.at(&asked)?;
-        let is_own = self.workspace.declaration(&path, at).is_some_and(|it| it.path == path);
-        let places = self.workspace.references(&path, at);
-        if !is_own || places.len() < 2 || places.iter().any(|place| place.path != path) {
+        let places = self.workspace.linked(&path, at);
+        if places.is_empty() {
             return Ok(Value::Null);
         }
-        let ranges: Vec<Value> = places.iter().map(|it| range_of(&text, &it.range)).collect();
+        let ranges: Vec<Value> = places.iter().map(|it| range_of(&text, it)).collect();
         Ok(json!({ "ranges": ranges, "wordPattern": "[A-Za-z_][A-Za-z0-9_]*" }))
     }
 

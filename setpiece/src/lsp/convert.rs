@@ -101,3 +101,12 @@ pub(super) fn workspace_edit(
     }
     json!({ "changes": changes })
 }
+
+/// The folders that an editor has open, as its `initialize` says.
+pub(super) fn folders_of(params: &Value) -> Vec<PathBuf> {
+    let listed = params.get("workspaceFolders").and_then(Value::as_array);
+    let listed: Vec<&Value> = listed.into_iter().flatten().filter_map(|it| it.get("uri")).collect();
+    let uris = if listed.is_empty() { params.get("rootUri").into_iter().collect() } else { listed };
+    let uri = |uri: &Value| serde_json::from_value::<lsp::Uri>(uri.clone()).ok();
+    uris.into_iter().filter_map(uri).map(|uri| path_of(&uri)).collect()
+}

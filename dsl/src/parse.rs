@@ -22,7 +22,7 @@ mod team;
 mod wanted;
 
 pub use recover::statement_words;
-pub use wanted::{Wanted, wanted};
+pub use wanted::{MayFollow, wanted};
 
 use crate::ast;
 use crate::problem::Problem;

@@ -11,7 +11,7 @@ import { chromium } from "playwright-core";
 const COMMAND = process.env.SETPIECE ?? "setpiece";
 const BROWSER = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const PYTHON = process.env.SETPIECE_PYTHON;
-const PATIENCE = { timeout: 20_000 };
+const PATIENCE = { timeout: 60_000 };
 const DRILL = `/// A striker and a winger against one defender.
 scenario drill extends academy {
     param gap: length = 10m in 5m..20m
@@ -234,7 +234,7 @@ test("the match is seen in space, from the stand and from anywhere", async () =>
   await page.selectOption("#view", "stand");
   await page.waitForTimeout(500);
   assert.ok((await page.locator("#pitch").isHidden()) && (await page.locator("#pitch-deep").isVisible()));
-  const shot = async () => (await page.locator("#pitch-deep").screenshot()).toString("base64");
+  const shot = async () => (await page.locator("#pitch-deep").screenshot(PATIENCE)).toString("base64");
   const before = await shot();
   await shoot(page, "studio-stand");
   await page.selectOption("#view", "free");
@@ -344,7 +344,7 @@ test("a pitch of another size is drawn to its size, from above and in space", as
   // The same page shows a longer one.
   await page.selectOption("#view", "stand");
   await page.waitForTimeout(500);
-  const shot = async () => (await page.locator("#pitch-deep").screenshot()).toString("base64");
+  const shot = async () => (await page.locator("#pitch-deep").screenshot(PATIENCE)).toString("base64");
   const before = await shot();
   await page.locator(".param", { hasText: "long" }).locator("input").focus();
   await page.keyboard.press("End");

@@ -7,7 +7,7 @@ use setpiece_grammar::{PitchParser, Rule, keyword};
 
 /// Something that may stand next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
+pub enum MayFollow {
     /// This word.
     Keyword(&'static str),
     /// Where something stands: `at …`, `ahead of …`.
@@ -36,7 +36,7 @@ pub enum Wanted {
 /// up to its end.
 ///
 /// - `block`: the word that begins the block, `scenario`; empty for a file.
-pub fn wanted(block: &str, statement: &str) -> Vec<Wanted> {
+pub fn wanted(block: &str, statement: &str) -> Vec<MayFollow> {
     // No token begins with this character.
     const END: char = '\u{1}';
     let text = format!("{statement}{END}");
@@ -53,36 +53,38 @@ pub fn wanted(block: &str, statement: &str) -> Vec<Wanted> {
 }
 
 /// What a rule may begin with; nothing for signs, and for the statement that could follow.
-fn readings(rule: Rule) -> Vec<Wanted> {
+fn readings(rule: Rule) -> Vec<MayFollow> {
     let words: &[&str] = match rule {
-        Rule::place => return vec![Wanted::Place],
-        Rule::event_name | Rule::event | Rule::events => return vec![Wanted::Event],
-        Rule::qualifier => return vec![Wanted::Qualifier],
-        Rule::role | Rule::beside_role => return vec![Wanted::Role],
-        Rule::type_name => return vec![Wanted::Type],
-        Rule::act | Rule::act_name => return vec![Wanted::Act],
-        Rule::unit | Rule::long_unit => return vec![Wanted::Unit],
-        Rule::ident | Rule::path => return vec![Wanted::Name],
-        Rule::operand | Rule::arg => return vec![Wanted::Operand],
-        Rule::expr | Rule::value => return vec![Wanted::Value],
+        Rule::place => return vec![MayFollow::Place],
+        Rule::event_name | Rule::event | Rule::events => return vec![MayFollow::Event],
+        Rule::qualifier => return vec![MayFollow::Qualifier],
+        Rule::role | Rule::beside_role => return vec![MayFollow::Role],
+        Rule::type_name => return vec![MayFollow::Type],
+        Rule::act | Rule::act_name => return vec![MayFollow::Act],
+        Rule::unit | Rule::long_unit => return vec![MayFollow::Unit],
+        Rule::ident | Rule::path => return vec![MayFollow::Name],
+        Rule::operand | Rule::arg => return vec![MayFollow::Operand],
+        Rule::expr | Rule::value => return vec![MayFollow::Value],
         Rule::end_when => &["success", "failure", "when", "script"],
         Rule::trigger => &["when", "script"],
         Rule::sight => &["noise", "when", "delayed", "stack"],
         Rule::removed => &["reward", "end", "require", "record", "substitute"],
         Rule::removed_whole => &["ball", "rounds", "world", "pitch", "start", "observe"],
-        _ => return keyword(rule).map(Wanted::Keyword).into_iter().collect(),
+        _ => return keyword(rule).map(MayFollow::Keyword).into_iter().collect(),
     };
-    words.iter().copied().map(Wanted::Keyword).collect()
+    words.iter().copied().map(MayFollow::Keyword).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Wanted::{self, Event, Keyword, Name, Operand, Place, Qualifier, Role, Unit, Value};
+    use super::MayFollow::{
+        self, Event, Keyword, Name, Operand, Place, Qualifier, Role, Unit, Value,
+    };
     use super::wanted;
 
     #[test]
     fn the_grammar_says_what_may_follow() {
-        let cases: [(&str, &str, &[Wanted]); 14] = [
+        let cases: [(&str, &str, &[MayFollow]); 14] = [
             ("scenario", "ball ", &[Place]),
             ("scenario", "ball at ", &[Operand]),
             ("scenario", "team ", &[Keyword("left"), Keyword("right")]),
@@ -102,7 +104,7 @@ mod tests {
         for (block, text, expected) in cases {
             assert_eq!(wanted(block, text), expected, "{text}");
         }
-        let some = |block, text, expected: &[Wanted]| {
+        let some = |block, text, expected: &[MayFollow]| {
             let found = wanted(block, text);
             assert!(expected.iter().all(|it| found.contains(it)), "{text}: {found:?}");
         };

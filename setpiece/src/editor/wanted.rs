@@ -4,7 +4,7 @@ use super::Analysis;
 use super::completion::{Completion, CompletionKind, joining, units, word, words_of};
 use super::cursor::{UnfinishedStatement, unfinished};
 use super::words::WordKind;
-use crate::dsl::parse::{Wanted, wanted};
+use crate::dsl::parse::{MayFollow, wanted};
 use crate::scenario::vocabulary::{Owner, PROPERTIES};
 use std::collections::BTreeSet;
 
@@ -46,34 +46,34 @@ impl Analysis {
     }
 
     /// What may be read behind a text.
-    fn readings(&self, readings: &[Wanted], block: &str, text: &str) -> Vec<Completion> {
+    fn readings(&self, readings: &[MayFollow], block: &str, text: &str) -> Vec<Completion> {
         let last = text.split_whitespace().next_back().unwrap_or_default();
         let is_option = |key: &str| words_of(&[WordKind::Option("team")]).any(|it| it.text == key);
         // `difficulty: ` in a team has a value, `striker: ` a role.
         let wants_role = block == "team"
-            && readings.contains(&Wanted::Role)
+            && readings.contains(&MayFollow::Role)
             && !is_option(last.trim_end_matches(':'));
         let mut found: Vec<Completion> = readings
             .iter()
             .flat_map(|reading| match reading {
-                Wanted::Keyword(name) => joining(name).into_iter().collect(),
-                Wanted::Place => PLACES
+                MayFollow::Keyword(name) => joining(name).into_iter().collect(),
+                MayFollow::Place => PLACES
                     .iter()
                     .filter_map(|(name, snippet)| {
                         Some(Completion { snippet: (*snippet).to_owned(), ..joining(name)? })
                     })
                     .collect(),
-                Wanted::Event => words_of(&[WordKind::Event]).collect(),
-                Wanted::Qualifier => words_of(&[WordKind::Qualifier]).collect(),
-                Wanted::Role => words_of(&[WordKind::Role]).collect(),
-                Wanted::Type => words_of(&[WordKind::Type]).collect(),
-                Wanted::Act => words_of(&[WordKind::Act]).chain(self.after("with")).collect(),
-                Wanted::Unit => units(),
-                Wanted::Name => self.named_after(text),
-                Wanted::Value if wants_role => Vec::new(),
-                Wanted::Operand if matches!(last, "by" | "to" | "for") => self.actors(),
-                Wanted::Operand => self.values(),
-                Wanted::Value => self.conditions(),
+                MayFollow::Event => words_of(&[WordKind::Event]).collect(),
+                MayFollow::Qualifier => words_of(&[WordKind::Qualifier]).collect(),
+                MayFollow::Role => words_of(&[WordKind::Role]).collect(),
+                MayFollow::Type => words_of(&[WordKind::Type]).collect(),
+                MayFollow::Act => words_of(&[WordKind::Act]).chain(self.after("with")).collect(),
+                MayFollow::Unit => units(),
+                MayFollow::Name => self.named_after(text),
+                MayFollow::Value if wants_role => Vec::new(),
+                MayFollow::Operand if matches!(last, "by" | "to" | "for") => self.actors(),
+                MayFollow::Operand => self.values(),
+                MayFollow::Value => self.conditions(),
             })
             .collect();
         let mut seen = BTreeSet::new();
@@ -159,7 +159,7 @@ pub(super) fn further(before: &str) -> Vec<Completion> {
     wanted(block, text)
         .into_iter()
         .filter_map(|reading| match reading {
-            Wanted::Keyword(name) => joining(name),
+            MayFollow::Keyword(name) => joining(name),
             _ => None,
         })
         .collect()

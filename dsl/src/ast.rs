@@ -112,6 +112,18 @@ impl ItemKind {
         }
     }
 
+    /// Whether its name stands for a value in expressions.
+    pub fn is_value(&self) -> bool {
+        matches!(
+            self,
+            ItemKind::Const(_)
+                | ItemKind::Fn(_)
+                | ItemKind::Region(_)
+                | ItemKind::Table(_)
+                | ItemKind::Formation(_)
+        )
+    }
+
     /// The parameters in its brackets.
     pub fn params(&self) -> &[ParamDecl] {
         match self {

@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The facts of a compilation by place, from what could be read of a text.
 ///
-/// The compiler notes them while it compiles, so an index never contradicts a report.
+/// Values are noted while the compiler compiles and names by `compile/uses`, on the same checked
+/// tree, so an index never contradicts a report.
 #[derive(Clone, Debug, Default)]
 pub struct Index {
     uses: BTreeMap<Span, Span>,

@@ -13,16 +13,16 @@ mod expr;
 mod field;
 mod item;
 mod level;
+mod next;
 mod reader;
 mod recover;
 mod reward;
 mod scan;
 mod scenario;
 mod team;
-mod wanted;
 
+pub use next::{NextPart, next_parts};
 pub use recover::statement_words;
-pub use wanted::{MayFollow, wanted};
 
 use crate::ast;
 use crate::problem::Problem;

@@ -8,7 +8,8 @@ mod load;
 mod parts;
 
 pub(crate) use flatten::{
-    Flat, FlatEnding, FlatParam, FlatTeam, Named, arg_name, flatten, reward_name,
+    Flat, FlatEnding, FlatParam, FlatTeam, Named, arg_name, ending_declaration, flatten, last_part,
+    quoted, reward_declaration, reward_name,
 };
 pub use load::Prelude;
 pub(crate) use load::{Library, MAX_FILES, MAX_IMPORTED_BYTES, NamedItem, load};

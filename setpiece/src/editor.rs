@@ -31,7 +31,7 @@ mod select;
 mod signature;
 pub mod text;
 mod tokens;
-mod wanted;
+mod within;
 mod words;
 
 pub use actions::{Action, ActionKind};

@@ -6,8 +6,12 @@
     reason = "a test fails by panicking"
 )]
 
+#[path = "editor/completion.rs"]
+mod completion;
 #[path = "editor/layout.rs"]
 mod layout;
+#[path = "editor/naming.rs"]
+mod naming;
 
 use setpiece::editor::text::Lines;
 use setpiece::editor::{ActionKind, FoldedKind, LensKind, RenameError, Workspace};
@@ -177,129 +181,6 @@ fn hover_says_what_a_name_a_word_or_a_value_is() {
         let hover = of(line, words);
         assert!(hover.contains(expected), "{words}: {hover}");
     }
-}
-
-#[test]
-fn completion_knows_the_place() {
-    let complete = |text: &str| -> Vec<String> {
-        let (mut workspace, path, at) = marked(text);
-        workspace.complete(&path, at).into_iter().map(|it| it.text).collect()
-    };
-    let scenario = |inside: &str| {
-        format!(
-            "scenario a extends academy {{\n    param far: length = 3m\n    team left {{ striker: CF at (0.4, 0) }}\n    {inside}\n}}\n"
-        )
-    };
-    for (text, has, has_not) in [
-        ("‸".to_owned(), &["scenario", "reward", "import"][..], &["ball", "CF"][..]),
-        (scenario("‸"), &["ball", "team", "end"], &["GK", "scenario"]),
-        (scenario("team right { ‸ }"), &["GK", "CB", "maybe"], &["ball"]),
-        (scenario("reward ‸"), &["scoring", "checkpoints"], &["GK"]),
-        (scenario("end success when ball in them.‸"), &["box", "half", "goal"], &["far"]),
-        (scenario("end success when ball.‸"), &["speed", "height"], &["fatigue"]),
-        (scenario("end success when striker.‸"), &["fatigue", "role"], &["height"]),
-        (
-            scenario("reward r { give 1 when distance(me, ‸"),
-            &["striker", "far", "ball", "distance"],
-            &["import"],
-        ),
-        (scenario("rules { ‸ }"), &["offside", "half_time"], &["GK"]),
-        (scenario("reward r { give 0.1 on ‸ }"), &["pass", "shot", "goal"], &["ball", "distance"]),
-        (
-            scenario("reward r { give 0.1 on pass ‸ }"),
-            &["completed", "by", "to", "when"],
-            &["ball", "shot"],
-        ),
-        (scenario("reward r { give 0.1 on pass by ‸"), &["striker", "us", "left"], &["distance"]),
-        (scenario("reward r { give 0.1\n        ‸"), &["on", "when", "as", "give"], &["ball"]),
-        (
-            scenario("reward r { give 0.01 * closing(‸"),
-            &["ball", "striker", "them"],
-            &["by", "pass"],
-        ),
-        (scenario("end ‸"), &["limit", "success", "failure", "when"], &["ball", "CM"]),
-        (scenario("end success when ‸"), &["goal", "ball", "not", "elapsed"], &["ahead"]),
-        (scenario("end limit 400 ‸"), &["steps"], &["pass", "ball"]),
-        (scenario("ball ‸"), &["at", "in", "ahead", "between"], &["striker", "pass"]),
-        (scenario("ball at ‸"), &["striker", "left", "centre"], &["completed", "by"]),
-        (scenario("record n = ‸"), &["count", "max", "ball"], &["import"]),
-        (scenario("record n = count of ‸"), &["pass", "goal"], &["import", "ahead"]),
-        (scenario("remove ‸"), &["reward", "end", "record"], &["ball_lost", "striker"]),
-        (scenario("team ‸"), &["left", "right"], &["striker"]),
-        (scenario("param x: ‸"), &["length", "number"], &["striker"]),
-        (scenario("team right { CB ‸"), &["at", "in", "jitter", "absent"], &["pass"]),
-        (scenario("team right { keeper: ‸"), &["GK"], &["distance"]),
-        (scenario("team right { difficulty: ‸"), &["far"], &["at"]),
-        (scenario("observe vector { me.speed ‸"), &["noise", "delayed", "as"], &["import"]),
-        ("behavior b { do ‸ }".to_owned(), &["press", "hold"], &["ball"]),
-        (scenario("end limit 40‸"), &["steps", "m/s"], &["pass"]),
-        (scenario("// a ‸"), &[], &["ball"]),
-        (scenario("/* a ‸ */"), &[], &["ball"]),
-        (scenario("// }\n    ‸"), &["ball", "team"], &["scenario"]),
-        (scenario("reward scoring as \"}\"\n    ‸"), &["ball", "team"], &["scenario"]),
-        ("behavior b { if me has ball { ‸".to_owned(), &["do", "if"], &["press", "ball"]),
-        ("behavior b { choose { 2: ‸".to_owned(), &["do"], &["press", "ball"]),
-        (
-            scenario("reward r { when me has ball { give 1 } else { ‸"),
-            &["give", "when"],
-            &["ball", "distance"],
-        ),
-        ("import \"‸".to_owned(), &["std/rewards.pitch"], &["ball"]),
-        ("scenario b extends ‸".to_owned(), &["academy", "academy_corner"], &["ball"]),
-        (
-            scenario("reward s script rhai \"\"\"fn reward(ctx, now, prev, events) { now.ball.‸"),
-            &["speed", "at"],
-            &["fatigue"],
-        ),
-        (
-            scenario("reward s script rhai \"\"\"fn reward(ctx, now, prev, events) { ctx.‸"),
-            &["params", "step"],
-            &["ball"],
-        ),
-        (
-            scenario("reward s script rhai \"\"\"fn reward(ctx, now, prev, events) { now.named.‸"),
-            &["far", "striker"],
-            &["ball"],
-        ),
-    ] {
-        let found = complete(&text);
-        for word in has {
-            assert!(found.iter().any(|it| it == word), "no `{word}` in {text}\n{found:?}");
-        }
-        for word in has_not {
-            assert!(!found.iter().any(|it| it == word), "`{word}` in {text}\n{found:?}");
-        }
-    }
-}
-
-/// An answer takes time that grows with the text, not with what is nested in it.
-#[test]
-fn deep_nesting_is_answered() {
-    for text in ["{\n".repeat(60), "behavior b {\n".repeat(2_000), "(\n".repeat(2_000)] {
-        let (mut workspace, path, at) = marked(&format!("{text}‸"));
-        workspace.complete(&path, at);
-        assert_eq!(workspace.hover(&path, at), None);
-    }
-}
-
-#[test]
-fn comments_and_quotes_are_not_explained() {
-    for text in ["// goal‸", "/* goal‸ */", "import \"goal‸\""] {
-        let (mut workspace, path, at) = marked(text);
-        assert_eq!(workspace.hover(&path, at), None, "{text}");
-    }
-}
-
-/// A role is offered as a role: only a name refers to a player.
-#[test]
-fn who_has_no_name_is_not_offered_as_a_player() {
-    let (mut workspace, path, at) =
-        marked("scenario a {\n    team left { CM at (0, 0)  top: CF at (0.1, 0) }\n    ball at ‸");
-    let found = workspace.complete(&path, at);
-    let detail = |name: &str| -> Vec<&str> {
-        found.iter().filter(|it| it.text == name).map(|it| it.detail.as_str()).collect()
-    };
-    assert_eq!((detail("CM"), detail("top")), (vec!["role"], vec!["a player"]));
 }
 
 #[test]

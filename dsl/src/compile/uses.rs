@@ -12,13 +12,14 @@ mod scenario;
 mod script;
 
 use crate::ast::{
-    Binding, Domain, FormationItem, Ident, Item, ItemKind, ParamDecl, RewardUse, RewardUseKind,
-    Span, Spanned, TableRows,
+    Binding, Domain, FormationItem, Ident, Item, ItemKind, ParamDecl, Span, TableRows,
 };
 use crate::check::names;
 use crate::lower::Effort;
 use crate::lower::loaded_scripts::LoadedScripts;
-use crate::resolve::{Flat, FlatEnding, Library, Named, reward_name};
+use crate::resolve::{
+    Flat, FlatEnding, Library, ending_declaration, reward_declaration, reward_name,
+};
 use std::collections::BTreeMap;
 
 /// Notes the names of some items.
@@ -209,78 +210,20 @@ impl<'a> Uses<'a> {
 
     /// Whether a name is a word of the language even where a file has an item of this name.
     fn is_word(&self, name: &str, span: Span) -> bool {
-        let found = self.library.find(span.file, name).map(|found| &found.item.kind);
-        let is_value = |kind: &ItemKind| {
-            matches!(
-                kind,
-                ItemKind::Const(_)
-                    | ItemKind::Fn(_)
-                    | ItemKind::Region(_)
-                    | ItemKind::Table(_)
-                    | ItemKind::Formation(_)
-            )
-        };
-        names::is_value(name) && !found.is_some_and(is_value)
-    }
-
-    /// Where the name of a scenario's reward is declared: its label, itself, or the item.
-    fn reward_at(&self, used: &RewardUse) -> Option<Span> {
-        match (&used.label, &used.what) {
-            (Some(label), _) => quoted(label),
-            (None, RewardUseKind::Inline { name, .. }) => Some(name.span),
-            (None, RewardUseKind::Named(named)) => {
-                let name = &named.name;
-                self.library.find(name.span.file, &name.node).map(|found| found.name.span)
-            }
-            (None, RewardUseKind::Script { .. }) => None,
-        }
+        let found = self.library.find(span.file, name);
+        names::is_value(name) && !found.is_some_and(|found| found.item.kind.is_value())
     }
 
     /// Where the reward that a scenario knows by a name is declared.
     fn reward_of(&self, flat: &Flat<'a>, name: &str) -> Option<Span> {
         let (_, used, _) = flat.rewards.iter().find(|(known, ..)| known == name)?;
         debug_assert_eq!(reward_name(used), name);
-        self.reward_at(used)
-    }
-
-    /// Where the name of an ending is declared: its label, or the item.
-    fn ending_at(&self, ending: &FlatEnding<'a>) -> Option<Span> {
-        let label = ending.label?;
-        if ending.condition.is_some() {
-            return Some(tail(label.name.span, label.bare()));
-        }
-        let name = &label.name;
-        self.library.find(name.span.file, &name.node).map(|found| found.name.span)
+        reward_declaration(self.library, used)
     }
 
     fn ending_of(&self, flat: &Flat<'a>, name: &str) -> Option<Span> {
         let bears = |ending: &&FlatEnding<'_>| ending.label.is_some_and(|it| it.bare() == name);
-        self.ending_at(flat.ends.iter().find(bears)?)
-    }
-}
-
-/// The last part of a name with dots.
-fn tail(span: Span, part: &str) -> Span {
-    Span { start: span.end.saturating_sub(part.len() as u32).max(span.start), ..span }
-}
-
-/// The words between the quotes of a label, if they are a name.
-fn quoted(label: &Spanned<String>) -> Option<Span> {
-    let is_name = label.node.chars().all(|sign| sign.is_alphanumeric() || sign == '_');
-    let Span { file, start, end } = label.span;
-    (is_name && !label.node.is_empty()).then_some(Span { file, start: start + 1, end: end - 1 })
-}
-
-impl Flat<'_> {
-    /// Where a value of this name is declared.
-    fn declaration(&self, name: &str) -> Option<Span> {
-        let known = match self.named(name)? {
-            Named::Param(at) => &self.params.get(at)?.decl.name,
-            Named::Let(at) => &self.lets.get(at)?.name,
-            Named::Tuple(at, index) => self.tuples.get(at)?.0.get(index)?,
-            Named::Const(at) => &self.consts.get(at)?.name,
-            Named::Region(at) => &self.regions.get(at)?.name,
-        };
-        Some(known.span)
+        let ending = flat.ends.iter().find(bears)?;
+        ending_declaration(self.library, ending.label?, ending.condition.is_some())
     }
 }

@@ -144,7 +144,7 @@ fn lower_ending<'w>(lower: &mut Lower<'_, 'w>, ending: &FlatEnding<'w>) -> Optio
                 lower.report(Problem::new(reference.name.span, fact));
                 return None;
             };
-            lower.world.refer(reference.name.span, at);
+            lower.world.mark_used(at);
             let mut scope = Scope::new(false, LiteralFrame::World);
             lower.bind_params(
                 &item.name.node,

@@ -69,7 +69,7 @@ fn players_of<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<Rostered
         && let Some(found) = world.library.find(name.span.file, &name.node)
         && let crate::ast::ItemKind::Formation(item) = &found.item.kind
     {
-        world.refer(name.span, found.name.span);
+        world.mark_used(found.name.span);
         let mut scope = Scope::new(false, LiteralFrame::Own);
         lower.bind_params(&name.node, &item.params, args, expr.span, &mut scope, false);
         return chain_players(world, item, &scope, team);

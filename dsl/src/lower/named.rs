@@ -83,7 +83,7 @@ impl<'w> Lower<'_, 'w> {
             && let ItemKind::Table(table) = &found.item.kind
             && library.ambiguous(at.file, name, at).is_none()
         {
-            world.refer(at, found.name.span);
+            world.mark_used(found.name.span);
             return self.named_table(table);
         }
         let value = self.file_name(name, at)?;

@@ -97,7 +97,7 @@ impl<'w> Lower<'_, 'w> {
             let name = name.to_owned();
             return Some(self.fail(Problem::new(span, Types::SeriesIsNoValue { name })));
         }
-        world.refer(span, binding.name.span);
+        world.mark_used(binding.name.span);
         let known = self.remembered.records.iter();
         let mut known = known.filter(|(known, when, _)| *known == name && *when == self.when);
         if let Some((.., value)) = known.next() {

@@ -142,7 +142,7 @@ pub(super) fn written<'w>(
         world.report(problem);
         return None;
     }
-    world.refer(name.span, found.name.span);
+    world.mark_used(found.name.span);
     let written = WrittenReward::named(world, item, &reference.args, reference.span);
     Some((written, found.item.doc.clone()))
 }

@@ -179,9 +179,9 @@ fn expression<'w>(
 
 /// What plays a player; `None` after a report.
 fn ai<'w>(lower: &Lower<'_, 'w>, expr: &'w Expr) -> Option<PlayedBy<'w>> {
-    let (path, at, args): (_, _, &'w [Arg]) = match &expr.kind {
-        ExprKind::Call { name, args } => (Some(name.node.clone()), name.span, args),
-        _ => (path_of(expr), expr.span, &[]),
+    let (path, args): (_, &'w [Arg]) = match &expr.kind {
+        ExprKind::Call { name, args } => (Some(name.node.clone()), args),
+        _ => (path_of(expr), &[]),
     };
     let Some(name) = path else {
         lower.report(Problem::new(expr.span, Types::NoAi));
@@ -200,7 +200,7 @@ fn ai<'w>(lower: &Lower<'_, 'w>, expr: &'w Expr) -> Option<PlayedBy<'w>> {
             lower.report(problem);
             return None;
         }
-        lower.world.refer(at, found.name.span);
+        lower.world.mark_used(found.name.span);
         let used = BehaviorUse::Named { item, args, scope: lower.scope.clone(), span: expr.span };
         return Some(PlayedBy::Behavior(used));
     }

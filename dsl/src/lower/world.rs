@@ -8,7 +8,7 @@ use super::people::{Casting, Rostered};
 use crate::ast::{Binding, Span};
 use crate::parse::MAX_PROBLEMS;
 use crate::problem::{Code, Problem};
-use crate::resolve::{Flat, Library, Named};
+use crate::resolve::{Flat, Library};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -133,28 +133,14 @@ impl<'w> World<'w> {
         self.circular.borrow().contains(&declaration)
     }
 
-    /// Notes that a declaration is referred to, by the name at `at`.
-    pub(crate) fn refer(&self, at: Span, declaration: Span) {
-        self.mark_used(declaration);
-        self.library.refer(at, declaration);
-    }
-
-    /// Notes that a declaration is used where no name stands.
+    /// Notes that a declaration is used.
     pub(crate) fn mark_used(&self, declaration: Span) {
         self.used.borrow_mut().insert(declaration);
     }
 
     /// Where the scenario declares a value of this name, players aside.
     pub(crate) fn declaration(&self, name: &str) -> Option<Span> {
-        let flat = self.flat;
-        let known = match flat.named(name)? {
-            Named::Param(at) => &flat.params.get(at)?.decl.name,
-            Named::Let(at) => &flat.lets.get(at)?.name,
-            Named::Tuple(at, index) => flat.tuples.get(at)?.0.get(index)?,
-            Named::Const(at) => &flat.consts.get(at)?.name,
-            Named::Region(at) => &flat.regions.get(at)?.name,
-        };
-        Some(known.span)
+        self.flat.declaration(name)
     }
 
     /// Whether the scenario has a value or player of this name.

@@ -17,8 +17,7 @@ use crate::ast::{
 };
 use crate::problem::facts::{Calls, Names, Types};
 use crate::problem::{Guess, Problem};
-use names::last_part;
-pub(crate) use names::reward_name;
+pub(crate) use names::{ending_declaration, last_part, quoted, reward_declaration, reward_name};
 use setpiece_scenario::vocabulary::Role;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -276,7 +275,7 @@ struct Adding<'a, 'f> {
     /// What any of the parents has ever named: most names are new, and needn't be looked for.
     known: &'f mut BTreeSet<(&'static str, &'a str)>,
     /// Where a scenario of the chain was the first to declare a value, record, reward or ending.
-    declared: &'f mut BTreeMap<(&'static str, &'a str), Span>,
+    declared: &'f mut BTreeMap<(&'static str, String), Span>,
 }
 
 impl<'a> Adding<'a, '_> {
@@ -500,8 +499,8 @@ impl<'a> Adding<'a, '_> {
 
     fn reward(&mut self, reward: &'a RewardUse, stmt: &'a ScenarioStmt) {
         let name = reward_name(reward);
-        if let Some((name, at)) = self.reward_at(reward) {
-            self.relate("reward", name, at);
+        if let Some(at) = reward_declaration(self.library, reward) {
+            self.relate("reward", &name, at);
         }
         let known = self.flat.rewards.iter().position(|(known, _, _)| *known == name);
         if let Some(first) = self.earlier("reward", &name, stmt.span) {
@@ -542,11 +541,7 @@ impl<'a> Adding<'a, '_> {
             return;
         };
         let name = label.bare();
-        let at = match condition {
-            Some(_) => Some(last_part(label)),
-            None => self.item_at(label),
-        };
-        if let Some(at) = at {
+        if let Some(at) = ending_declaration(self.library, label, condition.is_some()) {
             self.relate("end", name, at);
         }
         if let Some(first) = self.earlier("end", name, span) {

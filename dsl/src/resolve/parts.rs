@@ -101,9 +101,6 @@ pub(super) fn chain<'a, T>(
             problems.push(Problem::new(at, Names::TooManyParents { kind, most: MAX_PARENTS }));
             break;
         }
-        if let Some(found) = library.find(name.span.file, &name.node) {
-            library.refer(name.span, found.name.span);
-        }
         chain.push((parent, Some(parent_ref)));
         at = parent;
     }

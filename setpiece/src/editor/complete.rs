@@ -6,7 +6,7 @@ use super::keywords::KeywordBlock;
 use super::outline::flat;
 use super::place::{is_scenario, is_script};
 use super::text::word_at;
-use super::wanted::further;
+use super::within::further;
 use super::words::WordKind;
 use super::{Analysis, Symbol, SymbolKind, Workspace, script};
 use crate::dsl::ast::{Item, ItemKind};
@@ -106,20 +106,15 @@ impl Workspace {
 impl Analysis {
     /// What a statement of this block begins with.
     fn statements(&self, block: &str) -> Vec<Completion> {
-        match block {
-            "scenario" => keywords(KeywordBlock::Scenario),
-            "team" | "formation" => keys("team")
+        match KeywordBlock::of(block) {
+            KeywordBlock::Team => keys("team")
                 .into_iter()
                 .chain(keywords(KeywordBlock::Team))
                 .chain(words_of(&[WordKind::Role]))
                 .collect(),
-            "reward" | "on" | "when" => keywords(KeywordBlock::Reward),
-            // An act stands behind `do`.
-            "behavior" | "repeat" | "interrupt" | "if" => keywords(KeywordBlock::Behavior),
-            "check" => keywords(KeywordBlock::Check),
-            "curriculum" => keywords(KeywordBlock::Curriculum),
-            "suite" => self.after("extends"),
-            _ => self.values(),
+            KeywordBlock::Within if block == "suite" => self.after("extends"),
+            KeywordBlock::Within => self.values(),
+            block => keywords(block),
         }
     }
 
@@ -176,13 +171,7 @@ impl Analysis {
 
     /// The items that have a value.
     pub(super) fn value_items(&self) -> Vec<Completion> {
-        let is_value = |kind: &ItemKind| {
-            matches!(
-                kind,
-                ItemKind::Const(_) | ItemKind::Fn(_) | ItemKind::Region(_) | ItemKind::Table(_)
-            )
-        };
-        let items = self.items().filter(|item| is_value(&item.kind));
+        let items = self.items().filter(|item| item.kind.is_value());
         items.filter_map(|item| named(&item)).collect()
     }
 

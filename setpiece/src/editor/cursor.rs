@@ -180,16 +180,7 @@ fn statement_lines<'a>(
 
 /// The kind of block at the end of a text.
 pub(super) fn block_of(before: &str) -> KeywordBlock {
-    match block_around(before) {
-        "" => KeywordBlock::File,
-        "scenario" => KeywordBlock::Scenario,
-        "team" | "formation" => KeywordBlock::Team,
-        "reward" | "on" | "when" => KeywordBlock::Reward,
-        "behavior" | "repeat" | "choose" | "interrupt" | "if" => KeywordBlock::Behavior,
-        "check" => KeywordBlock::Check,
-        "curriculum" => KeywordBlock::Curriculum,
-        _ => KeywordBlock::Within,
-    }
+    KeywordBlock::of(block_around(before))
 }
 
 /// The part of an inline script before the end of a text, if it ends in one.

@@ -21,6 +21,22 @@ pub(super) enum KeywordBlock {
     Within,
 }
 
+impl KeywordBlock {
+    /// The kind of a block that begins with this word; of the file for none.
+    pub(super) fn of(word: &str) -> KeywordBlock {
+        match word {
+            "" => KeywordBlock::File,
+            "scenario" => KeywordBlock::Scenario,
+            "team" | "formation" => KeywordBlock::Team,
+            "reward" | "on" | "when" => KeywordBlock::Reward,
+            "behavior" | "repeat" | "interrupt" | "if" => KeywordBlock::Behavior,
+            "check" => KeywordBlock::Check,
+            "curriculum" => KeywordBlock::Curriculum,
+            _ => KeywordBlock::Within,
+        }
+    }
+}
+
 /// A keyword.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Keyword {
@@ -238,15 +254,8 @@ mod tests {
     /// A statement that the parser knows can be completed where it may begin.
     #[test]
     fn every_statement_is_offered_in_its_block() {
-        for (word, block) in [
-            ("", KeywordBlock::File),
-            ("scenario", KeywordBlock::Scenario),
-            ("team", KeywordBlock::Team),
-            ("reward", KeywordBlock::Reward),
-            ("behavior", KeywordBlock::Behavior),
-            ("check", KeywordBlock::Check),
-            ("curriculum", KeywordBlock::Curriculum),
-        ] {
+        for word in ["", "scenario", "team", "reward", "behavior", "check", "curriculum"] {
+            let block = KeywordBlock::of(word);
             let known = |name: &&&str| {
                 KEYWORDS.iter().any(|known| known.block == block && known.name == **name)
             };

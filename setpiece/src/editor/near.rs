@@ -66,7 +66,10 @@ impl Workspace {
 /// Adds the scenarios' files of a folder, and of the folders in it as deep as is asked.
 fn search(folder: &Path, depth: usize, files: &mut BTreeSet<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
+    // In one order, so that the same files are left out where there are too many.
+    let mut entries: Vec<_> = entries.flatten().collect();
+    entries.sort_by_key(std::fs::DirEntry::path);
+    for entry in entries {
         if files.len() >= FILES_MAX {
             return;
         }

@@ -6,7 +6,7 @@ use crate::ast::{
     RewardUseKind, Span,
 };
 use crate::check::names;
-use crate::resolve::{Named, arg_name, reward_chain};
+use crate::resolve::{Named, arg_name, reward_chain, reward_declaration};
 use setpiece_scenario::vocabulary::Function;
 
 /// What stands before the colon of an argument.
@@ -103,7 +103,7 @@ impl<'a> Uses<'a> {
             }
             RewardUseKind::Script { .. } => {}
         }
-        if let Some(at) = self.reward_at(used) {
+        if let Some(at) = reward_declaration(self.library, used) {
             self.refer(of, at);
         }
         let state = bodies.into_iter().flatten().find_map(|stmt| match &stmt.kind {

@@ -1,11 +1,11 @@
 //! Names in scenarios.
 
-use super::{Uses, quoted, tail};
+use super::Uses;
 use crate::ast::{
     EndCondition, EndStmt, Expr, ExprKind, Field, FieldValue, Ident, ItemKind, Ref, RewardUse,
     RewardUseKind, ScenarioItem, ScenarioStmt, ScenarioStmtKind, Span,
 };
-use crate::resolve::{Flat, arg_name, flatten};
+use crate::resolve::{Flat, arg_name, flatten, last_part, quoted};
 use crate::source::FileId;
 
 impl<'a> Uses<'a> {
@@ -206,7 +206,7 @@ impl<'a> Uses<'a> {
         };
         match (label, condition) {
             (Some(label), None) => self.reference(label),
-            (Some(label), Some(_)) => self.declare_at(tail(label.name.span, label.bare())),
+            (Some(label), Some(_)) => self.declare_at(last_part(label)),
             (None, _) => {}
         }
         match condition {

@@ -38,7 +38,7 @@ impl<'w> BehaviorWriter<'_, 'w> {
                 self.lower.report(problem);
                 return;
             }
-            self.lower.world.refer(name.span, found.name.span);
+            self.lower.world.mark_used(found.name.span);
             self.call(item, stmt, args, span);
             return;
         }

@@ -35,7 +35,7 @@ impl<'w> Lower<'_, 'w> {
             if let Some(problem) = library.ambiguous(name.span.file, &name.node, name.span) {
                 return self.fail(problem);
             }
-            self.world.refer(name.span, found.name.span);
+            self.world.mark_used(found.name.span);
             match &found.item.kind {
                 ItemKind::Fn(item) => return self.call_fn(item, args, span),
                 ItemKind::Region(item) => return self.call_region(item, args, span, false),
@@ -47,7 +47,7 @@ impl<'w> Lower<'_, 'w> {
             && let Some(Named::Region(at)) = self.world.flat.named(&name.node)
             && let Some(region) = self.world.flat.regions.get(at)
         {
-            self.world.refer(name.span, region.name.span);
+            self.world.mark_used(region.name.span);
             return self.call_region(region, args, span, true);
         }
         if let Some(function) = Function::from_name(&name.node) {

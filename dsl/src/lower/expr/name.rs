@@ -30,7 +30,7 @@ impl<'w> Lower<'_, 'w> {
             return value;
         }
         if let Some(team) = self.scope.players_of
-            && let Some(value) = self.player_name(name, span, Some(team))
+            && let Some(value) = self.player_name(name, Some(team))
         {
             return value;
         }
@@ -115,7 +115,7 @@ impl<'w> Lower<'_, 'w> {
         let value = match binding {
             LocalName::Value(value) => value,
             LocalName::State { cells, before, ty, at } => {
-                self.world.refer(span, at);
+                self.world.mark_used(at);
                 match self.when {
                     When::Now => {
                         let now: Vec<Reg> =
@@ -126,7 +126,7 @@ impl<'w> Lower<'_, 'w> {
                 }
             }
             LocalName::Expr { expr, scope, ty, now, at } => {
-                self.world.refer(span, at);
+                self.world.mark_used(at);
                 let known = now.filter(|_| self.when == When::Now);
                 known.unwrap_or_else(|| {
                     let value = self.inline(at, span, |lower| {
@@ -155,7 +155,7 @@ impl<'w> Lower<'_, 'w> {
         if let Some(Named::Param(at)) = named
             && let Some(info) = world.params.get(at)
         {
-            world.refer(span, info.name.span);
+            world.mark_used(info.name.span);
             if info.bound.is_some() {
                 return Some(self.scenario_let(name, span));
             }
@@ -171,32 +171,32 @@ impl<'w> Lower<'_, 'w> {
         if let Some(Named::Let(at)) = named
             && let Some(binding) = world.flat.lets.get(at)
         {
-            world.refer(span, binding.name.span);
+            world.mark_used(binding.name.span);
             return Some(self.scenario_let(name, span));
         }
         if let Some(Named::Tuple(at, index)) = named
             && let Some(known) = world.flat.tuples.get(at).and_then(|(names, _)| names.get(index))
         {
-            world.refer(span, known.span);
+            world.mark_used(known.span);
             return Some(self.scenario_let(name, span));
         }
         if let Some(Named::Const(at)) = named
             && let Some(binding) = world.flat.consts.get(at)
         {
-            world.refer(span, binding.name.span);
+            world.mark_used(binding.name.span);
             return Some(self.constant_item(binding, span));
         }
         if let Some(Named::Region(at)) = named
             && let Some(region) = world.flat.regions.get(at)
         {
-            world.refer(span, region.name.span);
+            world.mark_used(region.name.span);
             let scope = Scope::new(true, LiteralFrame::World);
             let value = self.inline(region.name.span, span, |lower| {
                 lower.within(scope, |lower| lower.want(&region.body, Ty::Region))
             });
             return Some(value.unwrap_or_else(Value::error));
         }
-        self.player_name(name, span, None)
+        self.player_name(name, None)
     }
 
     /// The round of the episode: the first one without `rounds`.
@@ -211,12 +211,12 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// A player of the roster, or of one team.
-    fn player_name(&mut self, name: &str, span: Span, team: Option<Team>) -> Option<Value<'w>> {
+    fn player_name(&mut self, name: &str, team: Option<Team>) -> Option<Value<'w>> {
         let mut players =
             self.world.roster.iter().filter(|player| team.is_none_or(|team| player.team == team));
         let player = players.find(|player| player.name.is_some_and(|known| known.node == name))?;
         if let Some(declared) = player.name {
-            self.world.refer(span, declared.span);
+            self.world.mark_used(declared.span);
         }
         Some(Value::one(Ty::Player, self.code.constant(f64::from(player.id))))
     }
@@ -227,7 +227,7 @@ impl<'w> Lower<'_, 'w> {
         if let Some(problem) = library.ambiguous(span.file, name, span) {
             return Some(self.fail(problem));
         }
-        self.world.refer(span, found.name.span);
+        self.world.mark_used(found.name.span);
         let noun = found.item.kind.noun();
         let no_value =
             |cure| Problem::new(span, Types::NotAValue { name: name.to_owned(), noun, cure });
@@ -421,19 +421,11 @@ impl<'w> Lower<'_, 'w> {
         if matches!(self.stage, ProgramStage::Record | ProgramStage::Ending) {
             known.extend(self.world.flat.rewards.iter().map(|(name, ..)| name.clone()));
         }
-        let values = |kind: &ItemKind| {
-            matches!(
-                kind,
-                ItemKind::Const(_)
-                    | ItemKind::Region(_)
-                    | ItemKind::Formation(_)
-                    | ItemKind::Fn(_)
-                    | ItemKind::Table(_)
-            )
-        };
         let visible = self.world.library.visible(span.file);
         known.extend(
-            visible.filter(|(_, found)| values(&found.item.kind)).map(|(name, _)| name.to_owned()),
+            visible
+                .filter(|(_, found)| found.item.kind.is_value())
+                .map(|(name, _)| name.to_owned()),
         );
         known.extend(names::values().map(str::to_owned));
         known.extend(Role::ALL.iter().map(|role| role.name().to_owned()));

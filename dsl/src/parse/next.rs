@@ -7,7 +7,7 @@ use setpiece_grammar::{PitchParser, Rule, keyword};
 
 /// Something that may stand next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MayFollow {
+pub enum NextPart {
     /// This word.
     Keyword(&'static str),
     /// Where something stands: `at …`, `ahead of …`.
@@ -36,7 +36,7 @@ pub enum MayFollow {
 /// up to its end.
 ///
 /// - `block`: the word that begins the block, `scenario`; empty for a file.
-pub fn wanted(block: &str, statement: &str) -> Vec<MayFollow> {
+pub fn next_parts(block: &str, statement: &str) -> Vec<NextPart> {
     // No token begins with this character.
     const END: char = '\u{1}';
     let text = format!("{statement}{END}");
@@ -46,45 +46,45 @@ pub fn wanted(block: &str, statement: &str) -> Vec<MayFollow> {
     let (InputLocation::Pos(at) | InputLocation::Span((at, _))) = error.location;
     match error.variant {
         ErrorVariant::ParsingError { positives, .. } if at == statement.len() => {
-            positives.into_iter().flat_map(readings).collect()
+            positives.into_iter().flat_map(parts_of).collect()
         }
         _ => Vec::new(),
     }
 }
 
 /// What a rule may begin with; nothing for signs, and for the statement that could follow.
-fn readings(rule: Rule) -> Vec<MayFollow> {
+fn parts_of(rule: Rule) -> Vec<NextPart> {
     let words: &[&str] = match rule {
-        Rule::place => return vec![MayFollow::Place],
-        Rule::event_name | Rule::event | Rule::events => return vec![MayFollow::Event],
-        Rule::qualifier => return vec![MayFollow::Qualifier],
-        Rule::role | Rule::beside_role => return vec![MayFollow::Role],
-        Rule::type_name => return vec![MayFollow::Type],
-        Rule::act | Rule::act_name => return vec![MayFollow::Act],
-        Rule::unit | Rule::long_unit => return vec![MayFollow::Unit],
-        Rule::ident | Rule::path => return vec![MayFollow::Name],
-        Rule::operand | Rule::arg => return vec![MayFollow::Operand],
-        Rule::expr | Rule::value => return vec![MayFollow::Value],
+        Rule::place => return vec![NextPart::Place],
+        Rule::event_name | Rule::event | Rule::events => return vec![NextPart::Event],
+        Rule::qualifier => return vec![NextPart::Qualifier],
+        Rule::role | Rule::beside_role => return vec![NextPart::Role],
+        Rule::type_name => return vec![NextPart::Type],
+        Rule::act | Rule::act_name => return vec![NextPart::Act],
+        Rule::unit | Rule::long_unit => return vec![NextPart::Unit],
+        Rule::ident | Rule::path => return vec![NextPart::Name],
+        Rule::operand | Rule::arg => return vec![NextPart::Operand],
+        Rule::expr | Rule::value => return vec![NextPart::Value],
         Rule::end_when => &["success", "failure", "when", "script"],
         Rule::trigger => &["when", "script"],
         Rule::sight => &["noise", "when", "delayed", "stack"],
         Rule::removed => &["reward", "end", "require", "record", "substitute"],
         Rule::removed_whole => &["ball", "rounds", "world", "pitch", "start", "observe"],
-        _ => return keyword(rule).map(MayFollow::Keyword).into_iter().collect(),
+        _ => return keyword(rule).map(NextPart::Keyword).into_iter().collect(),
     };
-    words.iter().copied().map(MayFollow::Keyword).collect()
+    words.iter().copied().map(NextPart::Keyword).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::MayFollow::{
+    use super::NextPart::{
         self, Event, Keyword, Name, Operand, Place, Qualifier, Role, Unit, Value,
     };
-    use super::wanted;
+    use super::next_parts;
 
     #[test]
     fn the_grammar_says_what_may_follow() {
-        let cases: [(&str, &str, &[MayFollow]); 14] = [
+        let cases: [(&str, &str, &[NextPart]); 14] = [
             ("scenario", "ball ", &[Place]),
             ("scenario", "ball at ", &[Operand]),
             ("scenario", "team ", &[Keyword("left"), Keyword("right")]),
@@ -102,10 +102,10 @@ mod tests {
             ("scenario", "ball at \u{1}", &[]),
         ];
         for (block, text, expected) in cases {
-            assert_eq!(wanted(block, text), expected, "{text}");
+            assert_eq!(next_parts(block, text), expected, "{text}");
         }
-        let some = |block, text, expected: &[MayFollow]| {
-            let found = wanted(block, text);
+        let some = |block, text, expected: &[NextPart]| {
+            let found = next_parts(block, text);
             assert!(expected.iter().all(|it| found.contains(it)), "{text}: {found:?}");
         };
         some("scenario", "end ", &[Keyword("limit"), Keyword("success"), Keyword("when")]);

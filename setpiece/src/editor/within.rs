@@ -4,7 +4,7 @@ use super::Analysis;
 use super::completion::{Completion, CompletionKind, joining, units, word, words_of};
 use super::cursor::{UnfinishedStatement, unfinished};
 use super::words::WordKind;
-use crate::dsl::parse::{MayFollow, wanted};
+use crate::dsl::parse::{NextPart, next_parts};
 use crate::scenario::vocabulary::{Owner, PROPERTIES};
 use std::collections::BTreeSet;
 
@@ -37,43 +37,43 @@ impl Analysis {
     /// What may stand at the end of a text, within a statement.
     pub(super) fn inside(&self, before: &str) -> Vec<Completion> {
         for UnfinishedStatement { block, text } in unfinished(before) {
-            let readings = wanted(block, text);
-            if !readings.is_empty() {
-                return self.readings(&readings, block, text);
+            let parts = next_parts(block, text);
+            if !parts.is_empty() {
+                return self.parts(&parts, block, text);
             }
         }
         self.values()
     }
 
     /// What may be read behind a text.
-    fn readings(&self, readings: &[MayFollow], block: &str, text: &str) -> Vec<Completion> {
+    fn parts(&self, parts: &[NextPart], block: &str, text: &str) -> Vec<Completion> {
         let last = text.split_whitespace().next_back().unwrap_or_default();
         let is_option = |key: &str| words_of(&[WordKind::Option("team")]).any(|it| it.text == key);
         // `difficulty: ` in a team has a value, `striker: ` a role.
         let wants_role = block == "team"
-            && readings.contains(&MayFollow::Role)
+            && parts.contains(&NextPart::Role)
             && !is_option(last.trim_end_matches(':'));
-        let mut found: Vec<Completion> = readings
+        let mut found: Vec<Completion> = parts
             .iter()
-            .flat_map(|reading| match reading {
-                MayFollow::Keyword(name) => joining(name).into_iter().collect(),
-                MayFollow::Place => PLACES
+            .flat_map(|part| match part {
+                NextPart::Keyword(name) => joining(name).into_iter().collect(),
+                NextPart::Place => PLACES
                     .iter()
                     .filter_map(|(name, snippet)| {
                         Some(Completion { snippet: (*snippet).to_owned(), ..joining(name)? })
                     })
                     .collect(),
-                MayFollow::Event => words_of(&[WordKind::Event]).collect(),
-                MayFollow::Qualifier => words_of(&[WordKind::Qualifier]).collect(),
-                MayFollow::Role => words_of(&[WordKind::Role]).collect(),
-                MayFollow::Type => words_of(&[WordKind::Type]).collect(),
-                MayFollow::Act => words_of(&[WordKind::Act]).chain(self.after("with")).collect(),
-                MayFollow::Unit => units(),
-                MayFollow::Name => self.named_after(text),
-                MayFollow::Value if wants_role => Vec::new(),
-                MayFollow::Operand if matches!(last, "by" | "to" | "for") => self.actors(),
-                MayFollow::Operand => self.values(),
-                MayFollow::Value => self.conditions(),
+                NextPart::Event => words_of(&[WordKind::Event]).collect(),
+                NextPart::Qualifier => words_of(&[WordKind::Qualifier]).collect(),
+                NextPart::Role => words_of(&[WordKind::Role]).collect(),
+                NextPart::Type => words_of(&[WordKind::Type]).collect(),
+                NextPart::Act => words_of(&[WordKind::Act]).chain(self.after("with")).collect(),
+                NextPart::Unit => units(),
+                NextPart::Name => self.named_after(text),
+                NextPart::Value if wants_role => Vec::new(),
+                NextPart::Operand if matches!(last, "by" | "to" | "for") => self.actors(),
+                NextPart::Operand => self.values(),
+                NextPart::Value => self.conditions(),
             })
             .collect();
         let mut seen = BTreeSet::new();
@@ -156,10 +156,10 @@ pub(super) fn further(before: &str) -> Vec<Completion> {
         .filter(|it| !it.text.trim().is_empty() && it.text.trim_end().len() < it.text.len())
         .find(|it| begun.ends_with(it.text.trim_end()));
     let Some(UnfinishedStatement { block, text }) = goes_on else { return Vec::new() };
-    wanted(block, text)
+    next_parts(block, text)
         .into_iter()
-        .filter_map(|reading| match reading {
-            MayFollow::Keyword(name) => joining(name),
+        .filter_map(|part| match part {
+            NextPart::Keyword(name) => joining(name),
             _ => None,
         })
         .collect()

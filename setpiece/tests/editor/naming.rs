@@ -1,25 +1,11 @@
 //! Names: where they are declared and used, and how they get others. `‸` marks the cursor.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
 
+use super::marked;
 use setpiece::editor::text::code;
 use setpiece::editor::{RenameError, SymbolKind, Workspace};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// One text, without its cursor, and where that stands.
-fn marked(text: &str) -> (Workspace, PathBuf, usize) {
-    let at = text.find('‸').expect("a cursor");
-    let path = PathBuf::from("/nowhere/pitches/one.pitch");
-    let mut workspace = Workspace::default();
-    workspace.set(&path, &text.replacen('‸', "", 1));
-    (workspace, path, at)
-}
 
 /// The text after the name at the cursor has become `renamed`.
 fn renamed(text: &str) -> Result<String, RenameError> {

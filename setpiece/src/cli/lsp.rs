@@ -3,7 +3,7 @@
 
 use super::common::{FAULT, FINE};
 use crate::lsp::{LanguageServer, capabilities};
-use lsp_server::{Connection, Message};
+use lsp_server::{Connection, ErrorCode, Message, Response};
 
 /// Serves one editor until it leaves; gives the exit code.
 ///
@@ -22,9 +22,10 @@ fn talk(connection: &Connection, allow_outside: bool) -> Option<()> {
     let mut server = LanguageServer::new(&params, allow_outside);
     while let Ok(message) = connection.receiver.recv() {
         if let Message::Request(request) = &message
-            && connection.handle_shutdown(request).ok()?
+            && request.method == "shutdown"
         {
-            return Some(());
+            connection.sender.send(Response::new_ok(request.id.clone(), ()).into()).ok()?;
+            return leave(connection);
         }
         let mut answers = server.receive(message);
         // Only what is said last is checked: an editor that types on doesn't wait.
@@ -33,6 +34,22 @@ fn talk(connection: &Connection, allow_outside: bool) -> Option<()> {
         }
         for answer in answers {
             connection.sender.send(answer).ok()?;
+        }
+    }
+    None
+}
+
+/// Waits for the editor's `exit`; what it still asks for is refused.
+fn leave(connection: &Connection) -> Option<()> {
+    while let Ok(message) = connection.receiver.recv() {
+        match message {
+            Message::Notification(note) if note.method == "exit" => return Some(()),
+            Message::Request(request) => {
+                let code = ErrorCode::InvalidRequest as i32;
+                let why = "the server was shut down".to_owned();
+                connection.sender.send(Response::new_err(request.id, code, why).into()).ok()?;
+            }
+            _ => {}
         }
     }
     None

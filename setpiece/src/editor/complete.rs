@@ -1,19 +1,21 @@
 //! What may stand at a place of a text.
 
-use super::completion::{Completion, CompletionKind, keys, keywords, units, word, words_of};
+use super::completion::{
+    Completion, CompletionKind, PARAMETER, keys, keywords, units, word, words_of,
+};
 use super::cursor::{CursorPlace, context, inline_script};
 use super::keywords::KeywordBlock;
 use super::outline::flat;
 use super::place::{is_scenario, is_script};
 use super::text::word_at;
 use super::within::further;
-use super::words::WordKind;
+use super::words::{self, WordKind};
 use super::{Analysis, Symbol, SymbolKind, Workspace, script};
 use crate::dsl::ast::{Item, ItemKind};
 use crate::dsl::parse::parse;
 use crate::dsl::source::{FileId, SourceLoader};
 use crate::files::FileLoader;
-use crate::scenario::vocabulary::{EventField, Owner, PROPERTIES, Role};
+use crate::scenario::vocabulary::{EventField, Landmark, Owner, PROPERTIES, Role};
 use std::path::Path;
 
 impl Workspace {
@@ -66,6 +68,14 @@ fn members(base: &str) -> Vec<Completion> {
             .collect(),
         "left" | "right" | "us" | "them" | "own" => {
             owned(Owner::Team).chain(words_of(&[WordKind::Place])).collect()
+        }
+        // Every place has these; an area has nothing.
+        place if place == "centre" || words::is(place, WordKind::Place) => {
+            let is_landmark = place == "centre" || Landmark::from_name(place).is_some();
+            let of_places = ["x", "y", "metres"];
+            owned(Owner::Ball)
+                .filter(|it| is_landmark && of_places.contains(&it.text.as_str()))
+                .collect()
         }
         _ => owned(Owner::Player).collect(),
     }
@@ -148,7 +158,7 @@ impl Analysis {
     pub(super) fn own_names(&self) -> Vec<Completion> {
         let name = |symbol: &Symbol| {
             let kind = match symbol.kind {
-                SymbolKind::Parameter => "a parameter",
+                SymbolKind::Parameter => PARAMETER,
                 // Who has no name can't be referred to.
                 SymbolKind::Player if Role::from_name(&symbol.name).is_some() => return None,
                 SymbolKind::Player => "a player",

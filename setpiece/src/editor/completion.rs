@@ -34,6 +34,9 @@ pub enum CompletionKind {
     File,
 }
 
+/// What a parameter is, in a few words.
+pub(super) const PARAMETER: &str = "a parameter";
+
 /// The keywords that begin a statement in a block.
 pub(super) fn keywords(block: KeywordBlock) -> Vec<Completion> {
     let known = KEYWORDS.iter().filter(|known| known.block == block);

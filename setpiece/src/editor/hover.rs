@@ -4,7 +4,7 @@ use super::cursor::{block_of, inline_script};
 use super::keywords::KEYWORDS;
 use super::place::is_script;
 use super::text::{brackets, ends_in_code, word_at};
-use super::words::{self, Word};
+use super::words;
 use super::{Analysis, FilePlace, Workspace, script};
 use crate::dsl::index::ValueFact;
 use crate::engine::environment::{Environment, EnvironmentOptions};
@@ -42,21 +42,12 @@ impl Workspace {
         let declaration = self.declaration(path, offset);
         let analysis = self.analysis(path)?;
         let range = word_at(&analysis.text, offset);
-        let word = analysis.text.get(range.clone()).unwrap_or_default();
         let fact = analysis.value_around(offset);
         let mut parts: Vec<String> = Vec::new();
         if let Some(declaration) = declaration {
             parts.extend(analysis.declared(&declaration));
         } else {
-            let begins =
-                before.trim_end_matches([' ', '\t']).ends_with(['\n', '{']) || before.is_empty();
-            parts.extend(keyword(before, word).filter(|_| begins));
-            if parts.is_empty() {
-                parts.extend(words::all().filter(|known| known.name == word).map(about));
-            }
-            if parts.is_empty() {
-                parts.extend(keyword(before, word));
-            }
+            parts.extend(self.meant(path, offset));
         }
         if let Some((_, value)) = &fact {
             parts.push(shown(value));
@@ -65,6 +56,25 @@ impl Workspace {
         }
         let range = if range.is_empty() { fact.map(|(at, _)| at)? } else { range };
         (!parts.is_empty()).then(|| Hover { text: parts.join("\n\n"), range })
+    }
+
+    /// What the word at a byte means. Of several meanings those are given of what may be written
+    /// there.
+    fn meant(&mut self, path: &Path, offset: usize) -> Vec<String> {
+        let Some(text) = self.file_text(path) else { return Vec::new() };
+        let range = word_at(&text, offset);
+        let word = text.get(range.clone()).unwrap_or_default();
+        let mut known = meanings(text.get(..range.start).unwrap_or_default(), word);
+        if known.len() > 1 {
+            let offered = self.complete(path, range.start);
+            let is_offered = |meaning: &Meaning| {
+                offered.iter().any(|it| it.text == word && it.doc == meaning.doc)
+            };
+            if known.iter().any(is_offered) {
+                known.retain(is_offered);
+            }
+        }
+        known.into_iter().map(Meaning::said).collect()
     }
 }
 
@@ -222,17 +232,32 @@ fn within_brackets(text: &str, at: usize) -> Option<&str> {
 /// How near to a point somebody stands there, metres.
 const NEAR_M: f64 = 0.5;
 
-/// What a keyword means: in this block, if it stands in several.
-fn keyword(before: &str, word: &str) -> Option<String> {
-    let block = block_of(before);
-    let known = || KEYWORDS.iter().filter(|known| known.name == word);
-    let found = known().find(|known| known.block == block).or_else(|| known().next())?;
-    Some(format!("**{word}**: {} ([{}]({}))", found.doc, found.page, page(found.page)))
+/// A meaning of a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Meaning {
+    word: &'static str,
+    doc: &'static str,
+    /// The page of the reference.
+    page: &'static str,
 }
 
-/// A word of the language.
-fn about(word: Word) -> String {
-    format!("**{}**: {} ([{}]({}))", word.name, word.doc, word.page, page(word.page))
+impl Meaning {
+    fn said(self) -> String {
+        format!("**{}**: {} ([{}]({}))", self.word, self.doc, self.page, page(self.page))
+    }
+}
+
+/// All that a word of the language may mean; a keyword that several blocks have, in this block.
+fn meanings(before: &str, word: &str) -> Vec<Meaning> {
+    let block = block_of(before);
+    let keywords = || KEYWORDS.iter().filter(|known| known.name == word);
+    let keyword = keywords().find(|known| known.block == block).or_else(|| keywords().next_back());
+    let keyword = keyword.map(|it| Meaning { word: it.name, doc: it.doc, page: it.page });
+    let of_tables = words::all().filter(|known| known.name == word);
+    let of_tables = of_tables.map(|it| Meaning { word: it.name, doc: it.doc, page: it.page });
+    let mut found: Vec<Meaning> = keyword.into_iter().chain(of_tables).collect();
+    found.dedup();
+    found
 }
 
 /// The address of a page of the reference.

@@ -1,6 +1,6 @@
 //! What may be written in a script, and what its words mean.
 
-use super::completion::{Completion, CompletionKind};
+use super::completion::{Completion, CompletionKind, PARAMETER};
 use crate::engine::judge::script::{Member, Subject, functions, interface, members};
 
 /// What stands before a dot, as a chain of names: `ctx.params` in `ctx.params.`.
@@ -36,7 +36,12 @@ pub(super) fn complete(before: &str, names: &[Completion]) -> Vec<Completion> {
         let start = before.trim_end_matches(is_chain).len();
         let chain = before.get(start..).unwrap_or_default();
         return match subject(chain) {
-            Some(Subject::Named | Subject::Params) => names.to_vec(),
+            Some(Subject::Params) => {
+                names.iter().filter(|it| it.detail == PARAMETER).cloned().collect()
+            }
+            Some(Subject::Named) => {
+                names.iter().filter(|it| it.detail != PARAMETER).cloned().collect()
+            }
             Some(found) => of(found).collect(),
             // A name of the script's own: a player most of the time.
             None => [Subject::Player, Subject::Ball, Subject::Team, Subject::Event]

@@ -96,3 +96,8 @@ pub(super) fn all() -> impl Iterator<Item = Word> {
         .chain(table!(StartKind, Mode, "start.md"))
         .chain(table!(Type, Type, "param.md"))
 }
+
+/// Whether a word is of a kind.
+pub(super) fn is(word: &str, kind: WordKind) -> bool {
+    all().any(|known| known.name == word && known.kind == kind)
+}

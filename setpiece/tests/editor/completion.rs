@@ -81,9 +81,17 @@ fn completion_knows_the_place() {
         ),
         (
             scenario("reward s script rhai \"\"\"fn reward(ctx, now, prev, events) { now.named.‸"),
-            &["far", "striker"],
-            &["ball"],
+            &["striker"],
+            &["ball", "far"],
         ),
+        (
+            scenario("reward s script rhai \"\"\"fn reward(ctx, now, prev, events) { ctx.params.‸"),
+            &["far"],
+            &["striker"],
+        ),
+        (scenario("end success when right.goal.‸"), &["x", "y", "metres"], &["fatigue", "speed"]),
+        (scenario("end success when centre.‸"), &["x"], &["fatigue"]),
+        (scenario("end success when right.box.‸"), &[], &["x", "fatigue"]),
     ] {
         let found = complete(&text);
         for word in has {
@@ -102,6 +110,28 @@ fn deep_nesting_is_answered() {
         let (mut workspace, path, at) = marked(&format!("{text}‸"));
         workspace.complete(&path, at);
         assert_eq!(workspace.hover(&path, at), None);
+    }
+}
+
+/// A word of several meanings is explained as what it can be where it stands.
+#[test]
+fn a_word_means_what_may_be_written_there() {
+    let hover = |text: &str| {
+        let (mut workspace, path, at) = marked(text);
+        workspace.hover(&path, at).expect("a meaning").text
+    };
+    let count = |text: &str| text.matches("**: ").count();
+    for (text, has) in [
+        ("scenario a {\n    agents { le‸ft: all }\n}", "left"),
+        ("scenario a {\n    team le‸ft { CF at (0, 0) }\n}", "left"),
+        ("scenario a {\n    record n = cou‸nt of pass\n}", "how many events"),
+        ("scenario a {\n    end limit 200 st‸eps\n}", "step"),
+        ("reward r {\n    give 1 on pass b‸y left\n}", "who"),
+        ("reward r {\n    give 1 wh‸en me has ball\n}", "when"),
+    ] {
+        let said = hover(text);
+        assert!(said.contains(has), "{text}\n{said}");
+        assert_eq!(count(&said), 1, "{text}\n{said}");
     }
 }
 

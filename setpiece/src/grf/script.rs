@@ -92,7 +92,7 @@ impl GrfScript {
         if !text.is_empty() {
             text.push('\n');
         }
-        Ok(text + &scenario)
+        Ok(text + scenario.as_str())
     }
 }
 

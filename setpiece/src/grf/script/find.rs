@@ -80,7 +80,8 @@ impl PyPart {
 
 /// Whether a line begins another script, or the head of another file.
 fn begins_file(line: &PyLine<'_>) -> bool {
-    is_script(line) || matches!(line.word(), "from" | "import")
+    let is_comment = line.tokens == [PyToken::Text];
+    is_script(line) || is_comment || matches!(line.word(), "from" | "import")
 }
 
 /// Whether a line begins `build_scenario`.

@@ -35,10 +35,12 @@ fn raised(py: Python<'_>, why: &TranslationError) -> PyErr {
 }
 
 fn scenario(given: &Bound<'_, PyAny>) -> PyResult<GrfScenario> {
-    let flag = |name: &str| given.getattr(name)?.is_truthy();
-    let number = |name: &str| given.getattr(name)?.extract::<f64>();
-    let count = |name: &str| whole(&given.getattr(name)?);
-    let players = |name: &str| given.getattr(name)?.try_iter()?.map(|it| player(&it?)).collect();
+    let flag = |name: &str| -> PyResult<bool> { given.getattr(name)?.is_truthy() };
+    let number = |name: &str| -> PyResult<f64> { given.getattr(name)?.extract() };
+    let count = |name: &str| -> PyResult<i64> { whole(&given.getattr(name)?) };
+    let players = |name: &str| -> PyResult<Vec<GrfPlayer>> {
+        given.getattr(name)?.try_iter()?.map(|it| player(&it?)).collect()
+    };
     let ball = given.getattr("ball_position")?;
     Ok(GrfScenario {
         ball_position: point(&ball)?,

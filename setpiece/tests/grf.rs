@@ -425,4 +425,5 @@ fn depth_and_length_are_no_danger() {
     }
     let stairs: String = (1..1500).map(|depth| format!("{}if x:\n", " ".repeat(depth))).collect();
     read_all(&script(&stairs));
+    read_all(&script(&"  else: x\n".repeat(50_000)));
 }

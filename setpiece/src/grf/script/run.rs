@@ -100,13 +100,12 @@ impl<'t> PyRun<'t> {
     fn block(&mut self, nodes: &[PyNode<'t>]) -> Goes {
         let mut at = 0;
         while let Some(node) = nodes.get(at) {
-            let rest = nodes.get(at + 1..).unwrap_or_default();
-            // What belongs to an `if`.
-            let is_part = |it: &&PyNode<'t>| matches!(it.line.word(), "elif" | "else");
-            let parts = rest.iter().take_while(is_part).count();
-            let is_if = node.line.word() == "if";
-            let chain = nodes.get(at..=at + if is_if { parts } else { 0 }).unwrap_or_default();
-            at += chain.len().max(1);
+            let chain = if node.line.word() == "if" {
+                chain_at(nodes, at)
+            } else {
+                std::slice::from_ref(node)
+            };
+            at += chain.len();
             let goes = match node.line.word() {
                 "if" => self.choice(chain),
                 "def" => {
@@ -149,8 +148,9 @@ impl<'t> PyRun<'t> {
                 }
                 None => {
                     let tokens: Vec<_> = chain.iter().flat_map(PyNode::tokens).collect();
-                    let end = chain.last().map_or(0, |last| last.range().end);
-                    self.leave_out(&tokens, node_start(chain)..end);
+                    let start = chain.first().map_or(0, |first| first.line.range.start);
+                    let end = chain.last().map_or(start, |last| last.range().end);
+                    self.leave_out(&tokens, start..end);
                     return Goes::On;
                 }
             }
@@ -416,6 +416,10 @@ impl<'t> PyRun<'t> {
     }
 }
 
-fn node_start(chain: &[PyNode<'_>]) -> usize {
-    chain.first().map_or(0, |node| node.line.range.start)
+/// An `if` with the `elif` and `else` that follow.
+fn chain_at<'a, 't>(nodes: &'a [PyNode<'t>], at: usize) -> &'a [PyNode<'t>] {
+    let rest = nodes.get(at..).unwrap_or_default();
+    let is_part = |it: &&PyNode<'t>| matches!(it.line.word(), "elif" | "else");
+    let parts = rest.iter().skip(1).take_while(is_part).count();
+    rest.get(..=parts).unwrap_or(rest)
 }

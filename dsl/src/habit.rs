@@ -220,11 +220,14 @@ mod tests {
     #[test]
     fn a_number_keeps_its_sign() {
         for (tokens, help) in [
-            ("AddPlayer ( - 0.5 , 0.1 , CM", "write `CM at (-0.5, 0.1)`"),
-            ("builder . AddPlayer ( 0.5 , - 0.1 , e_PlayerRole_CM", "write `CM at (0.5, -0.1)`"),
+            ("AddPlayer ( - 0.5 , 0.1 , CM", "write `CM at own (-0.5, 0.1)`"),
+            (
+                "builder . AddPlayer ( 0.5 , - 0.1 , e_PlayerRole_CM",
+                "write `CM at own (0.5, -0.1)`",
+            ),
             (
                 "AddPlayer ( - 0.5 , - 0.1 , PlayerRole . e_PlayerRole_CM",
-                "write `CM at (-0.5, -0.1)`",
+                "write `CM at own (-0.5, -0.1)`",
             ),
             ("builder . SetBallPosition ( 0.62 , 0.1 )", "write `ball at (0.62, 0.1)`"),
             ("SetBallPosition ( - 0.62 , y )", "write `ball at (0.6, 0)`"),

@@ -87,9 +87,7 @@ def _read(pipe: IO[bytes]) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("shape", STRAIGHT)
-def test_a_pasted_script_becomes_the_text_that_an_import_writes(
-    shape: str, tmp_path: Path
-) -> None:
+def test_a_pasted_script_becomes_the_text_that_an_import_writes(shape: str, tmp_path: Path) -> None:
     expected = import_script(script_file(tmp_path, STRAIGHT[shape], shape))
     uri = (tmp_path / f"{shape}.pitch").as_uri()
     text = HEAD + STRAIGHT[shape]

@@ -104,21 +104,21 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "choice ( … _ | 9", "a weight stands behind a colon: `{1}: {2}`"),
     row(Anywhere, "choice ( … 9 | _", "a weight stands behind its value: `{2}: {1}`"),
     // Google Research Football; before what its signs and brackets alone would tell.
-    row(Team, "^ | builder? .? AddPlayer ( ±9 , ±9 , ROLE", "write `{3} at ({1}, {2})`"),
+    row(Team, "^ | builder? .? AddPlayer ( ±9 , ±9 , ROLE", "write `{3} at own ({1}, {2})`"),
     row(
         Team,
         "^ | builder? .? AddPlayer ( ±9 , ±9 , PlayerRole? .? e_PlayerRole_*",
-        "write `{3} at ({1}, {2})`",
+        "write `{3} at own ({1}, {2})`",
     ),
     row(
         Anywhere,
         "^ | builder? .? AddPlayer ( ±9 , ±9 , ROLE",
-        "write the player in their team: `{3} at ({1}, {2})`",
+        "write the player in their team: `{3} at own ({1}, {2})`",
     ),
     row(
         Anywhere,
         "^ | builder? .? AddPlayer ( ±9 , ±9 , PlayerRole? .? e_PlayerRole_*",
-        "write the player in their team: `{3} at ({1}, {2})`",
+        "write the player in their team: `{3} at own ({1}, {2})`",
     ),
     row(
         Anywhere,

@@ -388,7 +388,9 @@ proptest! {
     }
 
     #[test]
-    fn no_pieces_make_it_panic(pieces in prop::collection::vec(prop::sample::select(PIECES), 0..80)) {
+    fn no_pieces_make_it_panic(
+        pieces in prop::collection::vec(prop::sample::select(PIECES), 0..80)
+    ) {
         let text = pieces.concat();
         read_all(&text);
         read_all(&format!("def build_scenario(builder):\n  {text}"));

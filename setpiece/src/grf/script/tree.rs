@@ -3,7 +3,7 @@
 use super::lines::{PyLine, PyToken};
 use std::ops::Range;
 
-/// How deep blocks are told apart; deeper lines belong to the block around.
+/// How deep blocks are found; deeper lines belong to the block around.
 const DEPTH_MAX: usize = 40;
 
 /// A line with its block.

@@ -73,14 +73,11 @@ pub fn to_pitch(
     let stem = if begins_with_digit { format!("_{name}") } else { name.to_owned() };
     let mut opening = vec![rules(even)];
     opening.extend(agents(even));
-    match &kickoff {
-        Some(kickoff) => {
-            opening.extend(["    ball at centre".to_owned(), kickoff.statement(&stem)]);
-        }
-        None => {
-            let at = |axis: usize| either(even.ball_position[axis], odd.ball_position[axis]);
-            opening.push(format!("    ball at ({}, {})", at(0), at(1)));
-        }
+    if let Some(kickoff) = &kickoff {
+        opening.extend(["    ball at centre".to_owned(), kickoff.statement(&stem)]);
+    } else {
+        let at = |axis: usize| either(even.ball_position[axis], odd.ball_position[axis]);
+        opening.push(format!("    ball at ({}, {})", at(0), at(1)));
     }
     let mut blocks = vec![opening];
     for &team in Team::ALL {

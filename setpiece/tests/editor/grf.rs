@@ -119,3 +119,11 @@ fn no_translation_is_offered_that_does_not_compile() {
         assert!(actions.iter().all(|it| !it.title.contains("script of")), "{text}: {actions:?}");
     }
 }
+
+#[test]
+fn what_mends_a_whole_text_leaves_its_scripts() {
+    let text = format!("{}\n{SCRIPT}", OTHER.replace("ball at", "bal at"));
+    let (workspace, _) = actions("beside.pitch", &text, 0);
+    let all = workspace.fix_all(Path::new("/nowhere/grf/beside.pitch")).expect("a fix");
+    assert_eq!(all.edits[0].text, format!("{OTHER}\n{SCRIPT}"));
+}

@@ -227,10 +227,11 @@ impl<'t> PyRun<'t> {
     /// A statement without a block.
     fn simple(&mut self, tokens: &[PyToken<'t>], range: &Range<usize>) -> Result<Goes, Unreadable> {
         match tokens {
-            [] | [PyToken::Text | PyToken::Word("pass")] => return Ok(Goes::On),
             [PyToken::Word("return")] => return Ok(Goes::Back),
-            // What they bring isn't known by its name.
-            [PyToken::Word("import" | "from"), ..] => return Ok(Goes::On),
+            // What an import brings isn't known by its name.
+            []
+            | [PyToken::Text | PyToken::Word("pass")]
+            | [PyToken::Word("import" | "from"), ..] => return Ok(Goes::On),
             _ => {}
         }
         if let [PyToken::Word(name), PyToken::Sign(sign @ ("+=" | "-=" | "*=" | "/=")), rest @ ..] =

@@ -207,16 +207,11 @@ impl<'t> PyReader<'_, 't> {
         if !has_sign {
             return Some(value);
         }
-        match value {
-            PyValue::Number(value) => {
-                Some(PyValue::Number(if is_negative { -value } else { value }))
-            }
-            _ => {
-                let whole = value.whole()?;
-                let negated = if is_negative { whole.checked_neg()? } else { whole };
-                Some(PyValue::Whole(negated))
-            }
+        if let PyValue::Number(value) = value {
+            return Some(PyValue::Number(if is_negative { -value } else { value }));
         }
+        let whole = value.whole()?;
+        Some(PyValue::Whole(if is_negative { whole.checked_neg()? } else { whole }))
     }
 
     fn operand(&mut self) -> Option<PyValue> {

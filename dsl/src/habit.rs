@@ -5,6 +5,7 @@ mod table;
 use pest::Parser;
 use setpiece_grammar::{PitchParser, Rule};
 use setpiece_scenario::vocabulary::{EventKind, Role};
+use std::borrow::Cow;
 use table::HABITS;
 
 /// Tokens on either side of a place that are looked at.
@@ -42,10 +43,10 @@ struct Habit {
     /// The tokens; `|` stands before the one that can't be read, `^ |` where the unreadable text
     /// begins.
     ///
-    /// `_` is a name, `""` a string, `9` a number, `9a` a number with letters, `é` a word of other
-    /// letters, `ROLE` a role, `EVENT` an event, `␣(` a bracket behind a blank, `a¦b` one of two,
-    /// `a*` what begins with `a`, `*` any token and `\*` that sign, `…` any number of them, `$` the
-    /// end.
+    /// `_` is a name, `""` a string, `9` a number, `±9` one with or without a minus, `9a` a number
+    /// with letters, `é` a word of other letters, `ROLE` a role, `EVENT` an event, `␣(` a bracket
+    /// behind a blank, `a¦b` one of two, `a*` what begins with `a`, `a?` what may stand there, `*`
+    /// any token and `\*` that sign, `…` any number of them, `$` the end.
     seen: &'static str,
     /// What to write; `{1}` is the first that was not spelt out in `seen`.
     write: &'static str,
@@ -123,8 +124,8 @@ impl Habit {
         Some(self.found(if left.is_empty() { Begins::Either } else { Begins::Before }, &ahead))
     }
 
-    fn found(&self, begins: Begins, open: &[&str]) -> FoundHabit {
-        let fill = |help: String, (index, text): (usize, &&str)| {
+    fn found(&self, begins: Begins, open: &[Cow<'_, str>]) -> FoundHabit {
+        let fill = |help: String, (index, text): (usize, &Cow<'_, str>)| {
             help.replace(&format!("{{{}}}", index + 1), text.trim_matches('"'))
         };
         FoundHabit { help: open.iter().enumerate().fold(self.write.to_owned(), fill), begins }
@@ -132,7 +133,7 @@ impl Habit {
 }
 
 /// Whether a pattern is all of some tokens; notes what it left open.
-fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -> bool {
+fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<Cow<'t, str>>) -> bool {
     let Some((wanted, pattern)) = pattern.split_first() else { return tokens.is_empty() };
     if *wanted == "…" {
         let known = found.len();
@@ -141,6 +142,22 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -
                 found.truncate(known);
                 tokens.get(skipped..).is_some_and(|rest| matches(pattern, rest, found))
             });
+    }
+    // A lone question mark is that sign.
+    if let Some(optional) = wanted.strip_suffix('?').filter(|optional| !optional.is_empty()) {
+        let known = found.len();
+        let stands = tokens.split_first().filter(|(token, _)| **token == optional);
+        if stands.is_some_and(|(_, rest)| matches(pattern, rest, found)) {
+            return true;
+        }
+        found.truncate(known);
+        return matches(pattern, tokens, found);
+    }
+    if *wanted == "±9"
+        && let ["-", number, tokens @ ..] = tokens
+    {
+        found.push(format!("-{number}").into());
+        return is_number(number) && matches(pattern, tokens, found);
     }
     let Some((token, tokens)) = tokens.split_first() else {
         return *wanted == "$" && matches(pattern, tokens, found);
@@ -151,7 +168,7 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -
         "$" => false,
         "*" => true,
         "_" => PitchParser::parse(Rule::ident, token).is_ok_and(|pairs| pairs.as_str() == *token),
-        "9" => digits && !letters,
+        "9" | "±9" => is_number(token),
         "9a" => digits && letters,
         "é" => letters && !token.is_ascii() && !token.starts_with('"'),
         "\"\"" => token.starts_with('"'),
@@ -159,7 +176,7 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -
         "EVENT" => EventKind::from_name(token).is_some(),
         literal if literal.starts_with(char::is_alphabetic) && literal.ends_with('*') => {
             let rest = token.strip_prefix(literal.trim_end_matches('*'));
-            found.extend(rest);
+            found.extend(rest.map(Cow::from));
             return rest.is_some() && matches(pattern, tokens, found);
         }
         literals if literals.contains('¦') => literals.split('¦').any(|literal| literal == *token),
@@ -170,9 +187,15 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<&'t str>) -
         }
     };
     if meant {
-        found.push(token);
+        found.push((*token).into());
     }
     meant && matches(pattern, tokens, found)
+}
+
+/// Whether a token is a number without letters.
+fn is_number(token: &str) -> bool {
+    token.starts_with(|char: char| char.is_ascii_digit())
+        && !token.contains(|char: char| char.is_alphabetic() || char == '_')
 }
 
 #[cfg(test)]
@@ -195,6 +218,25 @@ mod tests {
     }
 
     #[test]
+    fn a_number_keeps_its_sign() {
+        for (tokens, help) in [
+            ("AddPlayer ( - 0.5 , 0.1 , CM", "write `CM at own (-0.5, 0.1)`"),
+            (
+                "builder . AddPlayer ( 0.5 , - 0.1 , e_PlayerRole_CM",
+                "write `CM at own (0.5, -0.1)`",
+            ),
+            (
+                "AddPlayer ( - 0.5 , - 0.1 , PlayerRole . e_PlayerRole_CM",
+                "write `CM at own (-0.5, -0.1)`",
+            ),
+            ("builder . SetBallPosition ( 0.62 , 0.1 )", "write `ball at (0.62, 0.1)`"),
+            ("SetBallPosition ( - 0.62 , y )", "write `ball at (0.6, 0)`"),
+        ] {
+            assert_eq!(text(HabitPlace::Team, tokens, 0).as_deref(), Some(help), "{tokens}");
+        }
+    }
+
+    #[test]
     fn a_row_belongs_to_its_place() {
         assert_ne!(text(HabitPlace::Reward, "elif x", 0), text(HabitPlace::Behavior, "elif x", 0));
         assert_eq!(of_name("elif"), None);
@@ -212,7 +254,7 @@ mod tests {
                 habit.seen
             );
             let open = habit.seen.split_whitespace().filter(|token| {
-                ["_", "*", "9", "9a", "é", "\"\"", "ROLE", "EVENT"].contains(token)
+                ["_", "*", "9", "±9", "9a", "é", "\"\"", "ROLE", "EVENT"].contains(token)
                     || token.contains('¦')
                     || token.ends_with("_*")
             });

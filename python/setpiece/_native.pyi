@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from setpiece._errors import Diagnostic
 from setpiece._parameter_space import ParameterSpace
+from setpiece.gfootball.env.scenario_config import ScenarioConfig
 
 __all__ = [
     "ACTIONS",
@@ -18,6 +19,7 @@ __all__ = [
     "AGENTS",
     "CONTINUOUS",
     "EPISODES_MAX",
+    "GRF_LIMIT_MAX",
     "KINDS",
     "AgentInfo",
     "Arrays",
@@ -42,6 +44,8 @@ __all__ = [
     "agents",
     "compile",
     "compile_cast",
+    "grf_name",
+    "grf_text",
     "level",
     "library",
     "library_suites",
@@ -61,6 +65,7 @@ ACTIONS: Final[tuple[tuple[str, str], ...]]
 ACTION_SETS: Final[dict[str, int]]
 AGENTS: Final[tuple[str, ...]]
 EPISODES_MAX: Final[int]
+GRF_LIMIT_MAX: Final[int]
 CONTINUOUS: Final[tuple[list[float], list[float]]]
 KINDS: Final[tuple[str, ...]]
 
@@ -289,6 +294,8 @@ class Environment:
 @final
 class Moment: ...
 
+def grf_name(name: str) -> str: ...
+def grf_text(recorded: ScenarioConfig, other: ScenarioConfig, name: str) -> str: ...
 def moments_video(moments: list[Moment], form: Mapping[str, Any]) -> bytes: ...
 def replay_video(replay: Replay, form: Mapping[str, Any]) -> bytes: ...
 

@@ -6,6 +6,7 @@ mod diagnostics;
 mod environment;
 mod errors;
 mod given;
+mod grf;
 mod info;
 mod level;
 mod levels;
@@ -41,6 +42,8 @@ mod _native {
     #[pymodule_export]
     use crate::environment::{AgentInfo, Environment, EpisodeKey, agents};
     #[pymodule_export]
+    use crate::grf::{grf_name, grf_text};
+    #[pymodule_export]
     use crate::level::level;
     #[pymodule_export]
     use crate::levels::Levels;
@@ -74,6 +77,7 @@ mod _native {
         let sets = ActionSet::NAMED.map(|(name, set)| (name, set.masked().len()));
         module.add("AGENTS", pyo3::types::PyTuple::new(module.py(), AGENTS)?)?;
         module.add("EPISODES_MAX", EPISODES_MAX)?;
+        module.add("GRF_LIMIT_MAX", setpiece::grf::LIMIT_MAX)?;
         module.add("ACTION_SETS", sets.into_py_dict(module.py())?)?;
         module.add("CONTINUOUS", (continuous::LOW.to_vec(), continuous::HIGH.to_vec()))?;
         let kinds: Vec<&str> = continuous::KINDS.iter().map(|kind| kind.name()).collect();

@@ -12,6 +12,7 @@ mod declared;
 mod edits;
 mod fixes;
 mod fold;
+mod grf;
 mod hierarchy;
 mod hints;
 mod hover;

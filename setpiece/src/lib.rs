@@ -18,6 +18,7 @@ pub mod evaluate;
 pub mod explain;
 pub mod files;
 pub mod film;
+pub mod grf;
 pub mod level;
 pub mod levels;
 pub mod live;

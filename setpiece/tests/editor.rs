@@ -8,6 +8,8 @@
 
 #[path = "editor/completion.rs"]
 mod completion;
+#[path = "editor/grf.rs"]
+mod grf;
 #[path = "editor/layout.rs"]
 mod layout;
 #[path = "editor/naming.rs"]
@@ -286,7 +288,8 @@ fn fixes_mend_what_they_are_about() {
 #[test]
 fn everything_that_says_how_is_mended_at_once() {
     let text = "scenario s extends academy {\n    builder.config().game_duration = 400\n    \
-        builder.SetBallPosition(0.26, -0.11)\n    ball at (0.26, -0.11)\n    reward scorin\n}\n";
+        builder.SetBallPosition(0.26, y)\n    ball at (0.26, -0.11)\n    reward scorin\n}\nscenario \
+        t extends academy {\n    builder.SetBallPosition(-0.26, -0.11)\n}\n";
     let path = Path::new("/nowhere/grf.pitch");
     let mut workspace = Workspace::default();
     workspace.set(path, text);
@@ -294,9 +297,12 @@ fn everything_that_says_how_is_mended_at_once() {
     let all = workspace.fix_all(path).expect("something can be mended");
     assert_eq!(all.kind, ActionKind::FixAll);
     let after = &all.edits[0].text;
-    for expected in
-        ["    end limit 400 steps\n", "builder.SetBallPosition(0.26", "reward scoring\n"]
-    {
+    for expected in [
+        "    end limit 400 steps\n",
+        "builder.SetBallPosition(0.26, y)",
+        "    ball at (-0.26, -0.11)\n",
+        "reward scoring\n",
+    ] {
         assert!(after.contains(expected), "{expected}: {after}");
     }
 }

@@ -239,6 +239,26 @@ fn only_the_kinds_of_action_that_are_asked_for_are_given() {
     assert_eq!(kinds(Some(&["refactor.extract"])), [""; 0]);
 }
 
+/// A pasted script is nothing but errors; the one action in it replaces it.
+#[test]
+fn a_script_of_google_research_football_is_translated() {
+    const SCRIPT: &str = "file:///nowhere/pitches/drill.pitch";
+    let mut client = Client::new();
+    let text = "def build_scenario(builder):\n  builder.SetBallPosition(0.62, -0.1)\n";
+    client.open(SCRIPT, text);
+    for only in [None, Some(&["quickfix"])] {
+        let here = json!({ "line": 1, "character": 4 });
+        let asked = json!({ "textDocument": { "uri": SCRIPT },
+            "range": { "start": here, "end": here },
+            "context": { "diagnostics": [], "only": only } });
+        let found = client.result("textDocument/codeAction", asked);
+        let [action] = found.as_array().unwrap().as_slice() else { panic!("{found}") };
+        assert_eq!((&action["kind"], &action["isPreferred"]), (&json!("quickfix"), &json!(true)));
+        let edits = action["edit"].to_string();
+        assert!(edits.contains("scenario drill {") && edits.contains("ball at (0.62, -0.1)"));
+    }
+}
+
 #[test]
 fn hierarchies_go_on_from_their_items() {
     let mut client = Client::new();

@@ -38,6 +38,10 @@ impl Workspace {
     /// What may be changed where some bytes are selected; none of it leads to another problem.
     /// [`Workspace::fix_all`] has what mends the whole text.
     pub fn actions(&mut self, path: &Path, within: Range<usize>) -> Vec<Action> {
+        // Whoever pastes a script wants none of its lines mended.
+        if let Some(action) = self.translation(path, &within) {
+            return vec![action];
+        }
         let Some(analysis) = self.analysis(path) else { return Vec::new() };
         let mut actions = self.fixes(path, &within);
         // What is wrong is mended first.
@@ -250,15 +254,16 @@ impl Analysis {
         inside.next().map(|it| it.open + 1)
     }
 
-    /// A name that the text doesn't have: the word, or the word with a number.
     fn free_name(&self, word: &str) -> String {
-        let is_free = |name: &String| {
-            !self
-                .text
-                .split(|sign: char| !(sign.is_alphanumeric() || sign == '_'))
-                .any(|it| it == name)
-        };
-        let numbered = (2..).map(|number| format!("{word}_{number}"));
-        std::iter::once(word.to_owned()).chain(numbered).find(is_free).unwrap_or_default()
+        free_name(&self.text, word)
     }
+}
+
+/// A name that a text doesn't have: the word, or the word with a number.
+pub(super) fn free_name(text: &str, word: &str) -> String {
+    let is_free = |name: &String| {
+        !text.split(|sign: char| !(sign.is_alphanumeric() || sign == '_')).any(|it| it == name)
+    };
+    let numbered = (2..).map(|number| format!("{word}_{number}"));
+    std::iter::once(word.to_owned()).chain(numbered).find(is_free).unwrap_or_default()
 }

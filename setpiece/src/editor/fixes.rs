@@ -15,6 +15,7 @@ use crate::dsl::parse::parse;
 use crate::dsl::problem::Code;
 use crate::dsl::source::{FileId, Source};
 use crate::files::FileLoader;
+use crate::grf::scripts;
 use std::ops::Range;
 use std::path::Path;
 
@@ -41,9 +42,13 @@ impl Workspace {
         let mut from = 0;
         for _ in 0..ROUNDS {
             let Some(analysis) = after.analysis(path) else { break };
+            // A script of another engine is translated as a whole or not at all.
+            let scripts = scripts(&analysis.text);
+            let is_in_script = |at: usize| scripts.iter().any(|script| script.contains(&at));
             let next = analysis
                 .own_reports(path)
                 .filter(|report| report.place.range.start >= from)
+                .filter(|report| !is_in_script(report.place.range.start))
                 .find_map(|report| {
                     let fixes = after.clone().fixes_of(path, &analysis, report);
                     // Which of several units is meant only the author knows.

@@ -1,0 +1,57 @@
+//! Scripts of Google Research Football that stand in a text, as scenarios.
+
+use super::Workspace;
+use super::actions::{Action, ActionKind, free_name};
+use super::edits::Edit;
+use super::text::ends_in_code;
+use crate::compile_text;
+use crate::files::name_of;
+use crate::grf::{GrfScript, identifier, scripts};
+use std::ops::Range;
+use std::path::Path;
+
+impl Workspace {
+    /// The script that some bytes touch as a scenario that compiles, named like the file; none if
+    /// there is no script, or nothing in it can be read.
+    pub(super) fn translation(&self, path: &Path, within: &Range<usize>) -> Option<Action> {
+        let text = self.file_text(path)?;
+        let blanks_behind = |end: usize| {
+            let behind = text.get(end..).unwrap_or_default();
+            text.len() - behind.trim_start().len()
+        };
+        // After pasting, the cursor stands in the blanks behind a script.
+        let mut range = scripts(&text)
+            .into_iter()
+            .find(|range| range.start <= within.end && within.start <= blanks_behind(range.end))?;
+        let (before, behind) = (text.get(..range.start)?, text.get(range.end..)?);
+        if !ends_in_code(before) {
+            return None;
+        }
+        let script = GrfScript::read(text.get(range.clone())?)?;
+        let is_last = behind.trim().is_empty();
+        if is_last {
+            range.end = text.len();
+        }
+        let stem = identifier(&path.file_stem().unwrap_or_default().to_string_lossy());
+        // A word of the language is no name.
+        let names = [stem.clone(), format!("{stem}_scenario")];
+        let written = names.iter().find_map(|name| {
+            let name = free_name(&format!("{before}\n{behind}"), name);
+            let written = script.to_pitch(&name).ok()?;
+            compile_text(&written, &name_of(path)).is_ok().then_some(written)
+        })?;
+        let title = "turn the script of Google Research Football into a scenario";
+        let title = match script.left_out.len() {
+            0 => title.to_owned(),
+            1 => format!("{title}, without a line that can't be read"),
+            count => format!("{title}, without {count} lines that can't be read"),
+        };
+        let written = if is_last { &written } else { written.trim_end() };
+        Some(Action {
+            title,
+            kind: ActionKind::Fix,
+            edits: vec![Edit::replace(path, range, written)],
+            code: None,
+        })
+    }
+}

@@ -1,0 +1,129 @@
+//! Scripts of Google Research Football that are pasted into a text.
+
+use setpiece::editor::{Action, ActionKind, Workspace};
+use std::path::Path;
+
+const SCRIPT: &str = "\
+from . import *
+
+def build_scenario(builder):
+  builder.config().game_duration = 400
+  builder.SetBallPosition(0.62, 0.0)
+  builder.SetTeam(Team.e_Left)
+  builder.AddPlayer(-1.0, 0.0, e_PlayerRole_GK)
+  builder.AddPlayer(0.6, 0.0, e_PlayerRole_CM)
+  builder.SetTeam(Team.e_Right)
+  builder.AddPlayer(-1.0, 0.0, e_PlayerRole_GK)
+";
+
+const OTHER: &str = "\
+/// Another one.
+scenario other extends academy {
+    ball at (0, 0)
+    team left { CM at (-0.1, 0) }
+}
+";
+
+fn actions(file: &str, text: &str, at: usize) -> (Workspace, Vec<Action>) {
+    let path = Path::new("/nowhere/grf").join(file);
+    let mut workspace = Workspace::default();
+    workspace.set(&path, text);
+    let actions = workspace.actions(&path, at..at);
+    (workspace, actions)
+}
+
+/// The text after the one action that is offered in its script, wherever the cursor stands in it.
+fn translated(file: &str, text: &str) -> String {
+    let start = text.find("from .").expect("a script");
+    let end = text.rfind("GK)\n").expect("its end") + 4;
+    let mut after: Vec<String> = Vec::new();
+    for at in (start..=end).filter(|at| text.is_char_boundary(*at)) {
+        let (workspace, actions) = actions(file, text, at);
+        let [action] = actions.as_slice() else { panic!("{at}: {actions:?}") };
+        assert_eq!(action.kind, ActionKind::Fix);
+        let [edit] = action.edits.as_slice() else { panic!("{action:?}") };
+        let path = Path::new("/nowhere/grf").join(file);
+        let mut whole = workspace.text(&path).expect("a text").to_string();
+        whole.replace_range(edit.place.range.clone(), &edit.text);
+        after.push(whole);
+    }
+    after.dedup();
+    assert_eq!(after.len(), 1, "{after:?}");
+    after.remove(0)
+}
+
+#[test]
+fn a_pasted_script_becomes_a_scenario() {
+    for (file, name) in [("two on one.pitch", "two_on_one"), ("from.pitch", "from_scenario")] {
+        let after = translated(file, SCRIPT);
+        let path = Path::new("/nowhere/grf").join(file);
+        let mut workspace = Workspace::default();
+        workspace.set(&path, &after);
+        assert_eq!(workspace.reports()[&path], [], "{after}");
+        assert_eq!(workspace.format(&path), [], "{after}");
+        for expected in [
+            format!("scenario {name} {{").as_str(),
+            "        CM at (0.6066, 0)\n",
+            "        GK at own (-1.011, 0)\n",
+            "    end limit 400 steps\n",
+        ] {
+            assert!(after.contains(expected), "{expected}: {after}");
+        }
+    }
+}
+
+#[test]
+fn the_text_around_a_script_stays() {
+    for (above, below) in [(OTHER, ""), ("", OTHER), (OTHER, OTHER)] {
+        let below = below.replace("other", "third");
+        let text = format!("{above}\n{SCRIPT}\n{below}");
+        let after = translated("other.pitch", &text);
+        assert!(after.starts_with(above) && after.ends_with(&below), "{after}");
+        let name = if above.is_empty() { "other" } else { "other_2" };
+        assert!(after.contains(&format!("\nscenario {name} {{")), "{after}");
+        let path = Path::new("/nowhere/grf/other.pitch");
+        let mut workspace = Workspace::default();
+        workspace.set(path, &after);
+        assert_eq!(workspace.reports()[path], [], "{after}");
+        let at = text.find("ball at").expect("the other scenario");
+        let (_, beside) = actions("other.pitch", &text, at);
+        assert!(beside.iter().all(|it| !it.title.contains("script")), "{beside:?}");
+    }
+}
+
+#[test]
+fn lines_that_cannot_be_read_are_named() {
+    let loop_of_players =
+        "  for y in (0.1, 0.2):\n    builder.AddPlayer(0.5, y, e_PlayerRole_CF)\n";
+    let text = format!("{SCRIPT}{loop_of_players}");
+    let (_, actions) = actions("partly.pitch", &text, 0);
+    let [action] = actions.as_slice() else { panic!("{actions:?}") };
+    assert!(action.title.ends_with(", without 2 lines that can't be read"), "{action:?}");
+    for line in loop_of_players.lines() {
+        assert!(action.edits[0].text.contains(&format!("\n// {line}\n")), "{action:?}");
+    }
+}
+
+/// A script that no text can express, or that stands in a comment, keeps its other helps.
+#[test]
+fn no_translation_is_offered_that_does_not_compile() {
+    for text in [
+        SCRIPT.replace("0.62", "3"),
+        SCRIPT.replace("400", "-1"),
+        SCRIPT.replace("def build_scenario", "def build_scenery"),
+        format!("/*\n{SCRIPT}*/\n{OTHER}"),
+        format!("scenario s extends academy {{\n    script rhai \"\"\"\n{SCRIPT}\"\"\"\n}}\n"),
+    ] {
+        let at = text.find("builder.config").expect("a script");
+        let (_, actions) = actions("odd.pitch", &text, at);
+        assert!(actions.iter().all(|it| !it.title.contains("script of")), "{text}: {actions:?}");
+    }
+}
+
+#[test]
+fn what_mends_a_whole_text_leaves_its_scripts() {
+    let text = format!("{}\n{SCRIPT}", OTHER.replace("ball at", "bal at"));
+    let (workspace, _) = actions("beside.pitch", &text, 0);
+    let all = workspace.fix_all(Path::new("/nowhere/grf/beside.pitch")).expect("a fix");
+    assert_eq!(all.edits[0].text, format!("{OTHER}\n{SCRIPT}"));
+}

@@ -1,8 +1,6 @@
 //! What may stand at a place of a text.
 
-use super::completion::{
-    Completion, CompletionKind, PARAMETER, keys, keywords, units, word, words_of,
-};
+use super::completion::{Completion, CompletionKind, PARAMETER, keys, keywords, word, words_of};
 use super::cursor::{CursorPlace, context, inline_script};
 use super::keywords::KeywordBlock;
 use super::outline::flat;
@@ -37,7 +35,7 @@ impl Workspace {
             CursorPlace::Nothing => Vec::new(),
             CursorPlace::Import => self.files(path),
             CursorPlace::Member(of) => members(of),
-            CursorPlace::Unit => units(),
+            CursorPlace::Unit => words_of(&[WordKind::Unit]).collect(),
             CursorPlace::TopLevel => keywords(KeywordBlock::File),
             CursorPlace::Statement(block) => {
                 let mut found = analysis.statements(block);

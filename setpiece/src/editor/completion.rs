@@ -2,7 +2,6 @@
 
 use super::keywords::{KEYWORDS, Keyword, KeywordBlock};
 use super::words::{self, WordKind};
-use crate::scenario::vocabulary::Unit;
 
 /// Something that may be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,11 +49,6 @@ pub(super) fn keywords(block: KeywordBlock) -> Vec<Completion> {
     known.map(completion).collect()
 }
 
-/// The units of numbers.
-pub(super) fn units() -> Vec<Completion> {
-    Unit::ALL.iter().map(|unit| word(unit.name(), unit.doc(), "unit")).collect()
-}
-
 /// A word of the language.
 pub(super) fn word(text: &str, doc: &str, detail: &str) -> Completion {
     Completion {
@@ -84,6 +78,8 @@ pub(super) fn words_of(kinds: &[WordKind]) -> impl Iterator<Item = Completion> {
             WordKind::Action => "action",
             WordKind::Mode => "mode",
             WordKind::Type => "type",
+            WordKind::OverTime => "over the episode",
+            WordKind::Unit => "unit",
         };
         word(known.name, known.doc, detail)
     })

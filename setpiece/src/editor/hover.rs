@@ -12,6 +12,7 @@ use crate::film;
 use crate::render::Scene;
 use crate::scenario::pitch::{HALF_LENGTH_M, to_normalised};
 use crate::scene::of_match;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
@@ -256,7 +257,8 @@ fn meanings(before: &str, word: &str) -> Vec<Meaning> {
     let of_tables = words::all().filter(|known| known.name == word);
     let of_tables = of_tables.map(|it| Meaning { word: it.name, doc: it.doc, page: it.page });
     let mut found: Vec<Meaning> = keyword.into_iter().chain(of_tables).collect();
-    found.dedup();
+    let mut seen = BTreeSet::new();
+    found.retain(|it| seen.insert(it.doc));
     found
 }
 

@@ -1,7 +1,7 @@
 //! What may follow within a statement: what the grammar would read there, and what that can be.
 
 use super::Analysis;
-use super::completion::{Completion, CompletionKind, joining, units, word, words_of};
+use super::completion::{Completion, CompletionKind, joining, word, words_of};
 use super::cursor::{UnfinishedStatement, unfinished};
 use super::words::WordKind;
 use crate::dsl::parse::{NextPart, next_parts};
@@ -19,18 +19,6 @@ const PLACES: [(&str, &str); 9] = [
     ("between", "between ${1:ball} and ${2:right.goal}"),
     ("beyond", "beyond ${1:ball} by ${2:2m} from ${3:right.goal}"),
     ("offset", "offset from ${1:ball} along ${2:90deg} by ${3:2m}"),
-];
-
-/// What `… of` gathers over the steps of an episode.
-const OVER_TIME: [(&str, &str); 8] = [
-    ("count", "how many events, or at how many steps it holds"),
-    ("sum", "the sum over the steps"),
-    ("mean", "the mean over the steps"),
-    ("max", "the greatest value of any step"),
-    ("min", "the least value of any step"),
-    ("first", "the value at the first step"),
-    ("last", "the value now"),
-    ("series", "the value of every step"),
 ];
 
 impl Analysis {
@@ -68,7 +56,7 @@ impl Analysis {
                 NextPart::Role => words_of(&[WordKind::Role]).collect(),
                 NextPart::Type => words_of(&[WordKind::Type]).collect(),
                 NextPart::Act => words_of(&[WordKind::Act]).chain(self.after("with")).collect(),
-                NextPart::Unit => units(),
+                NextPart::Unit => words_of(&[WordKind::Unit]).collect(),
                 NextPart::Name => self.named_after(text),
                 NextPart::Value if wants_role => Vec::new(),
                 NextPart::Operand if matches!(last, "by" | "to" | "for") => self.actors(),
@@ -77,16 +65,14 @@ impl Analysis {
             })
             .collect();
         let mut seen = BTreeSet::new();
-        found.retain(|it| seen.insert((it.text.clone(), it.kind == CompletionKind::Name)));
+        found.retain(|it| seen.insert((it.text.clone(), it.doc.clone())));
         found
     }
 
     /// What may be or begin a value or a condition.
     fn conditions(&self) -> Vec<Completion> {
-        let over = OVER_TIME.iter().map(|(name, doc)| Completion {
-            snippet: format!("{name} of $0"),
-            ..word(name, doc, "over the episode")
-        });
+        let over = words_of(&[WordKind::OverTime])
+            .map(|it| Completion { snippet: format!("{} of $0", it.text), ..it });
         let logic = ["if", "not"].into_iter().filter_map(joining);
         let events = words_of(&[WordKind::Event]);
         self.values().into_iter().chain(events).chain(logic).chain(over).collect()
@@ -143,7 +129,7 @@ impl Analysis {
         ]));
         found.extend(joining("own"));
         let mut seen = BTreeSet::new();
-        found.retain(|it| seen.insert((it.text.clone(), it.kind == CompletionKind::Name)));
+        found.retain(|it| seen.insert((it.text.clone(), it.doc.clone())));
         found
     }
 }

@@ -3,7 +3,7 @@
 use crate::scenario::vocabulary::{
     Action, AgentsOption, BallOption, EventKind, Function, GameMode, Landmark, MeasureWord,
     PROPERTIES, PitchFigure, PitchRegion, PlayerOption, Primitive, Qualifier, QuantityWord,
-    RegionName, Role, Rule, StartKind, StartOption, Stat, SubstituteOption, TeamOption, Type,
+    RegionName, Role, Rule, StartKind, StartOption, Stat, SubstituteOption, TeamOption, Type, Unit,
     ValueWord, WorldFigure,
 };
 
@@ -36,7 +36,23 @@ pub(super) enum WordKind {
     Mode,
     /// A type of a parameter.
     Type,
+    /// What `… of` gathers over the steps of an episode.
+    OverTime,
+    /// A unit of numbers.
+    Unit,
 }
+
+/// What `… of` gathers over the steps of an episode.
+const OVER_TIME: [(&str, &str); 8] = [
+    ("count", "how many events, or at how many steps it holds"),
+    ("sum", "the sum over the steps"),
+    ("mean", "the mean over the steps"),
+    ("max", "the greatest value of any step"),
+    ("min", "the least value of any step"),
+    ("first", "the value at the first step"),
+    ("last", "the value now"),
+    ("series", "the value of every step"),
+];
 
 /// A word of the language.
 #[derive(Clone, Copy, Debug)]
@@ -69,6 +85,12 @@ pub(super) fn all() -> impl Iterator<Item = Word> {
         kind: WordKind::Property,
         page: "expression.md",
     });
+    let over_time = OVER_TIME.iter().map(|&(name, doc)| Word {
+        name,
+        doc,
+        kind: WordKind::OverTime,
+        page: "record.md",
+    });
     table!(Role, Role, "team.md")
         .chain(table!(EventKind, Event, "event.md"))
         .chain(table!(Qualifier, Qualifier, "event.md"))
@@ -95,6 +117,8 @@ pub(super) fn all() -> impl Iterator<Item = Word> {
         .chain(table!(GameMode, Mode, "expression.md"))
         .chain(table!(StartKind, Mode, "start.md"))
         .chain(table!(Type, Type, "param.md"))
+        .chain(over_time)
+        .chain(table!(Unit, Unit, "expression.md"))
 }
 
 /// Whether a word is of a kind.

@@ -178,13 +178,15 @@ fn what_cannot_be_read_is_left_out() {
         ),
         (
             "  for team in (0, 1):\n    builder.SetTeam(team)\n  builder.AddPlayer(0.5, 0, 9)\n  \
-             builder.SetTeam(Team.e_Left)\n  builder.AddPlayer(0.4, 0, 9)\n",
+             builder.SetTeam(Team.e_Left)\n  builder.AddPlayer(0.4, 0, 9)\n  \
+             builder.SetTeam(1)\n  builder.AddPlayer(-1, 0, 0)\n",
             "CF at (0.4044, 0)",
             "    builder.SetTeam(team)|  builder.AddPlayer(0.5, 0, 9)",
         ),
         (
             "  def wall(n):\n    builder.SetTeam(n)\n  wall(1)\n  builder.AddPlayer(0.5, 0, 9)\n  \
-             builder.SetTeam(0); builder.AddPlayer(0.4, 0, 9)\n",
+             builder.SetTeam(0); builder.AddPlayer(0.4, 0, 9)\n  \
+             builder.SetTeam(1)\n  builder.AddPlayer(-1, 0, 0)\n",
             "CF at (0.4044, 0)",
             "  wall(1)|  builder.AddPlayer(0.5, 0, 9)",
         ),
@@ -210,6 +212,44 @@ fn what_cannot_be_read_is_left_out() {
         assert!(written.contains(kept), "{kept}\n{written}");
         assert_eq!(written.matches("CF at").count(), 1, "{written}");
     }
+}
+
+/// What the file doesn't say isn't guessed.
+#[test]
+fn what_is_not_known_is_not_invented() {
+    let behind =
+        "  builder.AddPlayer(-1, 0, 0)\n  builder.SetTeam(1)\n  builder.AddPlayer(-1, 0, 0)\n";
+    for (head, body, left_out) in [
+        ("X = 0.2\nfrom .places import FAR as X\n", "  builder.AddPlayer(X, 0, 9)\n", 1),
+        ("X = 0.2\nfrom .places import *\n", "  builder.AddPlayer(X, 0, 9)\n", 1),
+        (
+            "",
+            "  away = lambda: builder.SetTeam(1)\n  builder.SetTeam(0)\n  away()\n  builder.AddPlayer(0.5, 0, 9)\n  builder.SetTeam(0)\n",
+            3,
+        ),
+        (
+            "",
+            "  s = Setup(builder)\n  builder.SetTeam(0)\n  s.away()\n  builder.AddPlayer(0.5, 0, 9)\n  builder.SetTeam(0)\n",
+            3,
+        ),
+        (
+            "W = 0.3\ndef widen():\n  global W\n  W = 0.4\n",
+            "  widen()\n  builder.SetTeam(0)\n  builder.AddPlayer(W, 0, 9)\n",
+            5,
+        ),
+    ] {
+        let script = format!("{head}{}{behind}", script(body));
+        let read = GrfScript::read(&script).unwrap_or_else(|| panic!("{script}"));
+        assert_eq!(read.left_out.len(), left_out, "{script}\n{:?}", read.left_out);
+        assert_eq!(read.even.left_team.len(), 1, "{script}");
+    }
+    let default = "def build_scenario(builder, GAP=0.1):\n  builder.AddPlayer(GAP, 0, 9)\n";
+    let read = GrfScript::read(&format!("GAP = 0.3\n{default}{behind}")).expect("a script");
+    assert_eq!((read.left_out.len(), read.even.left_team.len()), (1, 1));
+    let all_in_a_loop = "  builder.SetBallPosition(0, 0)\n  for x, y, r in PLACES:\n    builder.AddPlayer(x, y, r)\n";
+    assert_eq!(GrfScript::read(&script(all_in_a_loop)), None);
+    let ended = format!("{behind}  return builder\n  builder.AddPlayer(0.5, 0, 9)\n");
+    assert_eq!(GrfScript::read(&script(&ended)).expect("a script").even.right_team.len(), 1);
 }
 
 #[test]

@@ -143,6 +143,11 @@ fn block_around(before: &str) -> &str {
     open_blocks(before).last().map_or("", |block| block.word)
 }
 
+/// Whether a text ends outside of every block.
+pub(super) fn is_outside(before: &str) -> bool {
+    open_blocks(before).is_empty()
+}
+
 /// The end of a text from where its last statement may begin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct UnfinishedStatement<'a> {

@@ -2,7 +2,9 @@
 
 use super::Workspace;
 use super::actions::{Action, ActionKind, free_name};
+use super::cursor::is_outside;
 use super::edits::Edit;
+use super::place::is_script;
 use super::text::ends_in_code;
 use crate::compile_text;
 use crate::files::name_of;
@@ -14,6 +16,9 @@ impl Workspace {
     /// The script that some bytes touch as a scenario that compiles, named like the file; none if
     /// there is no script, or nothing in it can be read.
     pub(super) fn translation(&self, path: &Path, within: &Range<usize>) -> Option<Action> {
+        if is_script(path) {
+            return None;
+        }
         let text = self.file_text(path)?;
         let blanks_behind = |end: usize| {
             let behind = text.get(end..).unwrap_or_default();
@@ -24,7 +29,7 @@ impl Workspace {
             .into_iter()
             .find(|range| range.start <= within.end && within.start <= blanks_behind(range.end))?;
         let (before, behind) = (text.get(..range.start)?, text.get(range.end..)?);
-        if !ends_in_code(before) {
+        if !ends_in_code(before) || !is_outside(before) {
             return None;
         }
         let script = GrfScript::read(text.get(range.clone())?)?;
@@ -33,10 +38,15 @@ impl Workspace {
             range.end = text.len();
         }
         let stem = identifier(&path.file_stem().unwrap_or_default().to_string_lossy());
-        // A word of the language is no name.
-        let names = [stem.clone(), format!("{stem}_scenario")];
+        // A word of the language is no name; nor is one that a formation of the text has.
+        let names = [stem.clone(), format!("{stem}_scenario"), format!("{stem}_script")];
+        let others = format!("{before}\n{behind}");
         let written = names.iter().find_map(|name| {
-            let name = free_name(&format!("{before}\n{behind}"), name);
+            let name = free_name(&others, name);
+            let layouts = ["kicking", "receiving"].map(|role| format!("{name}_{role}"));
+            if layouts.iter().any(|layout| free_name(&others, layout) != *layout) {
+                return None;
+            }
             let written = script.to_pitch(&name).ok()?;
             compile_text(&written, &name_of(path)).is_ok().then_some(written)
         })?;
@@ -47,6 +57,8 @@ impl Workspace {
             count => format!("{title}, without {count} lines that can't be read"),
         };
         let written = if is_last { &written } else { written.trim_end() };
+        let ends = if text.contains("\r\n") { "\r\n" } else { "\n" };
+        let written = written.replace('\n', ends);
         Some(Action {
             title,
             kind: ActionKind::Fix,

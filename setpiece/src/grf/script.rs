@@ -54,7 +54,9 @@ impl GrfScript {
         let is_too_large = |it: &PyRun<'_>| {
             it.recorded.left_team.len().max(it.recorded.right_team.len()) > TEAM_MAX
         };
-        if !takes_turns || even.is_empty() || is_too_large(&even) || is_too_large(&odd) {
+        // A team without players would get a keeper.
+        let is_lost = even.lacks_a_team() || odd.lacks_a_team();
+        if !takes_turns || is_lost || even.is_empty() || is_too_large(&even) || is_too_large(&odd) {
             return None;
         }
         let mut ranges: Vec<_> = even.left_out().chain(odd.left_out()).collect();

@@ -127,3 +127,58 @@ fn what_mends_a_whole_text_leaves_its_scripts() {
     let all = workspace.fix_all(Path::new("/nowhere/grf/beside.pitch")).expect("a fix");
     assert_eq!(all.edits[0].text, format!("{OTHER}\n{SCRIPT}"));
 }
+
+/// What an author has written behind a script that isn't finished stays as it is.
+#[test]
+fn an_unfinished_script_takes_nothing_of_the_language() {
+    let of_rhai = "    reward r script rhai \"\"\"fn reward(ctx, now, prev, events) { 0 }\"\"\"\n";
+    let others = [
+        OTHER.to_owned(),
+        OTHER.replace("/// Another one.\n", "  // My note.\n"),
+        OTHER.lines().skip(1).map(|line| format!("  {line}\n")).collect(),
+        OTHER.replace("    ball", &format!("{of_rhai}    ball")),
+    ];
+    for cut in [
+        "  \"\"\"cut here\n",
+        "  '''cut here\n",
+        "  builder.AddPlayer(0.6, 0.1,\n",
+        "  name = \"\"\"x\n",
+        "  builder.AddPlayer(0.6, 0.1, [\n",
+    ] {
+        for other in &others {
+            let text = format!("{SCRIPT}{cut}\n{other}");
+            let at = text.find("builder.config").expect("a script");
+            let (_, actions) = actions("cut.pitch", &text, at);
+            let action = actions.iter().find(|it| it.title.contains("script of"));
+            let edit = &action.unwrap_or_else(|| panic!("{text}\n{actions:?}")).edits[0];
+            let mut whole = text.clone();
+            whole.replace_range(edit.place.range.clone(), &edit.text);
+            assert!(whole.ends_with(other.as_str()), "{cut}{other}\n{whole}");
+            assert!(whole.contains(cut.trim_end()), "{cut} is named as left out:\n{whole}");
+        }
+    }
+}
+
+#[test]
+fn a_script_is_translated_where_a_scenario_may_stand() {
+    let inside = OTHER.replace("    ball", &format!("{SCRIPT}    ball"));
+    let at = inside.find("builder.config").expect("a script");
+    let (_, of_scenario) = actions("inside.pitch", &inside, at);
+    let (_, of_rhai) = actions("inside.rhai", SCRIPT, 60);
+    for action in of_scenario.iter().chain(&of_rhai) {
+        assert!(!action.title.contains("script of"), "{action:?}");
+    }
+}
+
+#[test]
+fn a_translation_keeps_the_ends_of_lines_and_takes_free_names() {
+    let text = format!("\u{feff}{SCRIPT}\n{OTHER}").replace('\n', "\r\n");
+    let (_, found) = actions("mine.pitch", &text, 200);
+    let edit = &found[0].edits[0];
+    assert_eq!(edit.text.matches('\n').count(), edit.text.matches("\r\n").count());
+    assert_eq!(edit.place.range.start, 3);
+    let kick_off = SCRIPT.replace("0.62, 0.0)", "0.0, 0.0)").replace("0.6, 0.0", "0.0, 0.0");
+    let text = format!("{kick_off}\nformation mine_kicking {{\n    CM at (0, 0)\n}}\n");
+    let (_, found) = actions("mine.pitch", &text, 200);
+    assert!(found[0].edits[0].text.contains("mine_scenario"), "{found:?}");
+}

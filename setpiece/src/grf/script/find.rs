@@ -1,6 +1,6 @@
 //! Where the scripts of a text are.
 
-use super::lines::{PyLine, PyToken};
+use super::lines::{PyLine, PyToken, begins_item};
 use std::ops::Range;
 
 /// The name of a script's function.
@@ -14,13 +14,14 @@ pub fn scripts(text: &str) -> Vec<Range<usize>> {
         return found;
     }
     let mut part: Option<PyPart> = None;
-    let (mut at, mut quotes) = (0, 0);
+    let (mut at, mut quotes) = (text.len() - text.trim_start_matches('\u{feff}').len(), 0);
     while at < text.len() {
         let rest = text.get(at..).unwrap_or_default();
         let written = rest.split('\n').next().unwrap_or_default();
         let mut next = at + written.len() + 1;
-        let goes_on =
-            part.is_some() && (written.trim().is_empty() || written.starts_with([' ', '\t', '#']));
+        let goes_on = part.is_some()
+            && !begins_item(written)
+            && (written.trim().is_empty() || written.starts_with([' ', '\t', '#']));
         // In the language three quotes also end a script in Rhai.
         let may_quote = part.is_some() || quotes % 2 == 0;
         if goes_on || is_start(written, part.is_some(), may_quote) {
@@ -113,7 +114,8 @@ pub(super) fn comments(text: &str, lines: &[PyLine<'_>]) -> Vec<String> {
     let head = lines.iter().take_while(|line| line.tokens.is_empty());
     head.filter_map(|line| {
         let written = text.get(line.range.clone())?.trim().trim_start_matches('#');
-        let is_setting = written.starts_with('!') || written.contains("coding");
+        let is_setting =
+            written.starts_with('!') || written.contains("coding:") || written.contains("coding=");
         (!is_setting).then(|| super::plain(written.strip_prefix(' ').unwrap_or(written)))
     })
     .collect()

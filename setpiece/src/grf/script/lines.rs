@@ -1,5 +1,6 @@
 //! The lines of a Python file: joined where a bracket is open, and apart in words and signs.
 
+use crate::dsl::parse::statement_words;
 use std::ops::Range;
 
 /// How many lines of a file are joined to one.
@@ -40,31 +41,46 @@ const LONG_SIGNS: &[&str] = &[
 ];
 
 impl<'t> PyLine<'t> {
-    /// The line that begins at a byte, which is the start of a line of the text.
+    /// The line that begins at a byte, which is the start of a line of the text. One whose bracket
+    /// or string isn't closed ends where it is written, and has one odd token.
     pub(super) fn at(text: &'t str, start: usize) -> PyLine<'t> {
+        // What is written in the language closes nothing.
+        let end = end_of_joined(text, start);
+        let joined = PyLine::joined(text.get(..end).unwrap_or_default(), start);
+        joined.unwrap_or_else(|| {
+            let rest = text.get(start..).unwrap_or_default();
+            let written = rest.split('\n').next().unwrap_or_default();
+            let blanks = written.len() - written.trim_start().len();
+            PyLine {
+                range: start..start + written.trim_end().len(),
+                indent: indent_of(written.get(..blanks).unwrap_or_default()),
+                tokens: vec![PyToken::Odd],
+            }
+        })
+    }
+
+    /// The line that begins at a byte; none if a bracket or string isn't closed.
+    fn joined(text: &'t str, start: usize) -> Option<PyLine<'t>> {
         let mut line = PyLine { range: start..start, indent: 0, tokens: Vec::new() };
         let rest = text.get(start..).unwrap_or_default();
         let blanks = rest.len() - rest.trim_start_matches([' ', '\t', '\u{c}']).len();
-        for sign in rest.get(..blanks).unwrap_or_default().chars() {
-            line.indent = if sign == '\t' { line.indent / 8 * 8 + 8 } else { line.indent + 1 };
-        }
-        let (mut at, mut open, mut joined) = (start + blanks, 0_usize, 0);
+        line.indent = indent_of(rest.get(..blanks).unwrap_or_default());
+        let (mut at, mut open) = (start + blanks, 0_usize);
         while let Some(rest) = text.get(at..)
             && let Some(sign) = rest.chars().next()
         {
             let goes_on = rest.strip_prefix('\\').is_some_and(|it| it.starts_with(['\n', '\r']));
             if sign == '\n' || goes_on {
-                if (open == 0 && !goes_on) || joined == JOINED_MAX {
+                if open == 0 && !goes_on {
                     break;
                 }
-                joined += 1;
                 at += rest.find('\n').map_or(rest.len(), |it| it + 1);
             } else if sign.is_whitespace() {
                 at += sign.len_utf8();
             } else if sign == '#' {
                 at += rest.find('\n').unwrap_or(rest.len());
             } else {
-                let (token, length) = token(rest);
+                let (token, length) = token(rest)?;
                 match token {
                     PyToken::Sign("(" | "[" | "{") => open += 1,
                     PyToken::Sign(")" | "]" | "}") => open = open.saturating_sub(1),
@@ -76,7 +92,7 @@ impl<'t> PyLine<'t> {
         }
         let written = text.get(start..at).unwrap_or_default();
         line.range.end = start + written.trim_end().len();
-        line
+        (open == 0).then_some(line)
     }
 
     /// Whether nothing is written in it.
@@ -93,35 +109,65 @@ impl<'t> PyLine<'t> {
     }
 }
 
-/// The first token of a text, and its length in bytes.
-fn token(text: &str) -> (PyToken<'_>, usize) {
+/// Where a line that begins at a byte has to have its end: before the language goes on, and before
+/// too many lines.
+fn end_of_joined(text: &str, start: usize) -> usize {
+    let mut end = start;
+    for (count, line) in text.get(start..).unwrap_or_default().split_inclusive('\n').enumerate() {
+        if count > JOINED_MAX || (count > 0 && begins_item(line)) {
+            break;
+        }
+        end += line.len();
+    }
+    end
+}
+
+/// Whether a line is one of the language, which no line of Python can be.
+pub(super) fn begins_item(line: &str) -> bool {
+    let line = line.trim_start();
+    let word = line.split(|sign: char| !sign.is_alphanumeric()).next().unwrap_or_default();
+    let behind = line.get(word.len()..).unwrap_or_default();
+    let is_item = word != "import" && statement_words("").contains(&word);
+    let is_named =
+        behind.trim_start().starts_with(|sign: char| sign.is_alphabetic() || sign == '"');
+    line.starts_with("//") || (is_item && behind.starts_with([' ', '\t']) && is_named)
+}
+
+/// How deep blanks are; a tab ends at a multiple of eight.
+fn indent_of(blanks: &str) -> usize {
+    blanks
+        .chars()
+        .fold(0, |indent, sign| if sign == '\t' { indent / 8 * 8 + 8 } else { indent + 1 })
+}
+
+/// The first token of a text, and its length in bytes; none if it is a string that isn't closed.
+fn token(text: &str) -> Option<(PyToken<'_>, usize)> {
     let is_word = |sign: char| sign.is_alphanumeric() || sign == '_';
     let first = text.chars().next().unwrap_or_default();
     let digit = |it: &str| it.starts_with(|sign: char| sign.is_ascii_digit());
     if digit(text) || text.strip_prefix('.').is_some_and(digit) {
-        return number(text);
+        return Some(number(text));
     }
     let length = text.len() - text.trim_start_matches(is_word).len();
     let (word, behind) = text.split_at(length);
     let is_prefix = length <= 2 && word.chars().all(|sign| "rRbBuUfF".contains(sign));
-    if is_prefix && let Some(quoted) = string(behind) {
-        return (PyToken::Text, length + quoted);
+    if is_prefix && behind.starts_with(['"', '\'']) {
+        return Some((PyToken::Text, length + string(behind)?));
     }
     if length > 0 {
-        return (PyToken::Word(word), length);
+        return Some((PyToken::Word(word), length));
     }
     if let Some(sign) = LONG_SIGNS.iter().find(|sign| text.starts_with(**sign)) {
-        return (PyToken::Sign(sign), sign.len());
+        return Some((PyToken::Sign(sign), sign.len()));
     }
     let length = first.len_utf8();
-    match text.get(..length) {
+    Some(match text.get(..length) {
         Some(sign) if first.is_ascii_punctuation() => (PyToken::Sign(sign), length),
         _ => (PyToken::Odd, length.max(1)),
-    }
+    })
 }
 
-/// The length of the string at the start of a text; none if there is none. What isn't closed ends
-/// with its line, or with the text.
+/// The length of the string at the start of a text; none if it isn't closed.
 fn string(text: &str) -> Option<usize> {
     let quote = text.chars().next().filter(|sign| matches!(sign, '"' | '\''))?;
     let three = quote.to_string().repeat(3);
@@ -135,14 +181,14 @@ fn string(text: &str) -> Option<usize> {
             return Some(at + close.len());
         }
         if sign == '\n' && !is_long {
-            return Some(at);
+            return None;
         }
         at += sign.len_utf8();
         if sign == '\\' {
             at += rest.chars().nth(1).map_or(0, char::len_utf8);
         }
     }
-    Some(text.len())
+    None
 }
 
 /// The number at the start of a text, and its length in bytes.

@@ -18,8 +18,12 @@ pub(super) struct PyRun<'t> {
     names: PyNames<'t>,
     /// The team that a player is added to; none if that isn't known.
     team: Option<Team>,
-    /// The functions that the file defines.
-    functions: BTreeSet<&'t str>,
+    /// Whether functions of the file may set the team when they are called.
+    is_shared: bool,
+    /// The names that functions of the file may change.
+    global: BTreeSet<&'t str>,
+    /// The teams that players may be lost of.
+    lost: BTreeSet<Team>,
     /// The bytes of the statements that can't be read.
     left_out: Vec<Range<usize>>,
     /// The bytes of the statement that sets a seed.
@@ -45,7 +49,9 @@ impl<'t> PyRun<'t> {
             recorded: GrfScenario::default(),
             names: PyNames { values: BTreeMap::new(), episode },
             team: Some(Team::Left),
-            functions: BTreeSet::new(),
+            is_shared: false,
+            global: BTreeSet::new(),
+            lost: BTreeSet::new(),
             left_out: Vec::new(),
             seed: None,
             effects: 0,
@@ -63,8 +69,15 @@ impl<'t> PyRun<'t> {
 
     fn script(&mut self, script: &PyNode<'t>) {
         let (head, inline) = script.parts();
-        if let Some(PyToken::Word(builder)) = head.get(3) {
-            self.names.values.insert(*builder, PyValue::Builder);
+        let mut arguments = head.iter().skip(3).filter_map(|token| match token {
+            PyToken::Word(name) => Some(*name),
+            _ => None,
+        });
+        if let Some(builder) = arguments.next() {
+            self.names.values.insert(builder, PyValue::Builder);
+        }
+        for other in arguments {
+            self.names.values.remove(other);
         }
         if self.simple_line(inline, &script.line.range) == Goes::On {
             self.block(&script.body);
@@ -110,9 +123,9 @@ impl<'t> PyRun<'t> {
                 "if" => self.choice(chain),
                 "def" => {
                     if let Some(PyToken::Word(name)) = node.line.tokens.get(1) {
-                        self.functions.insert(*name);
                         self.names.values.remove(name);
                     }
+                    self.share(&node.tokens());
                     self.left_out.push(node.range());
                     Goes::On
                 }
@@ -175,6 +188,42 @@ impl<'t> PyRun<'t> {
         self.left_out.push(range);
         for statement in split(tokens, ";") {
             self.forget(statement);
+            if statement.contains(&PyToken::Word("AddPlayer")) {
+                self.lose();
+            }
+        }
+    }
+
+    /// Notes that players of the team aren't known.
+    fn lose(&mut self) {
+        match self.team {
+            Some(team) => drop(self.lost.insert(team)),
+            None => self.lost.extend(Team::ALL),
+        }
+    }
+
+    /// Whether nobody of a team is known who may be there.
+    pub(super) fn lacks_a_team(&self) -> bool {
+        let is_empty = |team: Team| match team {
+            Team::Left => self.recorded.left_team.is_empty(),
+            Team::Right => self.recorded.right_team.is_empty(),
+        };
+        self.lost.iter().any(|team| is_empty(*team))
+    }
+
+    /// Notes what calls may change from now on, by what is left out.
+    fn share(&mut self, tokens: &[PyToken<'t>]) {
+        self.is_shared = true;
+        if tokens.contains(&PyToken::Word("AddPlayer")) {
+            self.lost.extend(Team::ALL);
+        }
+        for statement in split(tokens, ";") {
+            if let [PyToken::Word("global" | "nonlocal"), names @ ..] = statement {
+                self.global.extend(names.iter().filter_map(|token| match token {
+                    PyToken::Word(name) => Some(*name),
+                    _ => None,
+                }));
+            }
         }
     }
 
@@ -206,15 +255,24 @@ impl<'t> PyRun<'t> {
             }
             let before = at.checked_sub(1).and_then(|at| tokens.get(at));
             if before == Some(&PyToken::Sign(".")) {
-                if word == "SetTeam" {
+                let of = at.checked_sub(2).and_then(|at| tokens.get(at));
+                let is_builders = matches!(of, Some(PyToken::Word(name))
+                    if self.names.values.get(name) == Some(&PyValue::Builder));
+                let is_called = self.is_shared && !is_builders && is_sign(at + 1, &["("]);
+                if word == "SetTeam" || is_called {
                     self.team = None;
                 }
                 continue;
             }
-            // Whoever has the builder may have changed the team.
+            // Whoever has the builder may have changed the team, and may do so again.
             let is_builder = self.names.values.get(word) == Some(&PyValue::Builder);
-            if (is_builder && !is_sign(at + 1, &["."])) || self.functions.contains(word) {
+            let is_handed = is_builder && !is_sign(at + 1, &["."]);
+            self.is_shared |= is_handed || matches!(word, "lambda" | "class");
+            if self.is_shared && (is_handed || is_sign(at + 1, &["("])) {
                 self.team = None;
+                for name in &self.global {
+                    self.names.values.remove(name);
+                }
             }
             let is_named = matches!(before, Some(PyToken::Word("as" | "class" | "def")));
             let is_target = at < targets && !is_sign(at + 1, &[".", "("]);
@@ -224,14 +282,29 @@ impl<'t> PyRun<'t> {
         }
     }
 
+    /// What an import brings isn't known: its names are forgotten.
+    fn import(&mut self, tokens: &[PyToken<'t>]) {
+        let names = &mut self.names.values;
+        for token in tokens {
+            match token {
+                PyToken::Word(name) => drop(names.remove(name)),
+                PyToken::Sign("*") => {
+                    names.retain(|_, value| matches!(value, PyValue::Builder | PyValue::Config));
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// A statement without a block.
     fn simple(&mut self, tokens: &[PyToken<'t>], range: &Range<usize>) -> Result<Goes, Unreadable> {
         match tokens {
-            [PyToken::Word("return")] => return Ok(Goes::Back),
-            // What an import brings isn't known by its name.
-            []
-            | [PyToken::Text | PyToken::Word("pass")]
-            | [PyToken::Word("import" | "from"), ..] => return Ok(Goes::On),
+            [PyToken::Word("return"), ..] => return Ok(Goes::Back),
+            [] | [PyToken::Text | PyToken::Word("pass")] => return Ok(Goes::On),
+            [PyToken::Word("import" | "from"), ..] => {
+                self.import(tokens);
+                return Ok(Goes::On);
+            }
             _ => {}
         }
         if let [PyToken::Word(name), PyToken::Sign(sign @ ("+=" | "-=" | "*=" | "/=")), rest @ ..] =

@@ -5,6 +5,7 @@
 
 mod actions;
 mod analysis;
+mod closing;
 mod complete;
 mod completion;
 mod cursor;
@@ -29,6 +30,7 @@ mod problems;
 mod report;
 mod script;
 mod select;
+mod settings;
 mod signature;
 pub mod text;
 mod tokens;

@@ -260,6 +260,15 @@ fn fixes_mend_what_they_are_about() {
         ("reward \"scoring\"", "reward scoring"),
         ("limit 200", "end limit 200 steps"),
         ("reward r { give 0.1 * closing(ball, right.goal) }", "right.goal) / 1m }"),
+        ("team right { CF at (0.5, 0.1 }", "team right { CF at (0.5, 0.1) }"),
+        ("team right { CF at (0.5, 0.1 facing 90deg }", "CF at (0.5, 0.1) facing 90deg }"),
+        ("end when distance(ball, centre < 3m // near", "distance(ball, centre) < 3m // near"),
+        ("end when (ball in right.box", "end when (ball in right.box)\n"),
+        ("reward r {\n        give 1 on goal by us", "        give 1 on goal by us\n    }\n"),
+        ("reward r { give 1 on goal by us", "reward r { give 1 on goal by us}\n"),
+        ("reward r { give 1 on goal as \"goal }", "as \"goal\" }"),
+        ("reward r { give 1 on goal as \"\" }", ""),
+        ("record near = count of ball in right.box", ""),
     ] {
         let text = format!(
             "scenario a extends academy {{\n    ball at (0.5, 0)\n    team left {{ CF at (0.4, 0) }}\n    {line}\n}}\n"

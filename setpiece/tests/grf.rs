@@ -460,7 +460,7 @@ fn depth_and_length_are_no_danger() {
     for piece in
         ["(", "-", "not ", "[", "x if y else ", "'", "\"\"\"", "\\\n", "#", "\n\"", "x=(\n"]
     {
-        let deep = piece.repeat(100_000);
+        let deep = piece.repeat(20_000);
         read_all(&script(&format!("  builder.config().game_duration = {deep}")));
         read_all(&script(&deep));
         read_all(&format!("{deep}\n{WHOLE}"));

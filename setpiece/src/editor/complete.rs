@@ -14,6 +14,7 @@ use crate::dsl::parse::parse;
 use crate::dsl::source::{FileId, SourceLoader};
 use crate::files::FileLoader;
 use crate::scenario::vocabulary::{EventField, Landmark, Owner, PROPERTIES, Role};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 impl Workspace {
@@ -43,6 +44,10 @@ impl Workspace {
                 found
             }
             CursorPlace::Key(block) => keys(block),
+            CursorPlace::After("import") => {
+                let quoted = |it: Completion| Completion { text: format!("\"{}\"", it.text), ..it };
+                self.files(path).into_iter().map(quoted).collect()
+            }
             CursorPlace::After(what) => analysis.after(what),
             CursorPlace::Measure => words_of(&[WordKind::Measure]).collect(),
             CursorPlace::Inside => analysis.inside(before),
@@ -141,7 +146,9 @@ impl Analysis {
             .collect();
         if matches!(what, "extends" | "play") {
             let known = FileLoader::anywhere().scenarios().into_iter();
-            found.extend(known.map(|(name, _)| Completion {
+            let seen: BTreeSet<String> = found.iter().map(|it| it.text.clone()).collect();
+            let unseen = known.filter(|(name, _)| !seen.contains(name));
+            found.extend(unseen.map(|(name, _)| Completion {
                 text: name,
                 detail: "a scenario of the library".to_owned(),
                 doc: String::new(),

@@ -56,7 +56,7 @@ pub(super) fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
         || trimmed.ends_with(['{', '}'])
         || line.trim().is_empty()
         || (trimmed.ends_with(',') && is_of_options(block));
-    if matches!(last, "extends" | "reward" | "play" | "with") && !begins {
+    if matches!(last, "extends" | "reward" | "play" | "with" | "import") && !begins {
         return CursorPlace::After(last);
     }
     if trimmed.ends_with("formation:") {

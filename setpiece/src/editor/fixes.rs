@@ -4,6 +4,7 @@
 //! texts: what makes the report go away, and nothing else wrong, is offered.
 
 use super::actions::{Action, ActionKind};
+use super::closing::closings;
 use super::edits::Edit;
 use super::outline::{Symbol, SymbolKind, of_file};
 use super::place::is_scenario;
@@ -12,10 +13,11 @@ use super::text::{brackets, line_around};
 use super::{Analysis, Workspace};
 use crate::dsl::ast::{Item, ItemKind};
 use crate::dsl::parse::parse;
-use crate::dsl::problem::Code;
+use crate::dsl::problem::{Code, Severity};
 use crate::dsl::source::{FileId, Source};
 use crate::files::FileLoader;
 use crate::grf::scripts;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
 
@@ -76,14 +78,19 @@ impl Workspace {
         }
         tries.dedup_by(|one, other| one.edits == other.edits);
         let code = report.code;
-        let mends: Vec<Try> = tries
+        let mends: Vec<(Try, usize)> = tries
             .into_iter()
             .take(TRIES)
-            .filter(|it| self.mends(path, report, &it.edits))
+            .filter_map(|it| self.mends(path, report, &it.edits).map(|errors| (it, errors)))
             .collect();
+        // Of several places for what is missing, one where the rest makes sense.
+        let least = mends.iter().map(|(_, errors)| *errors).min().unwrap_or_default();
+        let is_likely = |errors: usize| !is_unread(report) || errors == least;
+        let mut titles = BTreeSet::new();
         mends
             .into_iter()
-            .map(|it| Action {
+            .filter(|(it, errors)| is_likely(*errors) && titles.insert(it.title.clone()))
+            .map(|(it, _)| Action {
                 title: it.title,
                 kind: ActionKind::Fix,
                 edits: it.edits,
@@ -92,21 +99,35 @@ impl Workspace {
             .collect()
     }
 
-    /// Whether a report is gone after some edits, and nothing else is wrong.
-    fn mends(&mut self, path: &Path, report: &TextReport, edits: &[Edit]) -> bool {
+    /// How many errors are left after some edits, if a report is gone and nothing else is wrong.
+    fn mends(&mut self, path: &Path, report: &TextReport, edits: &[Edit]) -> Option<usize> {
         let mut after = self.after(edits);
-        let (Some(was), Some(is)) = (self.analysis(path), after.analysis(path)) else {
-            return false;
-        };
+        let (was, is) = (self.analysis(path)?, after.analysis(path)?);
         let alike = |analysis: &Analysis| {
             analysis.reports.iter().filter(|it| it.code == report.code).count()
         };
         let errors = |analysis: &Analysis| analysis.errors();
-        // What could not be read hides what is wrong behind it.
-        let uncovers = report.code.to_string().starts_with("SP01");
-        alike(&is) < alike(&was)
-            && errors(&is) <= errors(&was)
-            && (uncovers || is.reports.len() < was.reports.len())
+        if !is_unread(report) {
+            let less = is.reports.len() < was.reports.len();
+            let mends = less && alike(&is) < alike(&was) && errors(&is) <= errors(&was);
+            return mends.then(|| errors(&is));
+        }
+        // What could not be read hides what is wrong behind it, but not in its own lines.
+        let unread = |analysis: &Analysis| {
+            let own = analysis.own_reports(path);
+            own.filter(|it| is_unread(it)).count()
+        };
+        // What is tried is one edit.
+        let line = edits.first().map(|edit| line_around(&is.text, edit.place.range.start));
+        let is_new = |it: &TextReport| {
+            !was.own_reports(path).any(|other| it.code == other.code && it.message == other.message)
+        };
+        let spoils = is.own_reports(path).any(|it| {
+            it.severity == Severity::Error
+                && is_new(it)
+                && (is_unread(it) || line.as_ref().is_some_and(|line| it.touches(line)))
+        });
+        (unread(&is) < unread(&was) && !spoils).then(|| errors(&is))
     }
 
     /// Imports of the files that declare an unknown name.
@@ -163,6 +184,14 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
     if lists {
         return Vec::new();
     }
+    if matches!(report.code, Code::UnclosedBracket | Code::UnclosedString) {
+        let places = closings(&analysis.text, range.start);
+        let closed = places.into_iter().map(|(at, sign)| Try {
+            title: format!("close it with `{}`", sign.trim()),
+            edits: vec![Edit::replace(path, at..at, sign)],
+        });
+        tries.extend(closed);
+    }
     for text in quoted(help) {
         let unit = text.trim_start_matches(|sign: char| sign.is_ascii_digit() || sign == '.');
         let has_unit =
@@ -214,6 +243,11 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
         only.title.clone_from(help);
     }
     tries
+}
+
+/// Whether a report is about a text that can't be read.
+fn is_unread(report: &TextReport) -> bool {
+    report.code.to_string().starts_with("SP01")
 }
 
 /// Whether a report asks for the unit of a number.

@@ -5,7 +5,7 @@ use super::completion::{Completion, CompletionKind, joining, word, words_of};
 use super::cursor::{UnfinishedStatement, unfinished};
 use super::words::WordKind;
 use crate::dsl::parse::{NextPart, next_parts};
-use crate::scenario::vocabulary::{Owner, PROPERTIES};
+use crate::scenario::vocabulary::{Owner, PROPERTIES, Type, Unit};
 use std::collections::BTreeSet;
 
 /// Words that begin a place, with what follows them.
@@ -27,6 +27,9 @@ impl Analysis {
         for UnfinishedStatement { block, text } in unfinished(before) {
             let parts = next_parts(block, text);
             if !parts.is_empty() {
+                if let Some(found) = self.settings(block, text) {
+                    return found;
+                }
                 return self.parts(&parts, block, text);
             }
         }
@@ -56,9 +59,12 @@ impl Analysis {
                 NextPart::Role => words_of(&[WordKind::Role]).collect(),
                 NextPart::Type => words_of(&[WordKind::Type]).collect(),
                 NextPart::Act => words_of(&[WordKind::Act]).chain(self.after("with")).collect(),
+                NextPart::Unit if text.contains("limit ") => units_of_time(),
                 NextPart::Unit => words_of(&[WordKind::Unit]).collect(),
                 NextPart::Name => self.named_after(text),
                 NextPart::Value if wants_role => Vec::new(),
+                // In a behaviour `for` says how long.
+                NextPart::Operand if last == "for" && block == "behavior" => self.values(),
                 NextPart::Operand if matches!(last, "by" | "to" | "for") => self.actors(),
                 NextPart::Operand => self.values(),
                 NextPart::Value => self.conditions(),
@@ -108,7 +114,7 @@ impl Analysis {
 
     /// Teams, players, and who else an event is by.
     fn actors(&self) -> Vec<Completion> {
-        let players = self.own_names().into_iter().filter(|it| it.detail == "a player");
+        let players = self.players().into_iter();
         let is_actor = |name: &str| !matches!(name, "ball" | "centre" | "score" | "event");
         let known = words_of(&[WordKind::Value]).filter(|it| is_actor(&it.text));
         players.chain(known).collect()
@@ -132,6 +138,12 @@ impl Analysis {
         found.retain(|it| seen.insert((it.text.clone(), it.doc.clone())));
         found
     }
+}
+
+/// The units of durations.
+fn units_of_time() -> Vec<Completion> {
+    let is_time = |name: &str| Unit::from_name(name).is_some_and(|it| it.ty() == Type::Duration);
+    words_of(&[WordKind::Unit]).filter(|it| is_time(&it.text)).collect()
 }
 
 /// The words that go on with a statement on a new line.

@@ -2,19 +2,34 @@
 
 use super::marked;
 
+/// A text, the words that are offered at its mark, and others that are not.
+type CompletionCase = (String, &'static [&'static str], &'static [&'static str]);
+
+/// A scenario with a parameter, a player and a line.
+fn scenario(inside: &str) -> String {
+    format!(
+        "scenario a extends academy {{\n    param far: length = 3m\n    team left {{ striker: CF at (0.4, 0) }}\n    {inside}\n}}\n"
+    )
+}
+
+fn assert_completes(cases: &[CompletionCase]) {
+    for (text, has, has_not) in cases {
+        let (mut workspace, path, at) = marked(text);
+        let found: Vec<String> =
+            workspace.complete(&path, at).into_iter().map(|it| it.text).collect();
+        for word in *has {
+            assert!(found.iter().any(|it| it == word), "no `{word}` in {text}\n{found:?}");
+        }
+        for word in *has_not {
+            assert!(!found.iter().any(|it| it == word), "`{word}` in {text}\n{found:?}");
+        }
+    }
+}
+
 #[test]
 fn completion_knows_the_place() {
-    let complete = |text: &str| -> Vec<String> {
-        let (mut workspace, path, at) = marked(text);
-        workspace.complete(&path, at).into_iter().map(|it| it.text).collect()
-    };
-    let scenario = |inside: &str| {
-        format!(
-            "scenario a extends academy {{\n    param far: length = 3m\n    team left {{ striker: CF at (0.4, 0) }}\n    {inside}\n}}\n"
-        )
-    };
-    for (text, has, has_not) in [
-        ("‸".to_owned(), &["scenario", "reward", "import"][..], &["ball", "CF"][..]),
+    assert_completes(&[
+        ("‸".to_owned(), &["scenario", "reward", "import"], &["ball", "CF"]),
         (scenario("‸"), &["ball", "team", "end"], &["GK", "scenario"]),
         (scenario("team right { ‸ }"), &["GK", "CB", "maybe"], &["ball"]),
         (scenario("reward ‸"), &["scoring", "checkpoints"], &["GK"]),
@@ -92,13 +107,57 @@ fn completion_knows_the_place() {
         (scenario("end success when right.goal.‸"), &["x", "y", "metres"], &["fatigue", "speed"]),
         (scenario("end success when centre.‸"), &["x"], &["fatigue"]),
         (scenario("end success when right.box.‸"), &[], &["x", "fatigue"]),
-    ] {
-        let found = complete(&text);
-        for word in has {
-            assert!(found.iter().any(|it| it == word), "no `{word}` in {text}\n{found:?}");
-        }
-        for word in has_not {
-            assert!(!found.iter().any(|it| it == word), "`{word}` in {text}\n{found:?}");
+    ]);
+}
+
+#[test]
+fn completion_knows_what_an_option_may_be() {
+    assert_completes(&[
+        (scenario("rules { offside: ‸"), &["on", "off"], &["auto", "GK"]),
+        (scenario("rules { physics: ‸ }"), &["gated", "full"], &["on", "far"]),
+        (scenario("mirror: ‸"), &["flanks", "ends"], &["far", "striker"]),
+        (scenario("agents { left: ‸ }"), &["all", "striker"], &["distance", "far"]),
+        (scenario("agents { others: ‸ }"), &["bot", "hold"], &["striker"]),
+        (scenario("team right { GK at (1, 0) { ai: ‸"), &["lazy", "press"], &["distance", "GK"]),
+        (scenario("team right { GK at (1, 0) { difficulty: 1, overlap: ‸"), &["allowed"], &["on"]),
+        (scenario("end limit 100 ‸"), &["steps", "s"], &["m", "deg"]),
+        ("behavior b { do press for ‸".to_owned(), &["min", "elapsed"], &["press", "limit"]),
+        ("import ‸".to_owned(), &["\"std/rewards.pitch\""], &["ball"]),
+    ]);
+}
+
+/// Whatever is offered for an option is understood there.
+#[test]
+fn every_setting_that_is_offered_compiles() {
+    let texts = [
+        ("agents { others: ‸ }", 2),
+        ("agents { left: 1, switching: ‸ }", 2),
+        ("agents { left: ‸ }", 1),
+        ("mirror: ‸", 3),
+        ("rules { physics: ‸ }", 2),
+        ("rules { offside: ‸ }", 2),
+        ("rules { half_time: ‸ }", 1),
+        ("team right { CB at (0.8, 0) { ai: ‸ } }", 3),
+        ("team right { CB at (0.8, 0) { controllable: ‸ } }", 2),
+        ("team right { CB at (0.8, 0) { overlap: ‸ } }", 1),
+    ];
+    for (line, count) in texts {
+        let text = format!(
+            "scenario a extends academy {{\n    ball at (0.5, 0)\n    team left {{ striker: CF at (0.4, 0) }}\n    {line}\n}}\n"
+        );
+        let (mut workspace, path, at) = marked(&text);
+        let offered = workspace.complete(&path, at);
+        let settings: Vec<_> = offered.iter().filter(|it| it.detail == "setting").collect();
+        assert_eq!(settings.len(), count, "{line}: {offered:?}");
+        for setting in settings {
+            let mut workspace = setpiece::editor::Workspace::default();
+            workspace.set(&path, &text.replace('‸', &setting.text));
+            let reports = workspace.reports();
+            let errors: Vec<_> = reports[&path]
+                .iter()
+                .filter(|it| it.severity == setpiece::dsl::problem::Severity::Error)
+                .collect();
+            assert!(errors.is_empty(), "{line} {}: {errors:?}", setting.text);
         }
     }
 }

@@ -42,7 +42,14 @@ impl<'w> Lower<'_, 'w> {
             let guard = matching.guard;
             self.close_events(matching, Fold { kind: FoldKind::Count, value: None, guard })
         } else {
-            self.condition(of)
+            let value = self.expr(of);
+            if !value.is_error() && value.ty != Ty::Bool {
+                self.report(self.mismatch_with(value.ty, Ty::Bool, of.span, Instead::Counted));
+            }
+            if value.ty != Ty::Bool {
+                return Value::error();
+            }
+            self.reg(&value)
         };
         let cell = self.code.new_cell();
         let before = self.code.cell(cell);

@@ -39,7 +39,7 @@ facts! {
         /// A label without a letter.
         EmptyLabel = Code::OutOfRange =>
             say("a label has at least one letter", "")
-                .help("say in a word what is paid: `give 1 on goal by us as \"goal\"`"),
+                .help("say in a word what is paid, for example `give 1 on goal by us as \"goal\"`"),
         /// Several terms of what isn't a script.
         TermsOfNoScript = Code::WrongScope =>
             say("only a script has several terms", "")

@@ -249,6 +249,8 @@ pub(crate) enum Instead {
     Distance { text: String },
     /// A value that a record holds.
     Recorded,
+    /// What `count of` counts.
+    Counted,
     /// What `max of` and its like look at.
     Measured { kind: String },
     /// A value that an observation holds.
@@ -301,6 +303,10 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
         Instead::Recorded => {
             said.help("a record holds a number, a length, a duration, a place or a condition")
         }
+        Instead::Counted => said.help(
+            "what is counted is an event, or a condition in brackets, for example `count of (ball in \
+             right.box)`",
+        ),
         Instead::Measured { kind } => {
             said.help(format!("`{kind} of` takes a number, a length, a duration, …"))
         }

@@ -4,7 +4,7 @@ use crate::dsl::parse::statement_words;
 use std::ops::Range;
 
 /// How many lines of a file are joined to one.
-const JOINED_MAX: usize = 400;
+const JOINED_MAX: usize = 100;
 
 /// A word, number, string or sign of Python.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,12 +44,12 @@ impl<'t> PyLine<'t> {
     /// The line that begins at a byte, which is the start of a line of the text. One whose bracket
     /// or string isn't closed ends where it is written, and has one odd token.
     pub(super) fn at(text: &'t str, start: usize) -> PyLine<'t> {
-        // What is written in the language closes nothing.
-        let end = end_of_joined(text, start);
-        let joined = PyLine::joined(text.get(..end).unwrap_or_default(), start);
-        joined.unwrap_or_else(|| {
-            let rest = text.get(start..).unwrap_or_default();
-            let written = rest.split('\n').next().unwrap_or_default();
+        let within = |end: usize| PyLine::joined(text.get(..end).unwrap_or_default(), start);
+        let rest = text.get(start..).unwrap_or_default();
+        let written = rest.split('\n').next().unwrap_or_default();
+        // Most lines are closed where they are written.
+        let alone = within((start + written.len() + 1).min(text.len()));
+        alone.or_else(|| within(end_of_joined(text, start))).unwrap_or_else(|| {
             let blanks = written.len() - written.trim_start().len();
             PyLine {
                 range: start..start + written.trim_end().len(),
@@ -59,17 +59,19 @@ impl<'t> PyLine<'t> {
         })
     }
 
-    /// The line that begins at a byte; none if a bracket or string isn't closed.
+    /// The line that begins at a byte; none if a bracket or string isn't closed, or it goes on
+    /// behind the text.
     fn joined(text: &'t str, start: usize) -> Option<PyLine<'t>> {
         let mut line = PyLine { range: start..start, indent: 0, tokens: Vec::new() };
         let rest = text.get(start..).unwrap_or_default();
         let blanks = rest.len() - rest.trim_start_matches([' ', '\t', '\u{c}']).len();
         line.indent = indent_of(rest.get(..blanks).unwrap_or_default());
-        let (mut at, mut open) = (start + blanks, 0_usize);
+        let (mut at, mut open, mut is_ended) = (start + blanks, 0_usize, true);
         while let Some(rest) = text.get(at..)
             && let Some(sign) = rest.chars().next()
         {
             let goes_on = rest.strip_prefix('\\').is_some_and(|it| it.starts_with(['\n', '\r']));
+            is_ended = !goes_on;
             if sign == '\n' || goes_on {
                 if open == 0 && !goes_on {
                     break;
@@ -92,7 +94,7 @@ impl<'t> PyLine<'t> {
         }
         let written = text.get(start..at).unwrap_or_default();
         line.range.end = start + written.trim_end().len();
-        (open == 0).then_some(line)
+        (is_ended && open == 0).then_some(line)
     }
 
     /// Whether nothing is written in it.
@@ -127,10 +129,10 @@ pub(super) fn begins_item(line: &str) -> bool {
     let line = line.trim_start();
     let word = line.split(|sign: char| !sign.is_alphanumeric()).next().unwrap_or_default();
     let behind = line.get(word.len()..).unwrap_or_default();
-    let is_item = word != "import" && statement_words("").contains(&word);
-    let is_named =
-        behind.trim_start().starts_with(|sign: char| sign.is_alphabetic() || sign == '"');
-    line.starts_with("//") || (is_item && behind.starts_with([' ', '\t']) && is_named)
+    let is_named = behind.starts_with([' ', '\t'])
+        && behind.trim_start().starts_with(|sign: char| sign.is_alphabetic() || sign == '"');
+    let is_item = || word != "import" && statement_words("").contains(&word);
+    line.starts_with("//") || (is_named && is_item())
 }
 
 /// How deep blanks are; a tab ends at a multiple of eight.

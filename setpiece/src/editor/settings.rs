@@ -1,0 +1,96 @@
+//! What an option may be set to.
+
+use super::Analysis;
+use super::completion::{Completion, word, words_of};
+use super::words::WordKind;
+use crate::scenario::vocabulary::Rule;
+
+/// A word that an option may be set to, and what it means.
+type SettingWord = (&'static str, &'static str);
+
+const SWITCH: &[SettingWord] = &[("on", "it holds"), ("off", "it doesn't hold")];
+
+/// What may stand behind the key of an option.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Settings {
+    /// These words alone.
+    Words(&'static [SettingWord]),
+    /// These words, or a value of the text.
+    WordsOrOwn(&'static [SettingWord]),
+    /// These words, an act or a behaviour.
+    WordsOrActs(&'static [SettingWord]),
+    /// These words, or a list of players.
+    WordsOrPlayers(&'static [SettingWord]),
+}
+
+/// What the option of a block may be set to, if it isn't any value.
+///
+/// - `block`: the word that begins the block, `agents`; `player` for a player's braces.
+fn settings(block: &str, key: &str) -> Option<Settings> {
+    Some(match (block, key) {
+        ("scenario", "mirror") => Settings::Words(&[
+            ("none", "as it is written, without an inherited mirror"),
+            ("flanks", "the top and the bottom of the picture are swapped"),
+            ("ends", "the pitch is turned by 180°"),
+        ]),
+        ("agents", "left" | "right") => Settings::WordsOrPlayers(&[("all", "every player")]),
+        ("agents", "others") => Settings::Words(&[
+            ("bot", "the game's own player"),
+            ("hold", "they stand where they are"),
+        ]),
+        ("agents", "switching") => Settings::Words(&[
+            ("auto", "a count of agents follows the ball"),
+            ("fixed", "agents keep their players"),
+        ]),
+        ("player", "ai") => Settings::WordsOrActs(&[
+            ("bot", "the game's own player"),
+            ("hold", "stands where they are"),
+            ("lazy", "stands still and doesn't play the ball"),
+        ]),
+        ("player", "controllable") => Settings::WordsOrOwn(SWITCH),
+        ("player", "overlap") => {
+            Settings::Words(&[("allowed", "another player may stand on the same spot")])
+        }
+        ("ball", "owner") => Settings::WordsOrPlayers(&[]),
+        ("rules", key) => match Rule::from_name(key)? {
+            Rule::Physics => Settings::Words(&[
+                ("gated", "rapier resolves contacts"),
+                ("full", "rapier runs on every tick"),
+            ]),
+            Rule::HalfTime => Settings::WordsOrOwn(&[("off", "there is none")]),
+            _ => Settings::WordsOrOwn(SWITCH),
+        },
+        _ => return None,
+    })
+}
+
+impl Analysis {
+    /// What may stand behind `KEY:` in a block; none if it is any value, or another text.
+    pub(super) fn settings(&self, block: &str, text: &str) -> Option<Vec<Completion>> {
+        let key = text.trim_end().strip_suffix(':')?.trim_end();
+        let key = key.rsplit(|sign: char| !(sign.is_alphanumeric() || sign == '_')).next()?;
+        let found = settings(block, key)?;
+        let (words, further): (_, Vec<Completion>) = match found {
+            Settings::Words(words) => (words, Vec::new()),
+            Settings::WordsOrOwn(words) => {
+                let values = self.own_names().into_iter().filter(|it| it.detail != "a player");
+                (words, values.chain(self.value_items()).collect())
+            }
+            Settings::WordsOrActs(words) => {
+                let acts = words_of(&[WordKind::Act]).chain(self.after("with"));
+                (words, acts.collect())
+            }
+            Settings::WordsOrPlayers(words) => (words, self.players()),
+        };
+        let own: Vec<Completion> =
+            words.iter().map(|&(name, doc)| word(name, doc, "setting")).collect();
+        let is_new = |it: &Completion| !own.iter().any(|other| other.text == it.text);
+        let further: Vec<Completion> = further.into_iter().filter(is_new).collect();
+        Some(own.into_iter().chain(further).collect())
+    }
+
+    /// The players that have a name.
+    pub(super) fn players(&self) -> Vec<Completion> {
+        self.own_names().into_iter().filter(|it| it.detail == "a player").collect()
+    }
+}

@@ -7,6 +7,7 @@
 //! 3. The pairs become the tree (one file here per construct); `recover` re-reads junk to say what
 //!    was expected.
 
+mod around;
 mod behavior;
 mod event;
 mod expr;
@@ -21,6 +22,7 @@ mod scan;
 mod scenario;
 mod team;
 
+pub use around::rules_around;
 pub use next::{NextPart, next_parts};
 pub use recover::statement_words;
 

@@ -30,6 +30,7 @@ mod problems;
 mod report;
 mod script;
 mod select;
+mod senses;
 mod settings;
 mod signature;
 pub mod text;

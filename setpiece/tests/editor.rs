@@ -348,6 +348,12 @@ fn what_is_offered_besides_says_the_same() {
     assert!(team.iter().any(|it| it == "make a formation of these players"), "{team:?}");
     let number = titles(of("circle(right.goal, 1", 0));
     assert!(number.iter().any(|it| it == "make `12m` a parameter"), "{number:?}");
+    // A parameter has no other one as its value.
+    let (mut workspace, path, at) = marked(
+        "scenario s extends academy {\n    param far: length = 3‸m\n    end when distance(ball, right.goal) < far\n}\n",
+    );
+    let offered = titles(workspace.actions(&path, at..at));
+    assert!(!offered.iter().any(|it| it.contains("a parameter")), "{offered:?}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Changes of a text that an editor offers.
 
 use super::edits::Edit;
+use super::report::TextReport;
 use super::{Analysis, SymbolKind, Workspace};
 use crate::dsl::ast::{ItemKind, ScenarioStmt, ScenarioStmtKind};
 use crate::dsl::problem::Code;
@@ -59,13 +60,19 @@ impl Workspace {
         actions
     }
 
-    /// Whether no more is wrong after some edits.
+    /// Whether nothing is wrong after some edits that wasn't before.
     fn is_harmless(&mut self, path: &Path, edits: &[Edit]) -> bool {
         let mut after = self.after(edits);
         let (Some(was), Some(is)) = (self.analysis(path), after.analysis(path)) else {
             return false;
         };
-        is.reports.len() <= was.reports.len()
+        let alike = |one: &TextReport, other: &TextReport| {
+            one.code == other.code && one.message == other.message
+        };
+        let of = |analysis: &Analysis, report: &TextReport| {
+            analysis.reports.iter().filter(|it| alike(it, report)).count()
+        };
+        is.reports.iter().all(|report| of(&is, report) <= of(&was, report))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::cursor::{block_of, inline_script};
 use super::keywords::KEYWORDS;
 use super::place::is_script;
+use super::senses::{Sense, sense};
 use super::text::{brackets, ends_in_code, word_at};
 use super::words;
 use super::{Analysis, FilePlace, Workspace, script};
@@ -65,6 +66,9 @@ impl Workspace {
         let Some(text) = self.file_text(path) else { return Vec::new() };
         let range = word_at(&text, offset);
         let word = text.get(range.clone()).unwrap_or_default();
+        if let Some(Sense { doc, page, .. }) = sense(&text, range.start, word) {
+            return vec![said(word, doc, page)];
+        }
         let mut known = meanings(text.get(..range.start).unwrap_or_default(), word);
         if known.len() > 1 {
             let offered = self.complete(path, range.start);
@@ -244,8 +248,13 @@ struct Meaning {
 
 impl Meaning {
     fn said(self) -> String {
-        format!("**{}**: {} ([{}]({}))", self.word, self.doc, self.page, page(self.page))
+        said(self.word, self.doc, self.page)
     }
+}
+
+/// A word, what it means, and the page of the reference.
+fn said(word: &str, doc: &str, name: &str) -> String {
+    format!("**{word}**: {doc} ([{name}]({}))", page(name))
 }
 
 /// All that a word of the language may mean; a keyword that several blocks have, in this block.

@@ -186,7 +186,23 @@ fn a_word_means_what_may_be_written_there() {
         ("scenario a {\n    record n = cou‸nt of pass\n}", "how many events", 2),
         ("scenario a {\n    end limit 200 st‸eps\n}", "step", 1),
         ("reward r {\n    give 1 on pass b‸y left\n}", "who", 1),
-        ("reward r {\n    give 1 wh‸en me has ball\n}", "when", 1),
+        ("reward r {\n    give 1 wh‸en me has ball\n}", "paid in steps", 1),
+        ("scenario a {\n    ball le‸ft of centre by 2m\n}", "to the left of somebody", 1),
+        ("scenario a {\n    ball left o‸f centre by 2m\n}", "from which player", 1),
+        ("scenario a {\n    ball between centre and left.goal a‸t 20%\n}", "how far along", 1),
+        ("scenario a {\n    param far: length = 3m i‸n 1m..5m\n}", "range", 1),
+        ("scenario a {\n    end wh‸en ball i", "as soon as", 1),
+        ("scenario a {\n    end when ball i‸n right.box\n}", "lies in a region", 1),
+        ("scenario a {\n    record n = count o‸f goal\n}", "in brackets", 1),
+        ("behavior b {\n    do press f‸or 2s\n}", "how long", 1),
+        ("behavior b {\n    do press unti‸l me has ball\n}", "the act ends", 1),
+        ("behavior b {\n    interrupt w‸hen me has ball { do shot }\n}", "in the middle", 1),
+        ("suite s {\n    academy_corner f‸or 10 episodes\n}", "how many", 1),
+        (
+            "curriculum c {\n    stage a = academy until success_rate(la‸st: 20) > 90%\n}",
+            "last episodes",
+            1,
+        ),
     ] {
         let said = hover(text);
         assert!(said.contains(has), "{text}\n{said}");

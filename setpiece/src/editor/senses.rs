@@ -1,0 +1,131 @@
+//! What a word means that stands in several rules of the grammar.
+
+use crate::dsl::parse::rules_around;
+use setpiece_grammar::Rule;
+
+/// What a word means within a rule of the grammar.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sense {
+    /// The rule.
+    rule: Rule,
+    /// The word.
+    word: &'static str,
+    /// What it means, in a line.
+    pub(super) doc: &'static str,
+    /// The page of the reference, under `docs/language/`.
+    pub(super) page: &'static str,
+}
+
+macro_rules! senses {
+    ($($page:literal { $($rule:ident $word:literal $doc:literal;)* })*) => {
+        &[$($(Sense {
+            rule: Rule::$rule,
+            word: $word,
+            doc: $doc,
+            page: concat!($page, ".md"),
+        }),*),*]
+    };
+}
+
+const SENSES: &[Sense] = senses! {
+    "place" {
+        place_at "at" "at this point";
+        place_in "in" "somewhere in this region, drawn at reset";
+        relative "left" "to the left of somebody, seen from the team";
+        relative "right" "to the right of somebody, seen from the team";
+        relative "of" "from which player or point";
+        relative "by" "how far";
+        between "and" "the other point";
+        between "at" "how far along: 0% at the first point, 100% at the second";
+        beyond "by" "how far";
+        beyond "from" "from where it is seen";
+        offset "from" "the point that the offset is added to";
+        offset "by" "how far";
+        facing "from" "the point that they look away from";
+    }
+    "start" {
+        start "for" "the team that takes it";
+        start "at" "where it is taken";
+        rounds "when" "the next round begins as soon as this holds";
+        substitute "when" "the player is replaced as soon as this holds";
+    }
+    "param" {
+        param "in" "the range of its values, or a list of them";
+    }
+    "draw" {
+        require "with" "in which share of the starts it is required";
+    }
+    "team" {
+        team "left" "the left team, which attacks to the right";
+        team "right" "the right team, which attacks to the left";
+        player_when "when" "the player is there in episodes whose start is like this";
+    }
+    "ending" {
+        end "when" "the episode ends as soon as this holds";
+    }
+    "event" {
+        event_by "by" "whose deed it is: a team, a player or a role";
+        event_to "to" "who receives the ball";
+        event_from "from" "where on the pitch it begins";
+    }
+    "reward" {
+        give_to "to" "who receives it";
+        give_on "on" "paid in steps with one of these events";
+        give_when "when" "paid in steps in which this holds";
+        on_block "on" "in steps with one of these events";
+        block_when "when" "only if this holds too";
+        when_block "when" "in steps in which this holds";
+        else_when "when" "in steps in which this holds, and none of the conditions before";
+        audience "for" "who receives the reward";
+        label "as" "the name that it has in results";
+        labels "as" "the names of its terms in results";
+    }
+    "behavior" {
+        interrupt "when" "as soon as this holds, in the middle of an act";
+        repeat "until" "the repetition ends once this holds";
+        do_until "until" "the act ends as soon as this holds";
+        do_for "for" "how long the act lasts";
+    }
+    "record" {
+        over_time "of" "of what: an event, a value, or a condition in brackets";
+    }
+    "observe" {
+        seen_when "when" "it is seen while this holds, and 0 otherwise";
+    }
+    "expression" {
+        binder "for" "for each member of a set";
+        binder "in" "the set whose members are taken one after the other";
+        expr "in" "whether a place lies in a region";
+        condition "in" "whether a place lies in a region";
+        set "in" "whether a place lies in a region";
+    }
+    "table" {
+        table "over" "the part of the pitch that it covers";
+        table_file "from" "the file that has its numbers";
+    }
+    "import" {
+        import "as" "the name in front of what the file declares";
+    }
+    "level" {
+        episodes "for" "how many episodes";
+        sweep "in" "the values that are taken one after the other";
+        play "with" "who plays";
+        over_params "over" "with parameters drawn from their ranges";
+        stage_until "until" "the stage ends when this is reached";
+        adapt "from" "the value at the beginning";
+        adapt "to" "the last value";
+        adapt "in" "the range that the measure is kept in";
+        measure_arg "last" "measured over this many of the last episodes";
+    }
+};
+
+/// What a word means at a byte of a text: in the innermost rule that gives it a meaning.
+pub(super) fn sense(text: &str, offset: usize, word: &str) -> Option<Sense> {
+    if !SENSES.iter().any(|it| it.word == word) {
+        return None;
+    }
+    let around = rules_around(text, offset);
+    let of_rule =
+        |rule: &Rule| SENSES.iter().copied().find(|it| it.rule == *rule && it.word == word);
+    around.iter().rev().find_map(of_rule)
+}

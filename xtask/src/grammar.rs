@@ -6,8 +6,10 @@ use crate::shell::{self, copy_folder, root, run, write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Folders whose `.pitch` files are all sound.
-const SOUND: [&str; 2] = ["examples", "stdlib-scenarios"];
+/// Folders whose `.pitch` files can all be read.
+const SOUND: [&str; 5] = ["dsl", "editors", "examples", "grammar", "stdlib-scenarios"];
+/// The specification: files of cases, some of which can't be read.
+const SPECIFICATION: &str = "tests/spec";
 /// The queries, which stand in `grammar/tree-sitter/queries`.
 pub(crate) const QUERIES: [&str; 6] =
     ["highlights", "folds", "indents", "locals", "tags", "injections"];
@@ -107,8 +109,50 @@ fn sound_files() -> Result<Vec<PathBuf>, String> {
     for sound in SOUND {
         pitch_files(&root().join(sound), &mut files)?;
     }
+    files.extend(readable_cases()?);
     files.sort();
     Ok(files)
+}
+
+/// The specification's cases that can be read, each as a file of `target`.
+fn readable_cases() -> Result<Vec<PathBuf>, String> {
+    let folder = root().join("target/tree-sitter-cases");
+    let mut sources = Vec::new();
+    pitch_files(&root().join(SPECIFICATION), &mut sources)?;
+    let mut files = Vec::new();
+    for source in sources {
+        let text = std::fs::read_to_string(&source)
+            .map_err(|why| format!("{}: {why}", source.display()))?;
+        let topic = source.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+        for (number, text) in parts_of_cases(&text).into_iter().enumerate() {
+            let path = folder.join(format!("{topic}-{number}.pitch"));
+            write(&path, &text)?;
+            files.push(path);
+        }
+    }
+    Ok(files)
+}
+
+/// The `.pitch` texts of a file of cases, without those of cases that can't be read: their reports
+/// have codes of syntax.
+fn parts_of_cases(text: &str) -> Vec<String> {
+    let cases = format!("\n{text}");
+    let mut parts = Vec::new();
+    for case in cases.split("\n--- ").skip(1) {
+        let (_, body) = case.split_once('\n').unwrap_or_default();
+        let is_readable =
+            !body.lines().any(|line| line.starts_with("//") && line.contains(" SP01"));
+        if !is_readable {
+            continue;
+        }
+        let body = format!("\n{body}");
+        let mut files = body.split("\n+++ ");
+        parts.extend(files.next().map(str::to_owned));
+        let others = files.filter_map(|file| file.split_once('\n'));
+        let others = others.filter(|(name, _)| name.trim().rsplit('.').next() == Some("pitch"));
+        parts.extend(others.map(|(_, text)| text.to_owned()));
+    }
+    parts
 }
 
 /// The `.pitch` files of a folder and those in it.
@@ -124,4 +168,16 @@ fn pitch_files(folder: &Path, into: &mut Vec<PathBuf>) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parts_of_cases;
+
+    #[test]
+    fn cases_with_a_fault_of_syntax_are_left_out() {
+        let text = "// A topic.\n\n--- one check\na\n// ^ SP0201: b\n+++ b.pitch\nb\n+++ c.rhai\nc\n\
+                    --- two check\nd\n// ^ SP0101: e\n--- three probe\nf\n";
+        assert_eq!(parts_of_cases(text), ["\na\n// ^ SP0201: b", "b", "\nf\n"]);
+    }
 }

@@ -14,6 +14,7 @@ pub(super) const HABITS: &[Habit] = &[
     row(Name, "False¦FALSE¦no¦No", "write `false`, or `off`"),
     row(Name, "None¦null¦nil¦NULL¦undefined", "write `nobody` for no player, `none` for no team"),
     row(Name, "self¦this", "write `me`"),
+    row(Name, "s2", "m/s² is written as a number: `9.81`"),
     row(Name, "e_PlayerRole_*", "write `{1}`"),
     row(Name, "e_Left¦Team_Left", "write `left`"),
     row(Name, "e_Right¦Team_Right", "write `right`"),
@@ -343,6 +344,12 @@ pub(super) const HABITS: &[Habit] = &[
     row(Reward, "once | per", "`per second` stands before `once`"),
     row(Anywhere, "as | _", "write `as \"{1}\"`"),
     row(Anywhere, "has | *", "write `has ball`"),
+    row(Team, ".. | _", "how many there are is written in numbers: `3..5 CB in …`"),
+    row(
+        Team,
+        "_ | ROLE",
+        "write `{1}: {2} at …` for a name; a count is written in numbers, `2..4 {2} in …`",
+    ),
     row(Team, "^ | 9a ROLE", "a count is a number alone: `2 {2} in …`"),
     // Conditions.
     row(Behavior, "if … | then", "write `if … { … } else { … }`"),
@@ -409,6 +416,11 @@ pub(super) const HABITS: &[Habit] = &[
         Reward,
         "give … | for 9a",
         "a time belongs to a condition: `give 1 when held(…, for: {1})`",
+    ),
+    row(
+        Reward,
+        "give … | for assist",
+        "write `give 1 on assist`, or `give 1 to assist on goal` for the player who assisted",
     ),
     row(Reward, "give … | for EVENT", "write `give 1 on {1}`"),
     row(Reward, "give … | for _", "who receives it stands behind `to`: `give 1 to {1}`"),

@@ -116,14 +116,15 @@ fn from_layouts<'w>(
     if let Some(field) = flat.fields.iter().find(|field| field.key.node == "formation") {
         world.report(Problem::new(field.key.span, Players::LayoutsAndFormation { layouts: span }));
     }
+    let written = |key: &str| fields.iter().find(|field| field.key.node == key);
+    let mut lacking = ["kicking", "receiving"].into_iter().filter(|key| written(key).is_none());
+    if let (Team::Left, Some(layout)) = (team, lacking.next()) {
+        let both = lacking.next().is_some();
+        let layout = (!both).then_some(layout);
+        world.report(Problem::new(span, Players::NoLayout { layout }));
+    }
     let layout = |key: &'static str| {
-        let field = fields.iter().find(|field| field.key.node == key);
-        let Some(field) = field else {
-            if team == Team::Left {
-                world.report(Problem::new(span, Players::NoLayout { layout: key }));
-            }
-            return None;
-        };
+        let field = written(key)?;
         let FieldValue::Expr(expr) = &field.value else {
             world.report(not_a_formation(field.key.span));
             return None;

@@ -1,8 +1,10 @@
-"""The example that reads a replay's data with kloppy and draws it with mplsoccer."""
+"""The examples that read a replay's data with kloppy and draw it with mplsoccer."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -11,7 +13,8 @@ import setpiece
 pytest.importorskip("kloppy", reason="kloppy isn't installed")
 pytest.importorskip("mplsoccer", reason="mplsoccer isn't installed")
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "draw_tracking.py"
+EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLE = EXAMPLES / "draw_tracking.py"
 
 
 @pytest.mark.parametrize("form", ["cdf", "csv"])
@@ -34,3 +37,25 @@ def test_the_example_draws_a_replay(tmp_path: Path, form: str) -> None:
     # The players' ways on the left, the shot and its star on the right.
     assert red[:, :middle].sum() > 100
     assert red[:, middle:].sum() > 100
+
+
+def test_the_notebook_draws_a_recorded_episode(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mpl = pytest.importorskip("matplotlib")
+    mpl.use("Agg")
+    monkeypatch.chdir(tmp_path)
+    notebook = json.loads((EXAMPLES / "tracking.ipynb").read_text(encoding="utf-8"))
+    names: dict[str, Any] = {}
+    printed = {}
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            assert (cell["execution_count"], cell["outputs"]) == (None, [])
+            exec(compile("".join(cell["source"]), f"tracking.ipynb: {cell['id']}", "exec"), names)
+            printed[cell["id"]] = capsys.readouterr().out
+    assert printed["record"].split()[1] == "after"
+    assert int(printed["read"].split()[0]) > 20
+    assert int(printed["draw"].split()[0]) > 1
+    # The pitch, the ball's way, and an arrow for each pass and shot.
+    drawn = names["axes"].get_children()
+    assert sum(type(it).__name__ == "Quiver" for it in drawn) == len(names["kicks"])

@@ -5,7 +5,9 @@ use crate::parse::reader::Reader;
 use crate::problem::facts::{Kind, Names, Syntax};
 use crate::problem::{Guess, Problem, nearest};
 use setpiece_grammar::Rule;
-use setpiece_scenario::vocabulary::{EventKind, Owner, PROPERTIES, Property, Qualifier, Type};
+use setpiece_scenario::vocabulary::{
+    Action, EventKind, Owner, PROPERTIES, Property, Qualifier, Type,
+};
 
 /// Words before `of` that look at a whole episode.
 const OVER_TIME: &[&str] = &["count", "max", "min", "mean", "sum", "first", "last", "series"];
@@ -20,14 +22,15 @@ impl Reader<'_> {
                 let fact = Syntax::ChangeNoEvent { name: word.to_owned() };
                 return Some(Problem::new(self.at(wrong.at), fact));
             }
-            return Some(no_event(word, self.at(wrong.at)));
+            let behind = wrong.tokens.get(at + 1..).unwrap_or_default();
+            return Some(no_event(word, behind, self.at(wrong.at)));
         }
         let may_be = |name: &str| is_name(name) && !wrong.context.keywords().contains(&name);
         let (from, name) = wrong.tokens.get(at.checked_sub(1)?).filter(|(_, name)| may_be(name))?;
         let span = self.between(*from, from + name.len());
         if matches!(word, "by" | "to" | "from") || Qualifier::from_name(word).is_some() {
             nearest(name, names()).filter(|meant| meant != name)?;
-            return Some(no_event(name, span));
+            return Some(no_event(name, &[], span));
         }
         let meant = nearest(name, OVER_TIME.iter().copied())
             .filter(|meant| meant != name && word == "of")?;
@@ -44,7 +47,10 @@ fn names() -> impl Iterator<Item = &'static str> {
     EventKind::ALL.iter().map(|kind| kind.name())
 }
 
-fn no_event(name: &str, span: crate::source::Span) -> Problem {
+/// What is said of a word where an event is wanted.
+///
+/// - `behind`: the tokens that follow it.
+fn no_event(name: &str, behind: &[(usize, &str)], span: crate::source::Span) -> Problem {
     let state = |name: &str| {
         PROPERTIES.iter().any(|p| p.owner == Owner::Match && p.ty == Type::Bool && p.name == name)
     };
@@ -54,8 +60,12 @@ fn no_event(name: &str, span: crate::source::Span) -> Problem {
     let lasts = |p: &&Property| matches!(p.ty, Type::Bool | Type::Action);
     let mut of_player = PROPERTIES.iter().filter(|p| p.owner == Owner::Player).filter(lasts);
     if let Some(property) = of_player.find(|p| p.name == name) {
-        let is_action = property.ty == Type::Action;
-        return Problem::new(span, Syntax::PropertyNoEvent { name: name.to_owned(), is_action });
+        let word = |at: usize| behind.get(at).map(|(_, word)| *word);
+        let action = word(0).and_then(Action::from_name);
+        let doer = (0..behind.len()).find(|at| word(*at) == Some("by")).and_then(|at| word(at + 1));
+        let doer = doer.filter(|word| is_name(word)).unwrap_or("me").to_owned();
+        let action = (property.ty == Type::Action).then(|| action.unwrap_or(Action::Shot));
+        return Problem::new(span, Syntax::PropertyNoEvent { name: name.to_owned(), doer, action });
     }
     let guess = Guess::or_all(name, &names().collect::<Vec<_>>());
     Problem::new(span, Names::Unknown { kind: Kind::Event, name: name.to_owned(), guess })

@@ -61,10 +61,12 @@ facts! {
         /// A team with the layouts of `kickoff` has a `formation`.
         LayoutsAndFormation { layouts: Span } = Code::DuplicateOption =>
             say("the layouts of `kickoff` are the formation", "").at(layouts, "given here").help("leave it out"),
-        /// `kickoff` without one of its layouts.
-        NoLayout { layout: &'static str } = Code::WrongArguments =>
-            say(format!("`kickoff` lacks the `{layout}` layout"), "")
-                .help("write `kickoff left { kicking: grf_kicking, receiving: grf_receiving }`"),
+        /// `kickoff` without one of its layouts, or without both.
+        NoLayout { layout: Option<&'static str> } = Code::WrongArguments => {
+            let what = layout.map_or("its two layouts".to_owned(), |it| format!("the `{it}` layout"));
+            say(format!("`kickoff` lacks {what}"), "")
+                .help("write `kickoff left { kicking: grf_kicking, receiving: grf_receiving }`")
+        },
         /// The second layout gives a player options.
         SecondLayoutSaysMore { player: Span } = Code::WrongRoster =>
             say(

@@ -4,6 +4,7 @@ use super::facts;
 use crate::problem::said::{Said, say};
 use crate::problem::{Code, Guess};
 use crate::source::Span;
+use setpiece_scenario::vocabulary::Action;
 
 facts! {
     /// Facts about syntax.
@@ -62,13 +63,16 @@ facts! {
                 "round" => "write `when round_elapsed == 1 step`: the first step of every round".to_owned(),
                 _ => format!("write `when {name} changes`"),
             }),
-        /// Behind `on`, a property of a player.
-        PropertyNoEvent { name: String, is_action: bool } = Code::UnknownEvent =>
+        /// Behind `on`, a property of a player; `action`: which one, if it is an action.
+        PropertyNoEvent {
+            name: String,
+            doer: String,
+            action: Option<Action>,
+        } = Code::UnknownEvent =>
             say(format!("`{name}` is a property of a player, no event"), "read at every step").help(
-                if *is_action {
-                    format!("write `when me.{name} == shot`")
-                } else {
-                    format!("write `when me.{name}`")
+                match action {
+                    Some(action) => format!("write `when {doer}.{name} == {action}`"),
+                    None => format!("write `when {doer}.{name}`"),
                 },
             ),
         /// Digits with `_` between them.

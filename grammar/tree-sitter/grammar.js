@@ -54,7 +54,8 @@ module.exports = grammar({
       token(prec(1, new RegExp(`${NUMBER}[ \\t]*(${escaped(LONG_UNITS)})`))),
     ),
     type: ($) => token(prec(-2, /[A-Za-z_][A-Za-z0-9_]*\?/)),
-    _type: ($) => choice($.identifier, $.type, "behavior", "formation", "region"),
+    _type: ($) =>
+      seq(choice($.identifier, $.type, "behavior", "formation", "region"), optional(token.immediate("?"))),
     _key: ($) => choice($.identifier, "left", "right", "ball", "formation", "state", "start"),
     _named: ($) => choice($.identifier, $.free_name),
 

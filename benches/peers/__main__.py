@@ -255,6 +255,7 @@ def page(rounds: int, seconds: float) -> str:
         "",
         "Written by `python benches/peers`, which says how it measures: one thread unless said.",
         f"{machine}; setpiece {version('setpiece')} {revision()}.",
+        "All figures are of that version. No later one has been measured with these peers.",
         "",
     ]
     figures_of: Figures = {}

@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from calls import faults
 from console import Page, blocks, matches
 from programs import ROOT
 
@@ -206,3 +207,26 @@ def test_a_wrong_figure_is_reported(tmp_path: Path) -> None:
         else:
             with pytest.raises(AssertionError, match=f"mean score   {re.escape(figure[1])}"):
                 page.try_it()
+
+
+@pytest.mark.parametrize("name", pages())
+def test_programs_ask_for_what_there_is(name: str) -> None:
+    programs = [block.text for block in blocks(text_of(name)) if block.language == "python"]
+    found = [fault for program in programs for fault in faults(program)]
+    assert not found
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        ("import setpiece.nothing", "no module `setpiece.nothing`"),
+        ("from setpiece.torchrl import nothing", "`setpiece.torchrl` has no `nothing`"),
+        ("setpiece.nothing()", "no `setpiece.nothing`"),
+        ("setpiece.torchrl.nothing()", "no `setpiece.torchrl.nothing`"),
+        ('setpiece.torchrl.make("a", 8, nothing=1)', "`setpiece.torchrl.make` takes no `nothing`"),
+        ('setpiece.make("a", nothing=1)', "`setpiece.make` takes no `nothing`"),
+        ("from setpiece import make\nmake(nothing=1)", "`make` takes no `nothing`"),
+    ],
+)
+def test_a_wrong_program_is_reported(program: str, said: str) -> None:
+    assert [*faults(program)] == [said]

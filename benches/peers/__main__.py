@@ -59,9 +59,9 @@ def contest_section(
     }
     for _ in range(rounds):
         for case, by_player in figures.items():
-            for player, figures in by_player.items():
-                figures.append(measured(name, player, case, seconds))
-                print(f"{case}, {player}: {figures[-1]:,.0f}", file=sys.stderr)
+            for player, rates in by_player.items():
+                rates.append(measured(name, player, case, seconds))
+                print(f"{case}, {player}: {rates[-1]:,.0f}", file=sys.stderr)
     peer = next(iter(contest.players))
     versions = ", ".join(f"{package} {version(package)}" for package in contest.packages)
     lines = [
@@ -73,15 +73,15 @@ def contest_section(
     ]
     lines += [f"| | player | {contest.unit} | against {peer} |", "| --- | --- | ---: | ---: |"]
     for case, by_player in figures.items():
-        for player, figures in by_player.items():
-            ratios = [mine / theirs for mine, theirs in zip(figures, by_player[peer], strict=True)]
+        for player, rates in by_player.items():
+            ratios = [mine / theirs for mine, theirs in zip(rates, by_player[peer], strict=True)]
             case_word = f"`{case}`" if "_" in case else case
             ratio = statistics.median(ratios)
             ratio_word = f"{ratio:,.0f}" if ratio >= 10 else f"{ratio:.2g}"
             lines.append(
-                f"| {case_word} | {player} | {statistics.median(figures):,.0f} | {ratio_word} |"
+                f"| {case_word} | {player} | {statistics.median(rates):,.0f} | {ratio_word} |"
             )
-            figures_of[f"{case}, {player}"] = statistics.median(figures)
+            figures_of[f"{case}, {player}"] = statistics.median(rates)
             figures_of[f"{case}, {player}, ratio"] = ratio
     return [*lines, ""]
 

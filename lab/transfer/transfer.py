@@ -20,10 +20,10 @@ How much of its score an agent keeps when it moves from Setpiece to the real gam
 `cargo xtask transfer` trains and plays the agents of this page and writes it. The results are stored in
 `lab/transfer/recorded/`. "here" is Setpiece, "there" the real game.
 
-```
-cargo xtask transfer                                        # all of it: hours
-cargo xtask transfer --scenario academy_corner --steps 2000000
-cargo xtask transfer --recorded                             # stored policies, without the real game
+```console
+$ cargo xtask transfer                                        # all of it: hours
+$ cargo xtask transfer --scenario academy_corner --steps 2000000
+$ cargo xtask transfer --recorded                             # stored policies, without the real game
 ```
 
 `--recorded` plays the stored policies here again, beside the scores that the same weights had in the real game. It

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from console import ROOT
+from programs import ROOT
 
 
 def module(name: str) -> Any:

@@ -52,8 +52,8 @@ def test_the_commands_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     env.save_replay("corner.pitchr")
     (commands,) = re.findall(r"```console\n(.*?)```", PAGE, re.DOTALL)
     for command in commands.splitlines():
-        _, word, *arguments = shlex.split(command)
-        assert word == "replay"
+        sign, program, word, *arguments = shlex.split(command)
+        assert (sign, program, word) == ("$", "setpiece", "replay")
         assert main(arguments) == 0
     assert (tmp_path / "corner" / "event.jsonl").is_file()
     assert (tmp_path / "tables" / "events.csv").is_file()

@@ -345,11 +345,6 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "as | _", "write `as \"{1}\"`"),
     row(Anywhere, "has | *", "write `has ball`"),
     row(Team, ".. | _", "how many there are is written in numbers: `3..5 CB in …`"),
-    row(
-        Team,
-        "_ | ROLE",
-        "write `{1}: {2} at …` for a name; a count is written in numbers, `2..4 {2} in …`",
-    ),
     row(Team, "^ | 9a ROLE", "a count is a number alone: `2 {2} in …`"),
     // Conditions.
     row(Behavior, "if … | then", "write `if … { … } else { … }`"),

@@ -256,7 +256,19 @@ def _named(name: str, source: Source, allow_outside: bool) -> Curriculum:
     text = None if isinstance(source, Scenario) else text_of(source)
     path = path_of(source) if text is None and is_plan(source) else None
     where = path if text is None else text
-    return Curriculum(_native.Levels.curriculum(where, text is not None, name, None, allow_outside))
+    try:
+        return Curriculum(
+            _native.Levels.curriculum(where, text is not None, name, None, allow_outside)
+        )
+    except ParameterError as error:
+        if not isinstance(source, Scenario):
+            raise
+        raise ParameterError(
+            str(error),
+            name="levels",
+            code=error.code,
+            help="a loaded scenario has no curricula: give the file or the text instead of it",
+        ) from None
 
 
 def _listed(given: Sequence[object], load: Callable[[str], Scenario]) -> LevelSource:

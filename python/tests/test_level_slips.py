@@ -133,3 +133,9 @@ def test_without_syllabus_the_error_names_it(monkeypatch: pytest.MonkeyPatch) ->
     with pytest.raises(setpiece.MissingPackageError, match="syllabus") as caught:
         setpiece.syllabus.task_space("academy_corner")
     assert caught.value.help == "pip install 'setpiece[syllabus]'"
+
+
+def test_a_loaded_scenario_brings_no_curriculum() -> None:
+    with pytest.raises(setpiece.ParameterError, match="no curriculum is called `paid`") as caught:
+        setpiece.make_vec(setpiece.load(TEXT), 2, levels="paid")
+    assert "give the file or the text" in str(caught.value.help)

@@ -265,9 +265,14 @@ fn fixes_mend_what_they_are_about() {
         ("end when distance(ball, centre < 3m // near", "distance(ball, centre) < 3m // near"),
         ("end when (ball in right.box", "end when (ball in right.box)\n"),
         ("reward r {\n        give 1 on goal by us", "        give 1 on goal by us\n    }\n"),
-        ("reward r { give 1 on goal by us", "reward r { give 1 on goal by us}\n"),
+        ("reward r { give 1 on goal by us", "reward r { give 1 on goal by us }\n"),
         ("reward r { give 1 on goal as \"goal }", "as \"goal\" }"),
         ("reward r { give 1 on goal as \"\" }", ""),
+        (
+            "reward r { give 0.1 * max(0, min(1, closing(ball, them.goal) / 1m as \"near\" }",
+            "1m)) as \"near\" }",
+        ),
+        ("let x = max(1,\n        2\n    require x > 0", "        2)\n    require"),
         ("record near = count of ball in right.box", ""),
     ] {
         let text = format!(

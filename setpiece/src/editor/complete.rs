@@ -13,7 +13,7 @@ use crate::dsl::ast::{Item, ItemKind};
 use crate::dsl::parse::parse;
 use crate::dsl::source::{FileId, SourceLoader};
 use crate::files::FileLoader;
-use crate::scenario::vocabulary::{EventField, Landmark, Owner, PROPERTIES, Role};
+use crate::scenario::vocabulary::{AGENTS, EventField, Landmark, Owner, PROPERTIES, Role};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -65,9 +65,12 @@ fn members(base: &str) -> Vec<Completion> {
     };
     match base {
         "ball" => owned(Owner::Ball).collect(),
-        "event" => EventField::ALL
+        "event" => EventField::NAMED
             .iter()
-            .map(|field| word(field.name(), field.doc(), "of the event"))
+            .map(|(name, ty)| {
+                let doc = EventField::from_name(name).map_or("where it was", EventField::doc);
+                word(name, doc, ty.name())
+            })
             .collect(),
         "left" | "right" | "us" | "them" | "own" => {
             owned(Owner::Team).chain(words_of(&[WordKind::Place])).collect()
@@ -120,7 +123,7 @@ impl Analysis {
     /// What a statement of this block begins with.
     fn statements(&self, block: &str) -> Vec<Completion> {
         match KeywordBlock::of(block) {
-            KeywordBlock::Team => keys("team")
+            KeywordBlock::Team => keys(block)
                 .into_iter()
                 .chain(keywords(KeywordBlock::Team))
                 .chain(words_of(&[WordKind::Role]))
@@ -136,7 +139,7 @@ impl Analysis {
         let is_meant = |kind: &ItemKind| match what {
             "reward" => matches!(kind, ItemKind::Reward(_)),
             "formation" => matches!(kind, ItemKind::Formation(_)),
-            "with" => matches!(kind, ItemKind::Behavior(_)),
+            "with" | "behavior" => matches!(kind, ItemKind::Behavior(_)),
             _ => matches!(kind, ItemKind::Scenario(_)),
         };
         let mut found: Vec<Completion> = self
@@ -144,6 +147,9 @@ impl Analysis {
             .filter(|item| is_meant(&item.kind))
             .filter_map(|item| named(&item))
             .collect();
+        if what == "with" {
+            found.extend(AGENTS.map(|name| word(name, "", "a ready-made agent")));
+        }
         if matches!(what, "extends" | "play") {
             let known = FileLoader::anywhere().scenarios().into_iter();
             let seen: BTreeSet<String> = found.iter().map(|it| it.text.clone()).collect();

@@ -55,7 +55,11 @@ pub(super) fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
     let begins = trimmed.is_empty()
         || trimmed.ends_with(['{', '}'])
         || line.trim().is_empty()
-        || (trimmed.ends_with(',') && is_of_options(block));
+        || (trimmed.ends_with(',') && is_of_options(block) && !is_in_list(before));
+    let head = line.trim_start();
+    if last == "extends" && head.starts_with("formation") {
+        return CursorPlace::After("formation");
+    }
     if matches!(last, "extends" | "reward" | "play" | "with" | "import") && !begins {
         return CursorPlace::After(last);
     }
@@ -88,7 +92,22 @@ fn is_of_options(block: &str) -> bool {
             | "stats"
             | "player"
             | "substitute"
+            | "kickoff"
     )
+}
+
+/// Whether a text ends inside of round or square brackets that its last block opened.
+fn is_in_list(before: &str) -> bool {
+    let mut depth = 0_i32;
+    for (_, sign) in code(before) {
+        match sign {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            '{' | '}' => depth = 0,
+            _ => {}
+        }
+    }
+    depth > 0
 }
 
 /// A block that is open at the end of a text.

@@ -122,10 +122,12 @@ impl Workspace {
         let is_new = |it: &TextReport| {
             !was.own_reports(path).any(|other| it.code == other.code && it.message == other.message)
         };
-        let spoils = is.own_reports(path).any(|it| {
-            it.severity == Severity::Error
-                && is_new(it)
-                && (is_unread(it) || line.as_ref().is_some_and(|line| it.touches(line)))
+        // A file whose name can be read may not be there.
+        let may_differ = report.code == Code::UnclosedString;
+        let is_here = |it: &TextReport| line.as_ref().is_some_and(|line| it.touches(line));
+        let spoils = is.own_reports(path).filter(|it| it.severity == Severity::Error).any(|it| {
+            (is_unread(it) && (is_new(it) || is_here(it)))
+                || (!may_differ && is_new(it) && is_here(it))
         });
         (unread(&is) < unread(&was) && !spoils).then(|| errors(&is))
     }
@@ -187,10 +189,11 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
     if matches!(report.code, Code::UnclosedBracket | Code::UnclosedString) {
         let places = closings(&analysis.text, range.start);
         let closed = places.into_iter().map(|(at, sign)| Try {
-            title: format!("close it with `{}`", sign.trim()),
+            title: format!("close it with `{}`", one_line(&sign)),
             edits: vec![Edit::replace(path, at..at, sign)],
         });
         tries.extend(closed);
+        return tries;
     }
     for text in quoted(help) {
         let unit = text.trim_start_matches(|sign: char| sign.is_ascii_digit() || sign == '.');

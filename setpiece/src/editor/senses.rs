@@ -95,9 +95,18 @@ const SENSES: &[Sense] = senses! {
     "expression" {
         binder "for" "for each member of a set";
         binder "in" "the set whose members are taken one after the other";
-        expr "in" "whether a place lies in a region";
-        condition "in" "whether a place lies in a region";
-        set "in" "whether a place lies in a region";
+        expr "in" "whether a place lies in a region, or a value in a list or set";
+        expr "to" "the value that it changes to";
+        condition "in" "whether a place lies in a region, or a value in a list or set";
+        condition "to" "the value that it changes to";
+        set "in" "whether a place lies in a region, or a value in a list or set";
+        arg "to" "what it is measured to";
+        arg "for" "for how long";
+        arg "within" "how near, or at which angle";
+        arg "at" "at which place";
+        operand "at" "where the event was";
+        operand "to" "who received the ball or was hurt";
+        operand "by" "who did it";
     }
     "table" {
         table "over" "the part of the pitch that it covers";
@@ -108,6 +117,8 @@ const SENSES: &[Sense] = senses! {
     }
     "level" {
         episodes "for" "how many episodes";
+        episodes "episodes" "how many episodes are played";
+        sweep "each" "one row for each of these values";
         sweep "in" "the values that are taken one after the other";
         play "with" "who plays";
         over_params "over" "with parameters drawn from their ranges";

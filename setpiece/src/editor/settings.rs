@@ -19,6 +19,8 @@ enum Settings {
     WordsOrOwn(&'static [SettingWord]),
     /// These words, an act or a behaviour.
     WordsOrActs(&'static [SettingWord]),
+    /// The name of a formation.
+    Formation,
     /// These words, or a list of players.
     WordsOrPlayers(&'static [SettingWord]),
 }
@@ -51,6 +53,7 @@ fn settings(block: &str, key: &str) -> Option<Settings> {
         ("player", "overlap") => {
             Settings::Words(&[("allowed", "another player may stand on the same spot")])
         }
+        ("kickoff", "kicking" | "receiving") => Settings::Formation,
         ("ball", "owner") => Settings::WordsOrPlayers(&[]),
         ("rules", key) => match Rule::from_name(key)? {
             Rule::Physics => Settings::Words(&[
@@ -74,11 +77,13 @@ impl Analysis {
             Settings::Words(words) => (words, Vec::new()),
             Settings::WordsOrOwn(words) => {
                 let values = self.own_names().into_iter().filter(|it| it.detail != "a player");
-                (words, values.chain(self.value_items()).collect())
+                (words, values.collect())
             }
+            Settings::Formation => (&[][..], self.after("formation")),
             Settings::WordsOrActs(words) => {
-                let acts = words_of(&[WordKind::Act]).chain(self.after("with"));
-                (words, acts.collect())
+                // `wait` says for how long, in a behaviour.
+                let acts = words_of(&[WordKind::Act]).filter(|it| it.text != "wait");
+                (words, acts.chain(self.after("behavior")).collect())
             }
             Settings::WordsOrPlayers(words) => (words, self.players()),
         };

@@ -5,7 +5,7 @@ use super::completion::{Completion, CompletionKind, joining, word, words_of};
 use super::cursor::{UnfinishedStatement, unfinished};
 use super::words::WordKind;
 use crate::dsl::parse::{NextPart, next_parts};
-use crate::scenario::vocabulary::{Owner, PROPERTIES, Type, Unit};
+use crate::scenario::vocabulary::{Owner, PROPERTIES, StartKind, Type, Unit};
 use std::collections::BTreeSet;
 
 /// Words that begin a place, with what follows them.
@@ -58,7 +58,7 @@ impl Analysis {
                 NextPart::Qualifier => words_of(&[WordKind::Qualifier]).collect(),
                 NextPart::Role => words_of(&[WordKind::Role]).collect(),
                 NextPart::Type => words_of(&[WordKind::Type]).collect(),
-                NextPart::Act => words_of(&[WordKind::Act]).chain(self.after("with")).collect(),
+                NextPart::Act => words_of(&[WordKind::Act]).chain(self.after("behavior")).collect(),
                 NextPart::Unit if text.contains("limit ") => units_of_time(),
                 NextPart::Unit => words_of(&[WordKind::Unit]).collect(),
                 NextPart::Name => self.named_after(text),
@@ -88,7 +88,9 @@ impl Analysis {
     fn named_after(&self, text: &str) -> Vec<Completion> {
         let mut words = text.split_whitespace().rev();
         match (words.next().unwrap_or_default(), words.next().unwrap_or_default()) {
-            ("start", _) => words_of(&[WordKind::Mode]).collect(),
+            ("start", _) => {
+                StartKind::ALL.iter().map(|it| word(it.name(), it.doc(), "mode")).collect()
+            }
             ("place", _) => self.actors(),
             (what, "remove") => self.removable(what),
             _ => Vec::new(),

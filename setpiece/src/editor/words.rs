@@ -54,6 +54,15 @@ const OVER_TIME: [(&str, &str); 8] = [
     ("series", "the value of every step"),
 ];
 
+/// What `wind` of `world { … }` means.
+const WIND: &str = "the wind's speed from 2 m above the ground on, a vector: `(4m/s, 0m/s)`";
+
+/// The layouts of `kickoff { … }`.
+const LAYOUTS: [(&str, &str); 2] = [
+    ("kicking", "the formation of the team that kicks off"),
+    ("receiving", "the formation of the other team"),
+];
+
 /// A word of the language.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Word {
@@ -91,6 +100,20 @@ pub(super) fn all() -> impl Iterator<Item = Word> {
         kind: WordKind::OverTime,
         page: "record.md",
     });
+    // The wind is written as one vector.
+    let figures = WorldFigure::ALL.iter().filter(|it| **it != WorldFigure::WindY);
+    let world = figures.map(|figure| Word {
+        name: if *figure == WorldFigure::WindX { "wind" } else { figure.name() },
+        doc: if *figure == WorldFigure::WindX { WIND } else { figure.doc() },
+        kind: WordKind::Option("world"),
+        page: "world.md",
+    });
+    let kickoff = LAYOUTS.iter().map(|&(name, doc)| Word {
+        name,
+        doc,
+        kind: WordKind::Option("kickoff"),
+        page: "start.md",
+    });
     table!(Role, Role, "team.md")
         .chain(table!(EventKind, Event, "event.md"))
         .chain(table!(Qualifier, Qualifier, "event.md"))
@@ -101,7 +124,8 @@ pub(super) fn all() -> impl Iterator<Item = Word> {
         .chain(table!(RegionName, Place, "region.md"))
         .chain(table!(PitchRegion, Place, "region.md"))
         .chain(table!(Rule, Option("rules"), "start.md"))
-        .chain(table!(WorldFigure, Option("world"), "world.md"))
+        .chain(world)
+        .chain(kickoff)
         .chain(table!(PitchFigure, Option("pitch"), "pitch.md"))
         .chain(table!(AgentsOption, Option("agents"), "scenario.md"))
         .chain(table!(TeamOption, Option("team"), "team.md"))

@@ -82,7 +82,7 @@ def reached(found: dict[str, Any], score: float = GOOD) -> float | None:
     return next((point["steps"] for point in points), None)
 
 
-def row(name: str, found: list[dict[str, Any]]) -> list[str]:
+def row(found: list[dict[str, Any]]) -> list[str]:
     """Returns the cells of an entry."""
     settings = found[0]["settings"]
     good = [reached(one) for one in found]
@@ -122,7 +122,7 @@ def tables(runs: list[Run]) -> dict[str, str]:
     found, lines = results(runs), {run.table: [HEAD, ("---",) * len(HEAD)] for run in runs}
     for name, table in {run.name: run.table for run in runs}.items():
         if found[name]:
-            lines[table].append(tuple(row(name, found[name])))
+            lines[table].append(tuple(row(found[name])))
     return {
         name: "".join(f"| {' | '.join(cells)} |\n" for cells in rows)
         for name, rows in lines.items()

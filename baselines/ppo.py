@@ -249,7 +249,8 @@ class Matches:
     def decide(self, actions: np.ndarray) -> Heard:
         """Plays actions `(envs * agents,)` for `repeat` steps.
 
-        The episode that follows one that ends meanwhile begins with idle players.
+        Where an episode ends before the last of them, the next one begins after the last: it would
+        otherwise begin with some idle steps, which make a scenario harder.
         """
         number = self.settings.envs
         pressed = actions.reshape(number, -1).astype(np.uint8)
@@ -260,7 +261,12 @@ class Matches:
             heard.rewards += np.where(heard.ended[:, None], 0, rewards.reshape(number, -1))
             for at in np.flatnonzero(cut & ~heard.ended):
                 heard.cut[int(at)] = self.infos["final_obs"][at]
+            late = heard.ended.copy()
             heard.ended |= over
+        if late.any():
+            self.observation, self.infos = self.envs.reset(options={"reset_mask": late})
+            self.index += late
+            self.began[late] = len(self.acts)
         return heard
 
     def step(self, played: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -69,6 +69,13 @@ class Settings:
     gradient: float = setting(0.5, "greatest norm of a gradient")
     rate: float = setting(7e-4, "learning rate; it falls to 0")
 
+    def __post_init__(self) -> None:
+        """Raises `ValueError` for a count that isn't one."""
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if one.name != "seed" and type(one.default) is int and value < 1:
+                raise ValueError(f"--{one.name} is {value}; expected at least 1")
+
 
 class Running(nn.Module):
     """Mean and variance of all numbers that it has taken so far."""
@@ -573,7 +580,7 @@ def result(training: Training, episodes: int) -> dict[str, Any]:
         "episodes": episodes,
         "drawn": estimate(training.evaluate(episodes, drawn=True)),
         "likeliest": estimate(training.evaluate(episodes, drawn=False)),
-        "seconds": {name: round(spent[name], 1) for name in sorted(spent)},
+        "seconds": {name: round(spent[name], 3) for name in sorted(spent)},
         "steps_per_cpu_second": round(steps / training.clock.cpu),
         "threads": training.threads,
         "device": training.device.type,
@@ -647,8 +654,8 @@ def main(argv: list[str] | None = None) -> dict[str, Any]:
     parser.add_argument("--episodes", type=int, default=500, help="of an evaluation")
     parser.add_argument("--out", type=Path, default=Path("runs/ppo"), help="a folder")
     args = parser.parse_args(argv)
-    settings = Settings(**{one.name: getattr(args, one.name) for one in fields(Settings)})
     try:
+        settings = Settings(**{one.name: getattr(args, one.name) for one in fields(Settings)})
         found = train(
             settings, args.out, threads=args.threads, device=args.device, episodes=args.episodes
         )

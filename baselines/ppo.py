@@ -3,8 +3,8 @@
     python baselines/ppo.py --scenario academy_3_vs_1_with_keeper --out runs/three
 
 The policy plays one player, or with `--players 3` three of them with shared weights. It sees
-`simple115v2+sticky` through two layers; with `--observation smm --stack 4` it sees stacked mini
-maps through convolutions. It decides in every fourth step (`--repeat`) and the key stays pressed
+`simple115v2` through two layers; with `--observation smm --stack 4` it sees stacked mini maps
+through convolutions. It decides in every fourth step (`--repeat`) and the key stays pressed
 until then. Steps are those of the environments everywhere.
 
 `--out` gets `policy.pt`, `policy.onnx`, `result.json` (score, curve and where the time went), the
@@ -53,19 +53,19 @@ class Settings:
     seed: int = setting(0, "of the policy and of the first environment")
     steps: int = setting(2_000_000, "of all environments together")
     players: int = setting(1, "of the left team that the policy plays")
-    observation: str = setting("simple115v2+sticky", "numbers or pictures that the policy sees")
+    observation: str = setting("simple115v2", "numbers or pictures that the policy sees")
     stack: int = setting(1, "observations that are seen at once")
-    masks: bool = setting(True, "draw only actions that can change something")
+    masks: bool = setting(False, "draw only actions that can change something")
     repeat: int = setting(4, "steps that a decision lasts")
     envs: int = setting(128, "environments")
     decisions: int = setting(32, "of an environment between two updates")
     width: int = setting(128, "units of a layer")
-    epochs: int = setting(3, "passes over the decisions in an update")
-    minibatch: int = setting(2_048, "decisions in a gradient step")
+    epochs: int = setting(4, "passes over the decisions in an update")
+    minibatch: int = setting(1_024, "decisions in a gradient step")
     gamma: float = setting(0.99, "what a reward after the next decision is worth")
     smoothing: float = setting(0.95, "lambda of generalised advantage estimation")
     clip: float = setting(0.2, "how far an update may change the odds of an action")
-    entropy: float = setting(0.01, "weight of the entropy; it falls to 0")
+    entropy: float = setting(0.03, "weight of the entropy; it falls to 0")
     gradient: float = setting(0.5, "greatest norm of a gradient")
     rate: float = setting(7e-4, "learning rate; it falls to 0")
 
@@ -155,7 +155,7 @@ class Policy(nn.Module):
         super().__init__()
         pictures = len(shape) == 3
         inputs = width if pictures else shape[0]
-        self.sight = Eye(shape, width) if pictures else Running(inputs, least=0.01)
+        self.sight = Eye(shape, width) if pictures else Running(inputs, least=0.0003)
         self.actor = nn.Sequential(*body(inputs, width), layer(width, actions, 0.01))
         self.critic = nn.Sequential(*body(inputs, width), layer(width, 1, 1.0))
         self.returns = Running(1, least=0.01)
@@ -411,7 +411,9 @@ class Training:
                 self.seen[at] = torch.from_numpy(self.matches.rows)
                 if self.settings.masks:
                     self.masks[at] = torch.from_numpy(self.matches.masks)
-                odds = log_odds(self.policy(self.seen[at]), self.masks[at])
+                odds = log_odds(
+                    self.policy(self.seen[at]), self.masks[at] if self.settings.masks else None
+                )
                 self.did[at] = torch.multinomial(odds.exp(), 1, generator=self.random)[:, 0]
                 self.odds[at] = odds.gather(1, self.did[at, :, None])[:, 0]
                 chosen = self.did[at].cpu().numpy()
@@ -445,13 +447,14 @@ class Training:
             gained = gained.flatten()
             gained = (gained - gained.mean()) / (gained.std() + 1e-8)
             prepared = policy.learned(observations)
-        masks, did, odds = self.masks.flatten(0, 1), self.did.flatten(), self.odds.flatten()
+        masks = self.masks.flatten(0, 1) if settings.masks else None
+        did, odds = self.did.flatten(), self.odds.flatten()
         spread, misses, parts = 0.0, 0.0, 0
         for _ in range(settings.epochs):
             order = torch.randperm(len(did), generator=self.random, device=self.device)
             for rows in order.split(settings.minibatch):
                 logits, foreseen = policy.judge(prepared[rows])
-                now = log_odds(logits, masks[rows])
+                now = log_odds(logits, None if masks is None else masks[rows])
                 change = (now.gather(1, did[rows, None])[:, 0] - odds[rows]).exp()
                 gain, least, most = gained[rows], 1 - settings.clip, 1 + settings.clip
                 entropy = -(now.exp() * now).sum(-1).mean()

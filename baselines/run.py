@@ -5,7 +5,7 @@
     python baselines/run.py --table      the tables of docs/training.md
 
 Every run leaves `results/NAME-SEED.json`. One that was interrupted continues from its checkpoint in
-`runs/baselines/NAME-SEED`.
+`target/baselines/NAME-SEED`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from runs import ENTRIES
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"
-CHECKPOINTS = HERE.parent / "runs" / "baselines"
+CHECKPOINTS = HERE.parent / "target" / "baselines"
 GOOD = 0.8
 """The training score whose first step the table shows."""
 
@@ -118,15 +118,41 @@ HEAD = (
 
 
 def tables(runs: list[Run]) -> dict[str, str]:
-    """Returns the tables in Markdown, by name: a row for each entry that has a result."""
+    """Returns the tables in Markdown, by name.
+
+    They have a row for each entry that has a result. `tried` has one for each run of `tried`.
+    """
     found, lines = results(runs), {run.table: [HEAD, ("---",) * len(HEAD)] for run in runs}
     for name, table in {run.name: run.table for run in runs}.items():
         if found[name]:
             lines[table].append(tuple(row(found[name])))
-    return {
-        name: "".join(f"| {' | '.join(cells)} |\n" for cells in rows)
-        for name, rows in lines.items()
-    }
+    return {**{name: markdown(rows) for name, rows in lines.items()}, "tried": tried()}
+
+
+def tried() -> str:
+    """Returns the table of the runs that settings were chosen by, in their order."""
+    head = ("scenario", "seed", "steps", "what was different", "drawn actions", "likeliest actions")
+    rows = [head, ("---",) * len(head)]
+    for path in sorted((RESULTS / "tried").glob("*.json")):
+        found = json.loads(path.read_text(encoding="utf-8"))
+        settings = found["settings"]
+        changed = [f"`{name}` {str(value).lower()}" for name, value in found["changed"].items()]
+        rows.append(
+            (
+                f"`{settings['scenario'].removeprefix('academy_')}`",
+                str(settings["seed"]),
+                f"{found['steps'] / 1e6:.1f} M",
+                "; ".join([*changed, *found["program"]]) or "nothing",
+                f"{found['drawn']['mean']:.2f}",
+                f"{found['likeliest']['mean']:.2f}",
+            )
+        )
+    return markdown(rows)
+
+
+def markdown(rows: Iterable[Iterable[str]]) -> str:
+    """Returns a table in Markdown."""
+    return "".join(f"| {' | '.join(cells)} |\n" for cells in rows)
 
 
 def play(run: Run, threads: int) -> None:

@@ -28,12 +28,12 @@ def academy(name: str, steps: int, **settings: Any) -> Entry:
 
 
 ENTRIES = (
-    academy("3_vs_1_with_keeper", 10_000_000),
-    academy("run_to_score_with_keeper", 5_000_000),
-    academy("empty_goal_close", 1_000_000),
+    academy("3_vs_1_with_keeper", 5_000_000),
+    academy("run_to_score_with_keeper", 2_500_000),
+    academy("empty_goal_close", 500_000),
     academy("empty_goal", 1_000_000),
     academy("run_to_score", 1_000_000),
-    academy("pass_and_shoot_with_keeper", 5_000_000),
-    academy("run_pass_and_shoot_with_keeper", 5_000_000),
-    academy("counterattack_easy", 10_000_000),
+    academy("pass_and_shoot_with_keeper", 3_000_000),
+    academy("run_pass_and_shoot_with_keeper", 3_000_000),
+    academy("counterattack_easy", 5_000_000),
 )

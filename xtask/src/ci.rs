@@ -95,7 +95,7 @@ pub(crate) fn python() -> Result<PathBuf, String> {
     };
     run_in("", &["ruff", "check"])?;
     run_in("", &["ruff", "format", "--check"])?;
-    for folder in ["../benches", "../site"] {
+    for folder in ["../baselines", "../benches", "../site"] {
         run_in(folder, &["ruff", "check", "--config", "../python/pyproject.toml"])?;
     }
     for folder in ["../lab/pictures", "../lab/record", "../lab/transfer"] {

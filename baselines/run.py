@@ -1,0 +1,199 @@
+"""Runs what `runs.py` lists, and shows what came out.
+
+    python baselines/run.py              what is done, then the rest, one run after the other
+    python baselines/run.py --list       only what is done
+    python baselines/run.py --table      the tables of docs/training.md
+
+Every run leaves `results/NAME-SEED.json`. One that was interrupted continues from its checkpoint in
+`target/baselines/NAME-SEED`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import statistics
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from runs import ENTRIES
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results"
+CHECKPOINTS = HERE.parent / "target" / "baselines"
+GOOD = 0.8
+"""The training score whose first step the table shows."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of the ledger."""
+
+    name: str
+    table: str
+    seed: int
+    settings: dict[str, Any]
+
+    @property
+    def result(self) -> Path:
+        """The file of its result."""
+        return RESULTS / f"{self.name}-{self.seed}.json"
+
+    @property
+    def out(self) -> Path:
+        """The folder of its checkpoint, its policy and its log."""
+        return CHECKPOINTS / f"{self.name}-{self.seed}"
+
+
+def ledger() -> list[Run]:
+    """Returns all runs: the first seed of every entry, then the second, and so on."""
+    runs = [
+        (place, Run(entry.name, entry.table, seed, {**entry.settings, "seed": seed}))
+        for entry in ENTRIES
+        for place, seed in enumerate(entry.seeds)
+    ]
+    return [run for _, run in sorted(runs, key=lambda one: one[0])]
+
+
+def results(runs: Iterable[Run]) -> dict[str, list[dict[str, Any]]]:
+    """Reads the results of the runs that are done, by the name of their entry."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for run in runs:
+        kept = found.setdefault(run.name, [])
+        if run.result.is_file():
+            kept.append(json.loads(run.result.read_text(encoding="utf-8")))
+    return found
+
+
+def spread(values: list[float], digits: int = 2) -> str:
+    """Returns the median of some runs, and the least and greatest if there are several."""
+    middle = f"{statistics.median(values):.{digits}f}"
+    if len(values) == 1:
+        return middle
+    return f"{middle} ({min(values):.{digits}f} to {max(values):.{digits}f})"
+
+
+def reached(found: dict[str, Any], score: float = GOOD) -> float | None:
+    """Returns after how many steps the training score was first at least `score`."""
+    points = (point for point in found["curve"] if (point["score"] or 0) >= score)
+    return next((point["steps"] for point in points), None)
+
+
+def row(found: list[dict[str, Any]]) -> list[str]:
+    """Returns the cells of an entry."""
+    settings = found[0]["settings"]
+    good = [reached(one) for one in found]
+    there = [steps / 1e6 for steps in good if steps is not None]
+    when = f"{statistics.median(there):.1f} M" if len(there) == len(good) else "not reached"
+    if 0 < len(there) < len(good):
+        when = f"in {len(there)} of {len(good)} runs"
+    seconds = [
+        sum(spent for what, spent in one["seconds"].items() if what != "wall") for one in found
+    ]
+    return [
+        f"`{settings['scenario']}`",
+        f"{found[0]['steps'] / 1e6:.1f} M",
+        str(len(found)),
+        spread([one["drawn"]["mean"] for one in found]),
+        spread([one["likeliest"]["mean"] for one in found]),
+        when,
+        spread([each / 60 for each in seconds], 1),
+        f"{statistics.median(one['steps_per_cpu_second'] for one in found):,.0f}",
+    ]
+
+
+HEAD = (
+    "scenario",
+    "steps",
+    "seeds",
+    "drawn actions",
+    "likeliest actions",
+    f"training score reaches {GOOD}",
+    "CPU minutes",
+    "steps per CPU second",
+)
+
+
+def tables(runs: list[Run]) -> dict[str, str]:
+    """Returns the tables in Markdown, by name.
+
+    They have a row for each entry that has a result. `tried` has one for each run of `tried`.
+    """
+    found, lines = results(runs), {run.table: [HEAD, ("---",) * len(HEAD)] for run in runs}
+    for name, table in {run.name: run.table for run in runs}.items():
+        if found[name]:
+            lines[table].append(tuple(row(found[name])))
+    return {**{name: markdown(rows) for name, rows in lines.items()}, "tried": tried()}
+
+
+def tried() -> str:
+    """Returns the table of the runs that settings were chosen by, in their order."""
+    head = ("scenario", "seed", "steps", "what was different", "drawn actions", "likeliest actions")
+    rows = [head, ("---",) * len(head)]
+    for path in sorted((RESULTS / "tried").glob("*.json")):
+        found = json.loads(path.read_text(encoding="utf-8"))
+        settings = found["settings"]
+        changed = [f"`{name}` {str(value).lower()}" for name, value in found["changed"].items()]
+        rows.append(
+            (
+                f"`{settings['scenario'].removeprefix('academy_')}`",
+                str(settings["seed"]),
+                f"{found['steps'] / 1e6:.1f} M",
+                "; ".join([*changed, *found["program"]]) or "nothing",
+                f"{found['drawn']['mean']:.2f}",
+                f"{found['likeliest']['mean']:.2f}",
+            )
+        )
+    return markdown(rows)
+
+
+def markdown(rows: Iterable[Iterable[str]]) -> str:
+    """Returns a table in Markdown."""
+    return "".join(f"| {' | '.join(cells)} |\n" for cells in rows)
+
+
+def play(run: Run, threads: int) -> None:
+    """Trains a run, or continues it, and keeps its result."""
+    sys.path.insert(0, str(HERE))
+    import ppo
+
+    print(f"{run.name}, seed {run.seed}", flush=True)
+    found = ppo.train(ppo.Settings(**run.settings), run.out, threads=threads)
+    RESULTS.mkdir(exist_ok=True)
+    run.result.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    print(ppo.summary(found), flush=True)
+
+
+def main(argv: list[str] | None = None) -> None:
+    """Reads the command line."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--list", action="store_true", help="only show what is done")
+    parser.add_argument("--table", action="store_true", help="only print the tables")
+    parser.add_argument("--only", nargs="+", metavar="NAME", help="only these entries")
+    parser.add_argument("--threads", type=int, default=1, help="of the engine and of PyTorch")
+    args = parser.parse_args(argv)
+    runs = ledger()
+    names = sorted({run.name for run in runs})
+    if unknown := sorted({*(args.only or ())} - {*names}):
+        parser.error(f"no run `{unknown[0]}`; there are {', '.join(names)}")
+    if args.only:
+        runs = [run for run in runs if run.name in args.only]
+    if args.table:
+        print("\n".join(f"{name}\n\n{text}" for name, text in tables(runs).items()))
+        return
+    for run in runs:
+        state = "done" if run.result.is_file() else "begun" if run.out.exists() else "to do"
+        print(f"{state:6} {run.name} seed {run.seed}")
+    if not args.list:
+        for run in runs:
+            if not run.result.is_file():
+                play(run, args.threads)
+
+
+if __name__ == "__main__":
+    main()

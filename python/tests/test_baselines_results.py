@@ -1,0 +1,99 @@
+"""The tables of docs/training.md show what the files in baselines/results say."""
+
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from typing import Any
+
+import pytest
+from pages import DOCS, hold_tables
+
+import setpiece
+
+BASELINES = DOCS.parent / "baselines"
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    monkeypatch.syspath_prepend(str(BASELINES))
+    yield import_module("run")
+    for name in ("run", "runs"):
+        sys.modules.pop(name, None)
+
+
+def test_the_tables_are_computed_from_the_results(run: Any) -> None:
+    hold_tables("training.md", run.tables(run.ledger()))
+
+
+def test_every_result_is_of_a_run_of_the_ledger(run: Any) -> None:
+    runs = {one.result.name: one for one in run.ledger()}
+    files = sorted((BASELINES / "results").glob("*.json"))
+    assert files
+    assert {path.name for path in files} <= {*runs}
+    for name, found in run.results(run.ledger()).items():
+        for one in found:
+            settings = one["settings"]
+            wanted = runs[f"{name}-{settings['seed']}.json"].settings
+            assert wanted.items() <= settings.items(), name
+            assert one["steps"] <= settings["steps"]
+            assert one["episodes"] == 500
+            for kind in ("drawn", "likeliest"):
+                assert one[kind]["low"] <= one[kind]["mean"] <= one[kind]["high"]
+            assert one["curve"][-1]["steps"] == one["steps"]
+
+
+def test_runs_of_an_entry_differ_in_their_seed_only(run: Any) -> None:
+    for name, found in run.results(run.ledger()).items():
+        others = [{**one["settings"], "seed": 0} for one in found]
+        assert all(one == others[0] for one in others), name
+
+
+def test_names_are_those_of_the_library(run: Any) -> None:
+    runs = run.ledger()
+    assert len({one.result for one in runs}) == len(runs)
+    assert {one.settings["scenario"] for one in runs} <= {*setpiece.list()}
+    first = [one.seed for one in runs[: len({one.name for one in runs})]]
+    assert first == [1] * len(first), "the first seed of everything comes first"
+
+
+def found(scores: list[float], seconds: float = 60) -> dict[str, Any]:
+    """A result with a training score after each million steps."""
+    return {
+        "settings": {"scenario": "mine"},
+        "steps": len(scores) * 1_000_000,
+        "drawn": {"mean": scores[-1]},
+        "likeliest": {"mean": scores[-1] + 0.01},
+        "seconds": {"acting": seconds / 2, "environment": seconds / 2, "wall": 1000},
+        "steps_per_cpu_second": 1_000,
+        "curve": [{"steps": (at + 1) * 10**6, "score": one} for at, one in enumerate(scores)],
+    }
+
+
+def test_a_row_has_the_median_the_least_and_the_greatest(run: Any) -> None:
+    one, two, three = found([0.2, 0.85, 0.9]), found([0.1, 0.2, 0.8], 120), found([0.0, 0.1, 0.3])
+    assert run.row([one, two, three]) == [
+        "`mine`",
+        "3.0 M",
+        "3",
+        "0.80 (0.30 to 0.90)",
+        "0.81 (0.31 to 0.91)",
+        "in 2 of 3 runs",
+        "1.0 (1.0 to 2.0)",
+        "1,000",
+    ]
+    assert run.row([one, two])[5] == "2.5 M"
+    assert run.row([three])[3:6] == ["0.30", "0.31", "not reached"]
+
+
+def test_an_unknown_run_is_named(run: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        run.main(["--only", "3_vs_1"])
+    assert "no run `3_vs_1`; there are " in capsys.readouterr().err
+
+
+def test_the_list_says_what_is_done(run: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    run.main(["--list"])
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(run.ledger())
+    done = [line for line in lines if line.startswith("done")]
+    assert len(done) == len([*(BASELINES / "results").glob("*.json")])

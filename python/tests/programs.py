@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 def outside(command: str, folder: Path) -> str | None:
     """Checks a command that isn't run here; returns what is wrong with it.
 
-    It may be an installation, a program of the examples, or one of another project.
+    It may be an installation, a program of ours, or one of another project.
     """
     program, *words = shlex.split(command, comments=True)
     if check := PROGRAMS.get(program):
@@ -54,9 +54,10 @@ def pip(words: list[str], _folder: Path) -> None:
 
 
 def python(words: list[str], folder: Path) -> None:
-    """Runs a program of the examples: the program, its options, and the files and names in them."""
+    """Runs a program of the examples or baselines: its options, and the files and names in them."""
     program, *rest = words
-    need(program.startswith("examples/") and (ROOT / program).exists(), program)
+    is_ours = program.startswith(("examples/", "baselines/"))
+    need(is_ours and (ROOT / program).exists(), program)
     source = text(program)
     for option, word in zip(["", *rest], rest, strict=False):
         if word.startswith("--"):

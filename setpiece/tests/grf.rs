@@ -63,6 +63,8 @@ fn a_script_becomes_a_text() {
         text(WHOLE, "drill"),
         "\
 // An author's own drill.
+// Two against a keeper.
+// Builds it.
 
 // These lines of the script are left out. `setpiece import grf` of the Python package
 // runs a script, and so translates them too.

@@ -75,6 +75,8 @@ fn members(base: &str) -> Vec<Completion> {
         "left" | "right" | "us" | "them" | "own" => {
             owned(Owner::Team).chain(words_of(&[WordKind::Place])).collect()
         }
+        // `left.zone.CB`
+        "zone" => words_of(&[WordKind::Role]).collect(),
         // Every place has these; an area has nothing.
         place if place == "centre" || words::is(place, WordKind::Place) => {
             let is_landmark = place == "centre" || Landmark::from_name(place).is_some();

@@ -3,7 +3,7 @@
 use super::cursor::{block_of, inline_script};
 use super::keywords::KEYWORDS;
 use super::place::is_script;
-use super::senses::{Sense, sense};
+use super::senses::sense;
 use super::text::{brackets, ends_in_code, word_at};
 use super::words;
 use super::{Analysis, FilePlace, Workspace, script};
@@ -66,7 +66,7 @@ impl Workspace {
         let Some(text) = self.file_text(path) else { return Vec::new() };
         let range = word_at(&text, offset);
         let word = text.get(range.clone()).unwrap_or_default();
-        if let Some(Sense { doc, page, .. }) = sense(&text, range.start, word) {
+        if let Some((doc, page)) = sense(&text, range.start, word) {
             return vec![said(word, doc, page)];
         }
         let mut known = meanings(text.get(..range.start).unwrap_or_default(), word);

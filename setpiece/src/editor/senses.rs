@@ -1,19 +1,20 @@
 //! What a word means that stands in several rules of the grammar.
 
+use super::words::{self, WordKind};
 use crate::dsl::parse::rules_around;
 use setpiece_grammar::Rule;
 
 /// What a word means within a rule of the grammar.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sense {
+struct Sense {
     /// The rule.
     rule: Rule,
     /// The word.
     word: &'static str,
     /// What it means, in a line.
-    pub(super) doc: &'static str,
+    doc: &'static str,
     /// The page of the reference, under `docs/language/`.
-    pub(super) page: &'static str,
+    page: &'static str,
 }
 
 macro_rules! senses {
@@ -130,13 +131,26 @@ const SENSES: &[Sense] = senses! {
     }
 };
 
-/// What a word means at a byte of a text: in the innermost rule that gives it a meaning.
-pub(super) fn sense(text: &str, offset: usize, word: &str) -> Option<Sense> {
-    if !SENSES.iter().any(|it| it.word == word) {
+/// Rules whose words are all of one kind.
+const KINDS: [(Rule, WordKind); 2] =
+    [(Rule::over_kind, WordKind::OverTime), (Rule::callee, WordKind::Function)];
+
+/// What a word means at a byte of a text, and the page of the reference: as the innermost rule has
+/// it that gives it a meaning.
+pub(super) fn sense(text: &str, offset: usize, word: &str) -> Option<(&'static str, &'static str)> {
+    let of_kind = |kind: WordKind| words::all().find(|it| it.name == word && it.kind == kind);
+    let is_known = SENSES.iter().any(|it| it.word == word);
+    if !is_known && !KINDS.iter().any(|(_, kind)| of_kind(*kind).is_some()) {
         return None;
     }
     let around = rules_around(text, offset);
-    let of_rule =
-        |rule: &Rule| SENSES.iter().copied().find(|it| it.rule == *rule && it.word == word);
+    let kind = KINDS.iter().find(|(rule, _)| around.last() == Some(rule));
+    if let Some(found) = kind.and_then(|(_, kind)| of_kind(*kind)) {
+        return Some((found.doc, found.page));
+    }
+    let of_rule = |rule: &Rule| {
+        let found = SENSES.iter().find(|it| it.rule == *rule && it.word == word)?;
+        Some((found.doc, found.page))
+    };
     around.iter().rev().find_map(of_rule)
 }

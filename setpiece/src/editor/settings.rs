@@ -19,6 +19,8 @@ enum Settings {
     WordsOrOwn(&'static [SettingWord]),
     /// These words, an act or a behaviour.
     WordsOrActs(&'static [SettingWord]),
+    /// A number.
+    Number,
     /// The name of a formation.
     Formation,
     /// These words, or a list of players.
@@ -53,6 +55,10 @@ fn settings(block: &str, key: &str) -> Option<Settings> {
         ("player", "overlap") => {
             Settings::Words(&[("allowed", "another player may stand on the same spot")])
         }
+        ("team" | "player" | "substitute", "difficulty")
+        | ("player" | "substitute", "fatigue")
+        | ("player", "yellow_cards")
+        | ("stats", _) => Settings::Number,
         ("kickoff", "kicking" | "receiving") => Settings::Formation,
         ("ball", "owner") => Settings::WordsOrPlayers(&[]),
         ("rules", key) => match Rule::from_name(key)? {
@@ -78,6 +84,10 @@ impl Analysis {
             Settings::WordsOrOwn(words) => {
                 let values = self.own_names().into_iter().filter(|it| it.detail != "a player");
                 (words, values.collect())
+            }
+            Settings::Number => {
+                let values = self.own_names().into_iter().filter(|it| it.detail != "a player");
+                (&[][..], values.chain(words_of(&[WordKind::Function])).collect())
             }
             Settings::Formation => (&[][..], self.after("formation")),
             Settings::WordsOrActs(words) => {

@@ -32,7 +32,7 @@ pub struct GrfScript {
     pub even: GrfScenario,
     /// What it sets in odd episodes.
     pub odd: GrfScenario,
-    /// The comments at its head, without their sign.
+    /// What the comments and texts in quotes say at its head and at that of its function.
     pub comments: Vec<String>,
     /// The lines that can't be read, as they are written.
     pub left_out: Vec<String>,

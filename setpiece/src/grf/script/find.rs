@@ -109,16 +109,33 @@ pub(super) fn lines(text: &str) -> Vec<PyLine<'_>> {
     lines
 }
 
-/// The comments at the head of a script, without their sign.
+/// What the comments and texts in quotes say at the head of a script and of its function.
 pub(super) fn comments(text: &str, lines: &[PyLine<'_>]) -> Vec<String> {
-    let head = lines.iter().take_while(|line| line.tokens.is_empty());
-    head.filter_map(|line| {
-        let written = text.get(line.range.clone())?.trim().trim_start_matches('#');
-        let is_setting =
-            written.starts_with('!') || written.contains("coding:") || written.contains("coding=");
-        (!is_setting).then(|| super::plain(written.strip_prefix(' ').unwrap_or(written)))
+    let is_quoted = |line: &&PyLine<'_>| line.tokens == [PyToken::Text];
+    let head = lines.iter().take_while(|line| line.tokens.is_empty() || is_quoted(line));
+    let first = lines.iter().position(is_script).and_then(|at| lines.get(at + 1));
+    let all = head.chain(first.filter(is_quoted));
+    all.flat_map(|line| {
+        let written = text.get(line.range.clone()).unwrap_or_default().trim();
+        if line.tokens.is_empty() { comment(written) } else { quoted(written) }
     })
     .collect()
+}
+
+/// What a comment says; nothing if it is for a program.
+fn comment(written: &str) -> Vec<String> {
+    let said = written.trim_start_matches('#');
+    let is_setting = said.starts_with('!') || said.contains("coding:") || said.contains("coding=");
+    let said = super::plain(said.strip_prefix(' ').unwrap_or(said));
+    if is_setting { Vec::new() } else { vec![said] }
+}
+
+/// The lines of a text in quotes that say something.
+fn quoted(written: &str) -> Vec<String> {
+    let inside = written.trim_start_matches(char::is_alphabetic);
+    let inside = inside.trim_matches(|sign| matches!(sign, '"' | '\''));
+    let lines = inside.lines().map(str::trim).filter(|line| !line.is_empty());
+    lines.map(super::plain).collect()
 }
 
 /// Whether a line at the left margin belongs to a Python file, and not to the language.

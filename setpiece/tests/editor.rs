@@ -261,6 +261,7 @@ fn fixes_mend_what_they_are_about() {
         ("limit 200", "end limit 200 steps"),
         ("reward r { give 0.1 * closing(ball, right.goal) }", "right.goal) / 1m }"),
         ("team right { CF at (0.5, 0.1 }", "team right { CF at (0.5, 0.1) }"),
+        ("team right { CF at (0.5, 0.1] }", "team right { CF at (0.5, 0.1) }"),
         ("team right { CF at (0.5, 0.1 facing 90deg }", "CF at (0.5, 0.1) facing 90deg }"),
         ("end when distance(ball, centre < 3m // near", "distance(ball, centre) < 3m // near"),
         ("end when (ball in right.box", "end when (ball in right.box)\n"),

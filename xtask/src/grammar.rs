@@ -125,9 +125,10 @@ fn readable_cases() -> Result<Vec<PathBuf>, String> {
     for source in sources {
         let text = std::fs::read_to_string(&source)
             .map_err(|why| format!("{}: {why}", source.display()))?;
-        let topic = source.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+        // Topics have files of the same names.
+        let topic = source.strip_prefix(root()).unwrap_or(&source).with_extension("");
         for (number, text) in parts_of_cases(&text).into_iter().enumerate() {
-            let path = folder.join(format!("{topic}-{number}.pitch"));
+            let path = folder.join(&topic).join(format!("{number}.pitch"));
             write(&path, &text)?;
             files.push(path);
         }

@@ -193,7 +193,10 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
             edits: vec![Edit::replace(path, at..at, sign)],
         });
         tries.extend(closed);
-        return tries;
+        // One that closes another kind of bracket opens nothing: it is replaced.
+        if !tries.is_empty() {
+            return tries;
+        }
     }
     for text in quoted(help) {
         let unit = text.trim_start_matches(|sign: char| sign.is_ascii_digit() || sign == '.');
@@ -225,8 +228,6 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
             {
                 tries.push(write(range.start..range.start, text.to_owned()));
                 tries.push(write(range.end..range.end, text.to_owned()));
-                let end = analysis.text.trim_end().len();
-                tries.push(write(end..end, format!("\n{text}")));
             }
         }
     }

@@ -5,11 +5,13 @@ use serde::{Deserialize, Serialize};
 
 /// The size of a pitch, metres.
 ///
-/// Each figure is within its range, so that a file can't hold an impossible pitch.
+/// Each figure is within its range, so that a file can't hold an impossible pitch. The measures are
+/// computed once, because a match asks for them hundreds of times in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "[f64; PitchFigure::ALL.len()]", into = "[f64; PitchFigure::ALL.len()]")]
 pub struct PitchSize {
     figures: [f64; PitchFigure::ALL.len()],
+    measures: [f64; PitchMeasure::ALL.len()],
 }
 
 impl PitchSize {
@@ -21,8 +23,20 @@ impl PitchSize {
             figures[index] = PitchFigure::ALL[index].usual();
             index += 1;
         }
-        PitchSize { figures }
+        PitchSize::of(figures)
     };
+
+    /// A pitch with these figures.
+    const fn of(figures: [f64; PitchFigure::ALL.len()]) -> PitchSize {
+        let mut size = PitchSize { figures, measures: [0.0; PitchMeasure::ALL.len()] };
+        let mut index = 0;
+        while index < size.measures.len() {
+            let measure = PitchMeasure::ALL[index];
+            size.measures[index] = size.in_proportion(measure.usual(), measure.follows());
+            index += 1;
+        }
+        size
+    }
 
     /// The usual pitch with some figures changed, metres. A figure that follows another one does so
     /// unless it is changed, too. A value out of its range becomes the nearest in it, one that is
@@ -52,7 +66,7 @@ impl PitchSize {
             self.figures[figure.index()] =
                 if value.is_nan() { figure.usual() } else { value.clamp(low, most) };
         }
-        self
+        PitchSize::of(self.figures)
     }
 
     /// A figure, metres.
@@ -64,7 +78,7 @@ impl PitchSize {
     /// A measure, metres.
     #[inline]
     pub const fn measure(&self, measure: PitchMeasure) -> f64 {
-        self.in_proportion(measure.usual(), measure.follows())
+        self.measures[measure.index()]
     }
 
     /// A distance of the usual pitch in proportion to a figure. In this order, it is to the bit
@@ -141,7 +155,7 @@ impl Default for PitchSize {
 
 impl From<[f64; PitchFigure::ALL.len()]> for PitchSize {
     fn from(figures: [f64; PitchFigure::ALL.len()]) -> PitchSize {
-        PitchSize { figures }.bounded()
+        PitchSize::of(figures).bounded()
     }
 }
 

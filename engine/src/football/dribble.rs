@@ -93,10 +93,10 @@ fn carried_m(speed: f32) -> f32 {
 
 /// The pitch that a player keeps the ball on. Agent-driven players do so until they are at the line
 /// themselves.
-pub(super) fn minds_lines(game: &Match, id: PlayerId) -> Option<PitchSize> {
+pub(super) fn minds_lines(game: &Match, id: PlayerId) -> Option<&PitchSize> {
     let pos = game.player(id).pos.abs();
     let minds = !game.is_driven(id) || pos.cmplt(game.half() - AT_LINE_M).all();
-    minds.then_some(game.pitch)
+    minds.then_some(&game.pitch)
 }
 
 /// Pushes the ball the way its player wants to run. False if it already rolls that way.
@@ -173,9 +173,9 @@ fn rest(game: &mut Match, events: &mut Events, id: PlayerId) -> bool {
 }
 
 /// What a dribbler takes care of.
-pub(super) struct Care {
+pub(super) struct Care<'a> {
     /// The pitch to keep the ball on, if they do.
-    pub(super) lines: Option<PitchSize>,
+    pub(super) lines: Option<&'a PitchSize>,
     /// Whether the ball lies still.
     pub(super) lies: bool,
 }
@@ -198,7 +198,13 @@ pub(super) fn note_turn(game: &mut Match, id: PlayerId, ahead: Vec2) {
 
 /// The velocity of a touch after which the player, running at `speed` along `ahead`, meets the ball
 /// again.
-pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, care: &Care) -> Vec2 {
+pub(super) fn ahead(
+    player: &Player,
+    to_ball: Vec2,
+    ahead: Vec2,
+    speed: f32,
+    care: &Care<'_>,
+) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
     // Uses the stride at the next touch, not the wanted one.
     let pace = player.vel.length();
@@ -211,7 +217,7 @@ pub(super) fn ahead(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32, car
     let time = (0.12 + 0.6 * gait * gait * gait * gait).max(brakes);
     let mean = own + ((speed.min(player.body.speed_top_mps) - own) * 0.5).clamp(-1.5, 2.0 * time);
     let free = ahead * (mean * (time - brakes) + carried_m(own)) + rest * (0.5 * brakes);
-    let cut = care.lines.and_then(|pitch| within_lines(&pitch, player.pos, free));
+    let cut = care.lines.and_then(|pitch| within_lines(pitch, player.pos, free));
     if (care.lies || !turns) && cut.is_none() {
         // Whoever does not turn comes to the ball's line rather than the ball to theirs.
         let beside = (to_ball - ahead * to_ball.dot(ahead)) * BESIDE;

@@ -115,11 +115,11 @@ const POKED_MPS: f32 = 4.0;
 /// The same for a keeper, who clears the ball. Fitted to where balls go when a keeper comes out.
 const KEEPER_MPS: f32 = 7.5;
 
-/// Lets legs that have arrived meet the ball, and sends out those that can reach it. `near`: the
-/// players that may.
-pub fn contest(game: &mut Match, events: &mut Events, near: Squad) {
+/// Lets legs that have arrived meet the ball, and sends out those that can reach it. `legs`: the
+/// players with a leg out when the tick began. `near`: the players that may send one.
+pub fn contest(game: &mut Match, events: &mut Events, legs: Squad, near: Squad) {
     let now = game.tick as i32;
-    for id in game.order() {
+    for id in game.order_of(legs) {
         // A leg that comes too late, or misses the ball, is drawn back too.
         let Some(lunge) = game.player(id).body.lunge.filter(|lunge| lunge.at <= now) else {
             continue;

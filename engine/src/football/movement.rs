@@ -32,6 +32,8 @@ pub struct Busy {
     pub slides: Squad,
     /// Players who intend a kick, on the pitch or not.
     pub kicks: Squad,
+    /// Players with a leg out for the ball, on the pitch or not.
+    pub legs: Squad,
 }
 
 /// Moves every player by one tick. Returns the players with more to do, so that the others are
@@ -51,6 +53,9 @@ pub fn advance(game: &mut Match) -> Busy {
         let player = &mut game.players[id.index()];
         if player.body.kick.is_some() {
             busy.kicks.add(id);
+        }
+        if player.body.lunge.is_some() {
+            busy.legs.add(id);
         }
         if !player.active {
             continue;

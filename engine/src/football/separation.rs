@@ -68,7 +68,8 @@ pub fn separate(game: &mut Match, events: &mut Events) {
         let (x, y) =
             (f32x4::splat(xs[i / WIDTH][i % WIDTH]), f32x4::splat(ys[i / WIDTH][i % WIDTH]));
         let mut meets = 0u32;
-        for row in i / WIDTH..rows {
+        // From the first row on, because nobody can predict where a shorter loop ends.
+        for row in 0..rows {
             let (dx, dy) = (f32x4::new(xs[row]) - x, f32x4::new(ys[row]) - y);
             meets |= (dx * dx + dy * dy).simd_lt(near).to_bitmask() << (row * WIDTH);
         }
@@ -80,14 +81,14 @@ pub fn separate(game: &mut Match, events: &mut Events) {
             meet(game, events, [ids[i], ids[j]], first);
         }
     }
-    let (pitch, rim) = (game.pitch, game.rim());
+    let rim = game.rim();
     for id in ids {
         let player = &mut game.players[id.index()];
         if !player.active {
             continue;
         }
         player.pos = player.pos.clamp(-rim, rim);
-        frame::keep_out(&pitch, &mut player.pos, &mut player.vel);
+        frame::keep_out(&game.pitch, &mut player.pos, &mut player.vel);
     }
 }
 
@@ -101,7 +102,7 @@ fn go_round(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
 /// Lets two players collide. Players who run close drag each other along, and bodies that touch are
 /// pushed apart. The one who stands better yields less. (GRF's.)
 fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Option<PlayerId>) {
-    let (a, b) = (*game.player(i), *game.player(j));
+    let (a, b) = (game.player(i), game.player(j));
     let between = b.pos - a.pos;
     let distance = between.length();
     // Exactly on one spot: they part sideways, the first to their left.
@@ -116,16 +117,16 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     }
     let back = |player: &Player, from: Vec2| 0.5 + 0.5 * player.body.facing.dot(from);
     let pace = (a.vel.length() - b.vel.length()) / SPRINT_MPS;
-    let mut stands = BACK * (back(&a, -away) - back(&b, away)) - PACE * pace.clamp(-1.0, 1.0)
+    let mut stands = BACK * (back(a, -away) - back(b, away)) - PACE * pace.clamp(-1.0, 1.0)
         + a.skill(Stat::Balance)
         - b.skill(Stat::Balance);
-    stands += tackles(&a) - tackles(&b);
+    stands += tackles(a) - tackles(b);
     if game.play.chaser[i.team().index()] == Some(i)
         && game.play.chaser[j.team().index()] == Some(j)
     {
         let ball = game.ball.pos.truncate();
         let off = |player: &Player| player.pos.distance(ball).min(2.0 * BALL_M);
-        stands += (off(&b) - off(&a)).clamp(-BALL_M, BALL_M);
+        stands += (off(b) - off(a)).clamp(-BALL_M, BALL_M);
     }
     let is_first = f32::from(i8::from(first == Some(i)) - i8::from(first == Some(j)));
     // The first player's share of each displacement.

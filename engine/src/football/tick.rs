@@ -38,7 +38,7 @@ pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
     slide::resolve(game, events, busy.slides);
     kick::kick_ball(game, events, busy.kicks);
     let near = touch::near(game);
-    duel::contest(game, events, touch::about(game));
+    duel::contest(game, events, busy.legs, touch::about(game));
     touch::play_ball(game, events, near);
     scratch.laps().end(Phase::Play);
     if !game.dead {

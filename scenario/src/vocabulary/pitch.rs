@@ -17,6 +17,7 @@ words! {
 
 impl PitchFigure {
     /// The value on Google Research Football's pitch, metres.
+    #[inline]
     pub const fn usual(self) -> f64 {
         match self {
             PitchFigure::Length => 2.0 * pitch::HALF_LENGTH_M,
@@ -93,6 +94,29 @@ pub enum PitchMeasure {
 }
 
 impl PitchMeasure {
+    /// All measures, by [`PitchMeasure::index`].
+    pub const ALL: [PitchMeasure; 13] = [
+        PitchMeasure::HalfLength,
+        PitchMeasure::HalfWidth,
+        PitchMeasure::Third,
+        PitchMeasure::HalfMiddle,
+        PitchMeasure::GoalHalfWidth,
+        PitchMeasure::GoalHeight,
+        PitchMeasure::BoxDepth,
+        PitchMeasure::BoxHalfWidth,
+        PitchMeasure::SixYardDepth,
+        PitchMeasure::SixYardHalfWidth,
+        PitchMeasure::PenaltySpot,
+        PitchMeasure::GoalKickSpot,
+        PitchMeasure::Circle,
+    ];
+
+    /// Its index in [`PitchMeasure::ALL`].
+    #[inline]
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
     /// Its length on Google Research Football's pitch, metres.
     pub const fn usual(self) -> f64 {
         match self {
@@ -127,5 +151,16 @@ impl PitchMeasure {
             | PitchMeasure::GoalKickSpot => PitchFigure::Box,
             PitchMeasure::BoxHalfWidth | PitchMeasure::SixYardHalfWidth => PitchFigure::BoxWidth,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PitchMeasure;
+
+    #[test]
+    fn all_measures_stand_at_their_index() {
+        let indices = PitchMeasure::ALL.map(PitchMeasure::index);
+        assert!(indices.into_iter().eq(0..PitchMeasure::ALL.len()));
     }
 }

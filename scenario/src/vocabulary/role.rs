@@ -12,6 +12,7 @@ words! {
 
 impl Team {
     /// The other team.
+    #[inline]
     #[must_use]
     pub const fn other(self) -> Team {
         match self {
@@ -22,6 +23,7 @@ impl Team {
 
     /// +1 for the left team, -1 for the right: multiplies world coordinates into the own frame and
     /// back.
+    #[inline]
     pub const fn side(self) -> f64 {
         match self {
             Team::Left => 1.0,

@@ -24,8 +24,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "control",
         &[
-            "draw", "football", "in_place", "judge", "math", "physics", "random", "snapshot",
-            "state",
+            "draw", "football", "in_place", "judge", "math", "physics", "random", "rows",
+            "snapshot", "state",
         ],
     ),
     ("step", &["control", "football", "laps", "math", "physics", "start", "state"]),

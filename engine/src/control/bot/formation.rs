@@ -55,7 +55,7 @@ const DEFENCE: BlockWish = BlockWish {
 const MIDFIELD_KEEN: f32 = 0.35;
 
 /// How much a role attacks, 0..1.
-pub fn mindset(role: Role) -> f32 {
+pub const fn mindset(role: Role) -> f32 {
     match role {
         Role::GK | Role::CB => 0.0,
         Role::LB | Role::RB | Role::DM => 0.25,
@@ -65,8 +65,19 @@ pub fn mindset(role: Role) -> f32 {
     }
 }
 
+/// Everyone's wishes by [`Role::index`], with the ball and without.
+static WISHES: [[BlockWish; 2]; Role::ALL.len()] = {
+    let mut all = [[ATTACK, DEFENCE]; Role::ALL.len()];
+    let mut index = 0;
+    while index < all.len() {
+        all[index] = wishes(Role::ALL[index]);
+        index += 1;
+    }
+    all
+};
+
 /// A role's wishes, with the ball and without.
-fn wishes(role: Role) -> [BlockWish; 2] {
+const fn wishes(role: Role) -> [BlockWish; 2] {
     let (mut attack, mut defence) = (ATTACK, DEFENCE);
     match role {
         Role::CB => attack.width = 1.0,
@@ -153,7 +164,7 @@ impl Outlook {
         let Outlook { ball, attacks, side_x, focus, draws } = *self;
         let half = game.half();
         let filled = game.player(fills);
-        let [attack, defence] = wishes(filled.role);
+        let [attack, defence] = &WISHES[filled.role.index()];
         let both = |with: f32, without: f32| mix(without, with, attacks);
         let depth = DEPTH * both(attack.depth, defence.depth);
         let width = WIDTH * both(attack.width, defence.width);

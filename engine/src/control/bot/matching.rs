@@ -1,6 +1,7 @@
 //! Matches players to places so that the longest way is short, and among such matchings the total
 //! of the ways is least. (GRF's.)
 
+use arrayvec::ArrayVec;
 use setpiece_scenario::pitch::TEAM_MAX;
 
 /// Distances in decimetres, from each player (row) to each place.
@@ -8,6 +9,8 @@ pub(super) type Ways = [[i32; TEAM_MAX]; TEAM_MAX];
 /// The place of each player.
 pub(super) type Places = [usize; TEAM_MAX];
 
+/// No player, or no place.
+const NONE: usize = TEAM_MAX;
 /// A distance too long to count.
 const TOO_LONG: i32 = 1 << 20;
 /// The search for the longest way goes in leaps of this many distances, so the result may exceed
@@ -18,33 +21,45 @@ const LEAP: usize = 5;
 pub(super) fn matching(ways: &Ways, count: usize) -> Places {
     let limit = limit(ways, count);
     let mut allowed = *ways;
-    for way in allowed[..count].iter_mut().flat_map(|row| &mut row[..count]) {
-        if *way >= limit {
-            *way = TOO_LONG;
-        }
+    for way in allowed.as_flattened_mut() {
+        *way = if *way >= limit { TOO_LONG } else { *way };
     }
     shortest(&allowed, count)
 }
 
 /// The distance below which all ways of a matching can lie, searched in leaps.
 fn limit(ways: &Ways, count: usize) -> i32 {
-    let mut sorted = [0i32; TEAM_MAX * TEAM_MAX];
-    let all = count * count;
-    for (kept, way) in sorted.iter_mut().zip(ways[..count].iter().flat_map(|row| &row[..count])) {
-        *kept = *way;
-    }
-    sorted[..all].sort_unstable();
-    let leaps = all.saturating_sub(count).div_ceil(LEAP);
-    let (mut low, mut high) = (0, leaps);
-    while low < high {
-        let middle = usize::midpoint(low, high);
-        if is_possible(ways, count, sorted[count + middle * LEAP]) {
-            high = middle;
-        } else {
-            low = middle + 1;
+    let mut all: ArrayVec<i32, { TEAM_MAX * TEAM_MAX }> = ArrayVec::new();
+    let (mut of_player, mut of_place) = ([i32::MAX; TEAM_MAX], [i32::MAX; TEAM_MAX]);
+    for (player, row) in ways[..count].iter().enumerate() {
+        all.extend(row[..count].iter().copied());
+        for (place, &way) in row[..count].iter().enumerate() {
+            of_player[player] = of_player[player].min(way);
+            of_place[place] = of_place[place].min(way);
         }
     }
-    if low == leaps { TOO_LONG } else { sorted[count + low * LEAP] }
+    // No limit is below a player's shortest way, or a place's. It is rarely much above, so the
+    // search begins there, with short leaps.
+    let least = of_player[..count].iter().chain(&of_place[..count]).fold(0, |a, b| a.max(*b));
+    let shorter = all.iter().filter(|way| **way <= least).count();
+    let leaps = all.len().saturating_sub(count).div_ceil(LEAP);
+    let mut low = shorter.saturating_sub(count).div_ceil(LEAP).min(leaps);
+    let (mut high, mut leap) = (leaps, 0);
+    // Only the distances that are looked at come to their sorted places, in `open` those between
+    // the last two.
+    let mut open = 0..all.len();
+    let mut limit = TOO_LONG;
+    while low < high {
+        let next = (low + leap).min(usize::midpoint(low, high));
+        let at = count + next * LEAP;
+        let (_, &mut way, _) = all[open.clone()].select_nth_unstable(at - open.start);
+        if is_possible(ways, count, way) {
+            (high, open.end, limit) = (next, at, way);
+        } else {
+            (low, open.start, leap) = (next + 1, at + 1, 2 * leap + 1);
+        }
+    }
+    limit
 }
 
 /// Whether everyone finds a place with ways below a limit.
@@ -56,17 +71,25 @@ fn is_possible(ways: &Ways, count: usize, limit: i32) -> bool {
             .enumerate()
             .fold(0, |near, (place, way)| near | u32::from(*way < limit) << place);
     }
-    let mut whose = [usize::MAX; TEAM_MAX];
-    (0..count).all(|player| finds_place(&near, &mut whose, player, &mut 0))
+    let (mut whose, mut free) = ([NONE; TEAM_MAX], (1 << count) - 1);
+    (0..count).all(|player| finds_place(&near, &mut whose, &mut free, player, &mut 0))
 }
 
 /// Whether a player finds a place, if others move on where they can.
 fn finds_place(
     near: &[u32; TEAM_MAX],
     whose: &mut [usize; TEAM_MAX],
+    free: &mut u32,
     player: usize,
     seen: &mut u32,
 ) -> bool {
+    let found = near[player] & *free;
+    if found != 0 {
+        let place = found.trailing_zeros() as usize;
+        *free &= !(1 << place);
+        whose[place] = player;
+        return true;
+    }
     loop {
         let open = near[player] & !*seen;
         if open == 0 {
@@ -74,7 +97,7 @@ fn finds_place(
         }
         let place = open.trailing_zeros() as usize;
         *seen |= 1 << place;
-        if whose[place] == usize::MAX || finds_place(near, whose, whose[place], seen) {
+        if finds_place(near, whose, free, whose[place], seen) {
             whose[place] = player;
             return true;
         }
@@ -84,48 +107,54 @@ fn finds_place(
 /// The matching with the least total distance: the Hungarian method, one shortest augmenting path
 /// per player.
 fn shortest(ways: &Ways, count: usize) -> Places {
-    const NOBODY: usize = TEAM_MAX;
-    let mut price = [0i32; TEAM_MAX + 1];
+    let mut price = [0i32; TEAM_MAX];
+    // One more than there are players, for places without a player.
     let mut gain = [0i32; TEAM_MAX + 1];
-    let mut whose = [NOBODY; TEAM_MAX + 1];
+    // The place of each player, and the player of each place.
+    let mut places = [NONE; TEAM_MAX];
+    let mut whose = [NONE; TEAM_MAX];
     for player in 0..count {
-        // The place beyond the last represents the player who has none yet.
-        let mut at = TEAM_MAX;
-        whose[at] = player;
+        // The least distance of a path to each place, the place before it, and whether it may still
+        // change. Written without branches, because nobody can predict which place is nearer.
         let mut least = [i32::MAX; TEAM_MAX];
-        let mut from = [TEAM_MAX; TEAM_MAX];
-        let mut done = 0u32;
-        while whose[at] != NOBODY {
-            done |= 1 << at;
-            let mover = whose[at];
+        let mut from = [NONE; TEAM_MAX];
+        let mut open = [true; TEAM_MAX];
+        open[count..].fill(false);
+        let (mut mover, mut at, mut path) = (player, NONE, 0);
+        let end = loop {
+            let row = &ways[mover];
+            let base = path - gain[mover];
             let (mut step, mut next) = (i32::MAX, 0);
-            for place in (0..count).filter(|place| done & (1 << place) == 0) {
-                let way = ways[mover][place] - gain[mover] - price[place];
-                if way < least[place] {
-                    (least[place], from[place]) = (way, at);
-                }
-                if least[place] < step {
-                    (step, next) = (least[place], place);
-                }
+            for place in 0..TEAM_MAX {
+                let way = base + row[place] - price[place];
+                let nearer = open[place] && way < least[place];
+                least[place] = if nearer { way } else { least[place] };
+                from[place] = if nearer { at } else { from[place] };
+                let found = open[place] && least[place] < step;
+                step = if found { least[place] } else { step };
+                next = if found { place } else { next };
             }
-            for place in (0..count).chain([TEAM_MAX]) {
-                if done & (1 << place) != 0 {
-                    gain[whose[place]] += step;
-                    price[place] -= step;
-                } else {
-                    least[place] -= step;
-                }
+            path = step;
+            (at, open[next]) = (next, false);
+            if whose[at] == NONE {
+                break at;
             }
-            at = next;
+            mover = whose[at];
+        };
+        // Players on shorter paths than this one gain what their places become cheaper.
+        gain[player] += path;
+        for place in 0..count {
+            let gains = if open[place] { 0 } else { path - least[place] };
+            gain[whose[place]] += gains;
+            price[place] -= gains;
         }
-        while at != TEAM_MAX {
-            whose[at] = whose[from[at]];
-            at = from[at];
+        let mut place = end;
+        while place != NONE {
+            let before = from[place];
+            let mover = if before == NONE { player } else { whose[before] };
+            (whose[place], places[mover]) = (mover, place);
+            place = before;
         }
-    }
-    let mut places = [0; TEAM_MAX];
-    for (place, &player) in whose[..count].iter().enumerate() {
-        places[player] = place;
     }
     places
 }
@@ -171,6 +200,24 @@ mod tests {
                 .min();
             assert!(fits(&found[..count]), "{count}: {found:?}");
             assert_eq!(Some(sum(&found[..count])), best);
+        }
+    }
+
+    #[test]
+    fn the_limit_is_the_first_leap_at_which_everyone_finds_a_place() {
+        let mut seed = 7u32;
+        for round in 0..2000 {
+            let count = round % (TEAM_MAX + 1);
+            let mut ways = [[0; TEAM_MAX]; TEAM_MAX];
+            for way in ways.as_flattened_mut() {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                *way = (seed >> 16) as i32 % 300;
+            }
+            let mut sorted = ways[..count].iter().flat_map(|row| &row[..count]).collect::<Vec<_>>();
+            sorted.sort_unstable();
+            let mut leaps = sorted.iter().skip(count).step_by(LEAP);
+            let first = leaps.find(|way| is_possible(&ways, count, ***way));
+            assert_eq!(limit(&ways, count), first.map_or(TOO_LONG, |way| **way), "{count}");
         }
     }
 

@@ -39,7 +39,7 @@ fn manner(role: Role) -> Manner {
 
 /// Sends a player to where they play without the ball.
 pub fn place(game: &mut Match, view: &TeamView, id: PlayerId) {
-    let player = *game.player(id);
+    let player = game.player(id);
     let own = player.pos * view.side;
     let manner = manner(player.role);
     let fills = player.body.mind.fills;

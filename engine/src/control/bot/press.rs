@@ -80,7 +80,7 @@ pub fn pursuit(game: &Match, view: &TeamView, id: PlayerId) -> Pursuit {
     let (player, other) = (game.player(id), game.player(rival));
     let gap = (other.pos + other.vel * 0.12).distance(player.pos + player.vel * 0.04);
     let may = !view.best && player.body.mind.mark.is_none() && player.role != Role::GK;
-    let near = |to: Vec2| view.board.nearest::<2>(view.team, to, None).any(|near| near == id);
+    let near = |to: Vec2| view.board.nearest::<2>(view.team, to, None).contains(&id);
     if !may || gap >= hunt_m(game, player) {
         return Pursuit::None;
     }

@@ -167,7 +167,7 @@ pub fn assign(game: &mut Match, view: &TeamView) {
     if game.step.is_multiple_of(HELPER_EVERY) {
         let to = place + Vec2::new(1.5 * view.side, 0.0);
         game.play.recent.helper[view.team.index()] =
-            view.board.nearest::<1>(view.team, to, Some(main)).next();
+            view.board.nearest::<1>(view.team, to, Some(main)).pop();
     }
     let agents = game.agents.iter().filter(|slot| slot.team == view.team).count();
     if game.step % RUN_EVERY != RUN_AT || agents > 1 || !view.best {
@@ -187,6 +187,7 @@ pub fn assign(game: &mut Match, view: &TeamView) {
     let crowd = view
         .board
         .nearest::<4>(view.team.other(), spot, None)
+        .into_iter()
         .map(|rival| ease(1.0 - share(game.player(rival).pos.distance(spot), 0.0, 15.0)).sqrt())
         .sum::<f32>();
     let reads = player.body.stats[Stat::OffensivePositioning.index()];

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from os import PathLike, fspath
 
@@ -9,6 +10,9 @@ from setpiece import _native
 from setpiece._errors import ParameterError
 from setpiece._native import Scenario
 from setpiece._scenario_dict import ScenarioDict, pitch_text, scenario_name
+
+LEVEL = re.compile(r"\s*([A-Za-z_]\w*)(\{[^{}]*\})?#\d+(:\d+)?\s*")
+"""The text of a level, with the scenario's name as its first group."""
 
 Source = Scenario | ScenarioDict | str | PathLike[str]
 """A scenario: compiled, a `ScenarioDict`, a name in the library, a file's path, or a text."""
@@ -20,7 +24,7 @@ def load(source: Source, *, allow_outside: bool = False) -> Scenario:
     Files are `.pitch` or `.pitchc`. A string with a `{` is a text. Imports and scripts must be in
     the file's folder or below (for a text: in the working directory), unless `allow_outside`
     permits other places. Raises `UnknownScenarioError`, `FileError`, `CompileError`, `FormatError`,
-    and `ParameterError` for a dict that isn't a scenario.
+    and `ParameterError` for a dict that isn't a scenario, or a level.
 
     >>> import setpiece
     >>> setpiece.load("academy_corner")
@@ -28,6 +32,12 @@ def load(source: Source, *, allow_outside: bool = False) -> Scenario:
     """
     if isinstance(source, Scenario):
         return source
+    if isinstance(source, str) and (level := LEVEL.fullmatch(source)):
+        raise ParameterError(
+            f"`{source}` is a level, one episode of `{level[1]}`",
+            name="scenario",
+            help=f"make `{level[1]}` and begin the level by `reset(options={{'level': ...}})`",
+        )
     text = text_of(source)
     if text is not None:
         return _native.compile(text, name_of(source), allow_outside=allow_outside)

@@ -139,3 +139,12 @@ def test_a_loaded_scenario_brings_no_curriculum() -> None:
     with pytest.raises(setpiece.ParameterError, match="no curriculum is called `paid`") as caught:
         setpiece.make_vec(setpiece.load(TEXT), 2, levels="paid")
     assert "give the file or the text" in str(caught.value.help)
+
+
+@pytest.mark.parametrize("level", ["academy_corner#1", "academy_corner{difficulty=0.8}#12:3"])
+def test_a_level_is_no_scenario(level: str) -> None:
+    with pytest.raises(
+        setpiece.ParameterError, match="is a level, one episode of `academy_corner`"
+    ) as why:
+        setpiece.make(level)
+    assert "reset(options={'level': ...})" in str(why.value)

@@ -27,6 +27,7 @@ mod test;
 
 use crate::Error;
 use crate::dsl::problem::Code;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand, ValueEnum};
 use common::{ColourChoice, FAULT, FINE, MessageFormat};
 use out::{Out, StyledText};
@@ -189,7 +190,7 @@ pub(crate) enum BuildFormat {
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match Args::try_parse_from(arguments) {
         Ok(args) => run(args),
-        Err(error) => {
+        Err(mut error) => {
             // What an argument names may have a code of its own.
             let fault =
                 std::error::Error::source(&error).and_then(<dyn std::error::Error>::downcast_ref);
@@ -197,10 +198,25 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
                 Out::new(ColourChoice::Auto, false).error(fault);
                 return FAULT;
             }
+            beside(&mut error);
             // Help and version also come this way; if they can't be printed, nothing can.
             let _ = error.print();
             error.exit_code() as u8
         }
+    }
+}
+
+/// Adds how two agents are compared to the report that one was given already.
+fn beside(error: &mut clap::Error) {
+    let is_agent = |value: &ContextValue| matches!(value, ContextValue::String(name) if name.starts_with("--agent"));
+    let is_twice = error.kind() == ErrorKind::ArgumentConflict
+        && [ContextKind::InvalidArg, ContextKind::PriorArg]
+            .iter()
+            .all(|kind| error.get(*kind).is_some_and(is_agent));
+    if is_twice {
+        let tip = "`setpiece run --agent A --beside B` plays the same episodes with both";
+        let tip = ContextValue::StyledStrs(vec![tip.into()]);
+        error.insert(ContextKind::Suggested, tip);
     }
 }
 

@@ -125,6 +125,35 @@ fn a_suite_is_a_table_with_a_row_for_each_entry() {
 }
 
 #[test]
+fn a_run_plays_what_is_named_and_says_what_else_stands_there() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = "scenario drill extends academy_empty_goal_close {}\n\
+        suite near { drill for 2 episodes }\nsuite far { academy_empty_goal for 2 episodes }\n\
+        curriculum learn { stage one = drill until episodes > 9 }\n";
+    std::fs::write(dir.path().join("all.pitch"), text).unwrap();
+    let run = |more: &[&str]| {
+        let args = [&["run", "all.pitch"], more].concat();
+        setpiece(dir.path(), &args)
+    };
+    let (code, out, err) = run(&["--episodes", "2"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(out.contains("2 episodes · agent bot"), "{out}");
+    assert!(err.contains("the suites `near`, `far` too: `--scenario near` plays one"), "{err}");
+    let (code, out, err) = run(&["--scenario", "far"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(out.contains("academy_empty_goal") && !out.contains("near"), "{out}");
+    let (code, _, err) = run(&["--scenario", "fr"]);
+    assert_eq!(code, Some(1));
+    assert!(err.contains("SP0214") && err.contains("`fr`"), "{err}");
+    let (code, _, err) = run(&["--scenario", "learn"]);
+    assert_eq!(code, Some(1));
+    assert!(err.contains("SP0020") && err.contains("levels=\"learn\""), "{err}");
+    let (code, _, err) = run(&["--agent", "random", "--agent", "bot"]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("--beside"), "{err}");
+}
+
+#[test]
 fn a_file_of_suites_alone_needs_no_scenario() {
     let dir = tempfile::tempdir().unwrap();
     for (suite, problems) in [

@@ -15,11 +15,11 @@ use crate::error::FileFault;
 #[cfg(feature = "render")]
 use crate::files::{refuse_overwriting, write};
 use crate::live::Live;
-use crate::plans::{library_plans, load_plans};
+use crate::plans::{LoadedPlans, library_plans, load_plans};
 #[cfg(feature = "render")]
 use crate::plot;
 use crate::run::{RunOptions, Summary, faulty_rewards, first_error, run, summarise};
-use crate::scenario::plan::{PlannedEpisodes, Played, Suite};
+use crate::scenario::plan::{PlannedEpisodes, Plans, Played, Suite};
 use crate::scenario::{Bindings, Scenario};
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
@@ -133,7 +133,8 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
         Ok(loaded) => loaded,
         Err(error) if args.playing.level.is_some() => return Err(error),
         Err(error) => {
-            return run_suites(&suites_of(args.playing.source(), error, out)?, args, out);
+            let (source, wanted) = (args.playing.source(), args.playing.wanted());
+            return run_plans(&plans_of(source, wanted, error, out)?, args, out);
         }
     };
     out.warnings(&loaded);
@@ -165,9 +166,11 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     {
         return Err(error);
     }
-    match args.format {
-        RunFormat::Json => out.line(summary::json(&loaded.scenario, &options, &summary)),
-        _ => summary::print(&loaded.scenario, &options, &summary, out)?,
+    if args.format == RunFormat::Json {
+        out.line(summary::json(&loaded.scenario, &options, &summary));
+    } else {
+        summary::print(&loaded.scenario, &options, &summary, out)?;
+        other_plans(args, out);
     }
     if let Some(error) = first_error(&summary) {
         out.error(&error);
@@ -176,11 +179,26 @@ pub(crate) fn run_command(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     Ok(FINE)
 }
 
-/// The suites that a name stands for; the error is why it stands for no scenario.
-fn suites_of(name: &OsStr, error: Error, out: &Out) -> Result<Vec<Suite>, Error> {
+/// Says which suites stand in the file of a scenario that was played without being named.
+fn other_plans(args: &RunArgs, out: &Out) {
+    if args.playing.wanted().is_some() || args.playing.level.is_some() {
+        return;
+    }
+    let Ok(loaded) = load_plans(Path::new(args.playing.source()), &out.loading()) else { return };
+    let names: Vec<_> = loaded.plans.suites.iter().map(|it| it.name.as_str()).collect();
+    if let [name, ..] = names[..] {
+        let (s, it) = if names.len() == 1 { ("", "it") } else { ("s", "one") };
+        let all = names.join("`, `");
+        out.note(format!("the file has the suite{s} `{all}` too: `--scenario {name}` plays {it}"));
+    }
+}
+
+/// The plans that a name stands for; the error is why it stands for no scenario. `wanted`: which
+/// plan of a file, if not all.
+fn plans_of(name: &OsStr, wanted: Option<&str>, error: Error, out: &Out) -> Result<Plans, Error> {
     let mut library = library_plans()?.suites;
     if let Some(at) = library.iter().position(|suite| name == suite.name.as_str()) {
-        return Ok(vec![library.swap_remove(at)]);
+        return Ok(Plans { suites: vec![library.swap_remove(at)], ..Plans::default() });
     }
     match error {
         Error::Unknown { name, similar: None } => {
@@ -189,7 +207,12 @@ fn suites_of(name: &OsStr, error: Error, out: &Out) -> Result<Vec<Suite>, Error>
         }
         Error::Compile(failure) if failure.lacks_scenario() => {
             match load_plans(Path::new(name), &out.loading()) {
-                Ok(loaded) if !loaded.plans.suites.is_empty() => Ok(loaded.plans.suites),
+                Ok(LoadedPlans { mut plans, .. }) => {
+                    plans.suites.retain(|it| wanted.is_none_or(|name| it.name == name));
+                    plans.curricula.retain(|it| wanted.is_none_or(|name| it.name == name));
+                    let has_some = !plans.suites.is_empty() || !plans.curricula.is_empty();
+                    if has_some { Ok(plans) } else { Err(Error::Compile(failure)) }
+                }
                 // With suites no scenario is needed: what is wrong is something else.
                 Err(Error::Compile(wrong)) if !wrong.lacks_scenario() => Err(Error::Compile(wrong)),
                 _ => Err(Error::Compile(failure)),
@@ -199,7 +222,15 @@ fn suites_of(name: &OsStr, error: Error, out: &Out) -> Result<Vec<Suite>, Error>
     }
 }
 
-fn run_suites(suites: &[Suite], args: &RunArgs, out: &Out) -> Result<u8, Error> {
+/// Plays all suites; a curriculum is played by a training alone.
+fn run_plans(plans: &Plans, args: &RunArgs, out: &Out) -> Result<u8, Error> {
+    if let ([], Some(curriculum)) = (&plans.suites[..], plans.curricula.first()) {
+        let name = &curriculum.name;
+        let message = format!("`{name}` is a curriculum, which a training plays");
+        let help = format!("in Python: `setpiece.make_vec(SCENARIO, 64, levels=\"{name}\")`");
+        out.fault(&Code::NoPlans.to_string(), &message, Some(&help));
+        return Ok(FAULT);
+    }
     if let Some(option) = args.foreign_to_suites() {
         let message =
             format!("`{option}` has no effect on a suite: its entries say what is played");
@@ -211,7 +242,7 @@ fn run_suites(suites: &[Suite], args: &RunArgs, out: &Out) -> Result<u8, Error> 
         physics: args.playing.physics(),
         ..EnvironmentOptions::default()
     };
-    for suite in suites {
+    for suite in &plans.suites {
         run_suite(suite, &environment, args, out)?;
     }
     Ok(FINE)
@@ -329,8 +360,9 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
                 .map_err(Error::Environment)?;
             let summary = summarise(played, &environment, 0.0);
             let faulty = faulty_rewards(&scenario, &options, &summary)?;
-            summary::means(&summary, &faulty, summary::WIDTH, out);
-            summary::unclear(&scenario, &options, summary::WIDTH, out)?;
+            let width = summary::outcomes(&scenario, &summary, out);
+            summary::means(&summary, &faulty, width, out);
+            summary::unclear(&scenario, &options, width, out)?;
         }
         out.line(StyledText::default().dim("waiting for a change; Ctrl-C ends"));
         let mut is_missing = false;

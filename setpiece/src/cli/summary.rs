@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Width of the first column.
-pub(crate) const WIDTH: usize = 11;
+const WIDTH: usize = 11;
 /// Width of the bars.
 const BAR: usize = 30;
 
@@ -119,20 +119,7 @@ pub(crate) fn print(
         n => format!("  {n} episodes · agent {agent} · seed {}", options.seed),
     });
     out.line("");
-    let outcomes = outcomes_of(scenario, summary);
-    let width =
-        outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(WIDTH);
-    for (label, verdict, count) in outcomes {
-        let share = f64::from(count) / summary.episodes.len() as f64;
-        let bar = "█".repeat((share * BAR as f64).round() as usize);
-        let (word, paint) = match verdict {
-            Some(Verdict::Success) => ("success", Paint::Success),
-            Some(Verdict::Failure) => ("failure", Paint::Failure),
-            None => ("", Paint::Plain),
-        };
-        let head = format!("  {label:width$}  {word:7}  {count:>5}  {:>5.1} %  ", 100.0 * share);
-        out.line(StyledText::from(head).paint(&bar, paint));
-    }
+    let width = outcomes(scenario, summary, out);
     out.line("");
     means(summary, &faulty_rewards(scenario, options, summary)?, width, out);
     unclear(scenario, options, width, out)?;
@@ -150,6 +137,25 @@ pub(crate) fn print(
     }
     out.line(format!("  {:width$}  {:.0} steps per second", "speed", summary.steps_per_second));
     Ok(())
+}
+
+/// Prints how often each ending came, and returns the width of the first column.
+pub(crate) fn outcomes(scenario: &Scenario, summary: &Summary, out: &Out) -> usize {
+    let outcomes = outcomes_of(scenario, summary);
+    let width =
+        outcomes.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0).max(WIDTH);
+    for (label, verdict, count) in outcomes {
+        let share = f64::from(count) / summary.episodes.len() as f64;
+        let bar = "█".repeat((share * BAR as f64).round() as usize);
+        let (word, paint) = match verdict {
+            Some(Verdict::Success) => ("success", Paint::Success),
+            Some(Verdict::Failure) => ("failure", Paint::Failure),
+            None => ("", Paint::Plain),
+        };
+        let head = format!("  {label:width$}  {word:7}  {count:>5}  {:>5.1} %  ", 100.0 * share);
+        out.line(StyledText::from(head).paint(&bar, paint));
+    }
+    width
 }
 
 /// Prints which numbers of the scenario's own observation could not be computed.

@@ -51,7 +51,7 @@ pub use links::FileLink;
 pub use names::{NamePlaces, RenameError};
 pub use outline::{Symbol, SymbolKind};
 pub use place::FilePlace;
-pub use preview::Preview;
+pub use preview::{PlacedThing, Preview, StartPicture};
 pub use report::TextReport;
 pub use signature::Signature;
 pub use tokens::{Token, TokenKind};

@@ -6,6 +6,7 @@ mod answers;
 mod convert;
 mod library;
 mod looks;
+mod start;
 
 use crate::editor::Workspace;
 use convert::{path_of, range_of, read};

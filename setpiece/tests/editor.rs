@@ -467,11 +467,11 @@ fn the_preview_follows_the_cursor() {
     workspace.set(&attack, &text);
     let first = workspace.preview(&attack, behind(&text, "ball at (0.5")).expect("a scenario");
     assert_eq!(first.scenario, "attack");
-    let svg = first.picture.expect("a picture");
+    let svg = first.picture.expect("a picture").svg;
     assert!(svg.starts_with("<svg") && svg.contains(">striker</text>"), "{svg}");
     let last = workspace.preview(&attack, text.len()).expect("a scenario");
     assert_eq!(last.scenario, "other");
-    let dots = last.picture.expect("a picture").matches("fill-opacity=\"0.45\"").count();
+    let dots = last.picture.expect("a picture").svg.matches("fill-opacity=\"0.45\"").count();
     assert_eq!(dots, 9 + 1, "nine other places of the player, one of the ball");
     workspace.set(&attack, "scenario broken {");
     assert!(workspace.preview(&attack, 0).is_none_or(|it| it.picture.is_err()));

@@ -1,10 +1,9 @@
-//! How a text looks in an editor: problems, outline, folds, colours, hints, lenses, the picture.
+//! How a text looks in an editor: problems, outline, folds, colours, hints, lenses.
 
 use super::LanguageServer;
 use super::answers::{Answer, symbol_kind};
 use super::convert::{OfText, WithinText, bytes_of, offset_of, range_by, range_of};
 use crate::dsl::problem::Severity;
-use crate::editor::text::Lines;
 use crate::editor::{Analysis, FoldedKind, LensKind, Symbol, TextReport, TokenKind};
 use gen_lsp_types as lsp;
 use serde::Deserialize;
@@ -27,13 +26,6 @@ pub(super) const TOKEN_KINDS: [(TokenKind, &str); 7] = [
 pub(super) struct Positions {
     text_document: lsp::TextDocumentIdentifier,
     positions: Vec<lsp::Position>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub(super) struct PreviewOf {
-    text_document: lsp::TextDocumentIdentifier,
-    position: Option<lsp::Position>,
 }
 
 impl LanguageServer {
@@ -194,17 +186,6 @@ impl LanguageServer {
                 json!({ "range": range, "command": command })
             })
             .collect())
-    }
-
-    /// The picture of a start: `{ scenario, svg }`, or `{ scenario, message }`; null without a
-    /// scenario.
-    pub(super) fn preview(&mut self, asked: PreviewOf) -> Answer {
-        let (path, text) = self.text(&asked.text_document.uri)?;
-        let at = asked.position.map_or(text.len(), |at| offset_of(&Lines::of(&text), &text, at));
-        Ok(self.workspace.preview(&path, at).map_or(Value::Null, |it| match it.picture {
-            Ok(svg) => json!({ "scenario": it.scenario, "svg": svg }),
-            Err(message) => json!({ "scenario": it.scenario, "message": message }),
-        }))
     }
 }
 

@@ -1,0 +1,135 @@
+//! Where a place is written: the statement of the scenario's own text that gives it.
+
+use crate::Loaded;
+use crate::dsl::ast::{
+    ItemKind, Place, PlayerStmt, ScenarioItem, ScenarioStmtKind, Span, TeamStmt, TeamStmtKind,
+};
+use crate::dsl::parse::parse;
+use crate::scenario::{PlayerSlot, Team};
+use std::ops::Range;
+
+/// What gives a player or the ball its place.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Statement {
+    /// The place in the text, if one is written.
+    pub(super) place: Option<Range<usize>>,
+    /// Whether the place is drawn around what is written.
+    pub(super) is_jittered: bool,
+    /// Whether points are of the team's own frame without the word `own`: in a formation.
+    is_own: bool,
+    /// Whether the team's own frame is turned: that of the team which is written as the right one.
+    is_right: bool,
+    /// What the scenario's mirror does to the axes.
+    mirror: [f64; 2],
+}
+
+impl Statement {
+    /// The statement of a player, or of the ball.
+    ///
+    /// # Errors
+    /// A sentence for the user, if it isn't in the scenario's own text.
+    pub(super) fn of(
+        loaded: &Loaded,
+        player: Option<(usize, &PlayerSlot)>,
+    ) -> Result<Statement, String> {
+        let elsewhere = || "this place isn't written in this file".to_owned();
+        let (file, source) = loaded.sources.iter().next().ok_or_else(elsewhere)?;
+        let tree = parse(source, file, &mut Vec::new());
+        let items = || tree.items.iter();
+        let own = items().find_map(|item| match &item.kind {
+            ItemKind::Scenario(it) if Some(it.name.span) == loaded.origin => Some(it),
+            _ => None,
+        });
+        let own = own.ok_or_else(elsewhere)?;
+        let mirror = loaded.origins.mirror.map_or("", |word| loaded.sources.text(word));
+        let (mirror, are_swapped) = match mirror {
+            "flanks" => ([1.0, -1.0], false),
+            "ends" => ([-1.0, -1.0], true),
+            _ => ([1.0, 1.0], false),
+        };
+        let written_right = |slot: &PlayerSlot| (slot.team == Team::Right) != are_swapped;
+        let is_right = player.is_some_and(|(_, slot)| written_right(slot));
+        let whole = |place: Option<&Place>, is_jittered: bool, is_own: bool| Statement {
+            place: place.map(|it| it.span.start as usize..it.span.end as usize),
+            is_jittered,
+            is_own,
+            is_right,
+            mirror,
+        };
+        if let Some((_, slot)) = player
+            && let Some(change) = overriding(own, slot, is_right)
+        {
+            return Ok(whole(change.place.as_ref(), change.jitter.is_some(), false));
+        }
+        let span = match player {
+            Some((index, _)) => loaded.origins.players.get(index).copied(),
+            None => loaded.origins.ball,
+        };
+        let span = span.filter(|span| !loaded.sources.text(*span).is_empty());
+        let span = span.ok_or_else(elsewhere)?;
+        if span.file != file {
+            let name = loaded.sources.get(span.file).map_or("", |source| source.name.as_str());
+            return Err(format!("this place isn't written in this file, but in `{name}`"));
+        }
+        let item = items().find(|item| item.span.holds(span)).ok_or_else(elsewhere)?;
+        match &item.kind {
+            ItemKind::Scenario(it) if std::ptr::eq(it, own) => {
+                let found = it.body.iter().find_map(|stmt| match &stmt.kind {
+                    ScenarioStmtKind::Ball(ball) if stmt.span == span => {
+                        Some(whole(Some(&ball.place), ball.jitter.is_some(), false))
+                    }
+                    ScenarioStmtKind::Team { body, .. } => player_at(body, span)
+                        .map(|it| whole(it.place.as_ref(), it.jitter.is_some(), false)),
+                    _ => None,
+                });
+                found.ok_or_else(elsewhere)
+            }
+            ItemKind::Scenario(it) => Err(format!(
+                "this place is inherited from `{}`: move it there, or write it in `{}`",
+                it.name.node, own.name.node
+            )),
+            ItemKind::Formation(it) => {
+                let found = player_at(&it.body, span);
+                let found = found.map(|it| whole(it.place.as_ref(), it.jitter.is_some(), true));
+                found.ok_or_else(elsewhere)
+            }
+            _ => Err(elsewhere()),
+        }
+    }
+
+    /// What makes metres of the world of those that are written, along and across the pitch.
+    ///
+    /// `is_own`: whether the word `own` stands before the point.
+    pub(super) fn signs(&self, is_own: bool) -> [f64; 2] {
+        let turn = if (is_own || self.is_own) && self.is_right { -1.0 } else { 1.0 };
+        self.mirror.map(|sign| sign * turn)
+    }
+}
+
+/// The `place NAME …` of the scenario that gives a player another place, the last if several do.
+fn overriding<'a>(
+    own: &'a ScenarioItem,
+    slot: &PlayerSlot,
+    is_right: bool,
+) -> Option<&'a PlayerStmt> {
+    let written = if is_right { Team::Right } else { Team::Left };
+    let bodies = own.body.iter().filter_map(|stmt| match &stmt.kind {
+        ScenarioStmtKind::Team { team, body } if team.node == written.name() => Some(body),
+        _ => None,
+    });
+    let changes = bodies.flatten().filter_map(|stmt| match &stmt.kind {
+        TeamStmtKind::Override { who, change } => Some((who.node.as_str(), change)),
+        _ => None,
+    });
+    let is_meant = |who: &str| slot.name.as_deref() == Some(who) || slot.role.name() == who;
+    let placed = changes.filter(|(who, change)| is_meant(who) && change.place.is_some());
+    placed.last().map(|(_, change)| change)
+}
+
+/// The statement of a player at a place of the text.
+fn player_at(body: &[TeamStmt], span: Span) -> Option<&PlayerStmt> {
+    body.iter().find_map(|stmt| match &stmt.kind {
+        TeamStmtKind::Player(player) if stmt.span == span => Some(player),
+        _ => None,
+    })
+}

@@ -93,15 +93,15 @@ impl HeldThing {
         };
         let place = statement.place.clone().ok_or_else(computed)?;
         let written = Written::of(text, place).ok_or_else(computed)?;
-        let signs = statement.signs(written.is_own);
+        let scale = statement.scale(&written, &self.pitch);
         let metres = written.metres(text).ok_or_else(computed)?;
-        let strays = [0, 1].map(|axis| self.from[axis] - metres[axis] * signs[axis]);
+        let strays = [0, 1].map(|axis| self.from[axis] - metres[axis] * scale[axis]);
         if !statement.is_jittered && strays.iter().any(|stray| stray.abs() > NEAR_M) {
             return Err(computed());
         }
         // Who is jittered is moved by as much as they were dragged: the same draw puts them there.
         let strays = if statement.is_jittered { strays } else { [0.0; 2] };
-        Ok(written.with([0, 1].map(|axis| (to[axis] - strays[axis]) * signs[axis])))
+        Ok(written.with([0, 1].map(|axis| (to[axis] - strays[axis]) / scale[axis])))
     }
 
     fn slot<'a>(&self, loaded: &'a Loaded) -> Option<(usize, &'a PlayerSlot)> {

@@ -1,10 +1,11 @@
 //! A place as two numbers in a text, and the numbers rewritten in their own unit.
 
 use super::NewNumber;
+use crate::scenario::pitch::{X_SCALE_M, Y_SCALE_M};
 use std::ops::Range;
 
-/// Metres of a normalised 1, along and across the pitch. (GRF's.)
-const NORMALISED_M: [f64; 2] = [54.4, 83.6];
+/// Metres of a normalised 1, along and across the pitch.
+const NORMALISED_M: [f64; 2] = [X_SCALE_M, Y_SCALE_M];
 
 /// Two numbers in a text.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,7 +13,7 @@ pub(super) struct Written {
     /// Where the numbers stand, with their units.
     numbers: [Range<usize>; 2],
     /// Whether they are metres.
-    is_metres: bool,
+    pub(super) is_metres: bool,
     /// Whether the word `own` stands before them.
     pub(super) is_own: bool,
 }
@@ -86,9 +87,19 @@ struct Cursor<'a> {
 }
 
 impl Cursor<'_> {
+    /// Goes past blanks and comments.
     fn skip(&mut self) {
-        let rest = &self.text[self.at..];
-        self.at += rest.len() - rest.trim_start().len();
+        loop {
+            let rest = &self.text[self.at..];
+            self.at += rest.len() - rest.trim_start().len();
+            let rest = &self.text[self.at..];
+            let end = match rest.get(..2) {
+                Some("//") => rest.find('\n'),
+                Some("/*") => rest.find("*/").map(|at| at + 2),
+                _ => return,
+            };
+            self.at += end.unwrap_or(rest.len());
+        }
     }
 
     /// Goes past a sign or word, if it stands here.
@@ -152,6 +163,9 @@ mod tests {
             to("ball at (0, 0) { height: 2m }", [5.44, 0.0]).unwrap(),
             "ball at (0.1, 0) { height: 2m }"
         );
+        let within = "at /* a */ (1, // x\n2) // y";
+        let written = Written::of(within, 0..within.len()).unwrap();
+        assert_eq!(rewritten(within, &written.with([0.0; 2])), "at /* a */ (0, // x\n0) // y");
         assert_eq!(to("CM at (5m, 5m)", [-0.04, -0.0]).unwrap(), "CM at (0m, 0m)");
     }
 

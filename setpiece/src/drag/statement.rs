@@ -1,11 +1,12 @@
 //! Where a place is written: the statement of the scenario's own text that gives it.
 
+use super::numbers::Written;
 use crate::Loaded;
 use crate::dsl::ast::{
     ItemKind, Place, PlayerStmt, ScenarioItem, ScenarioStmtKind, Span, TeamStmt, TeamStmtKind,
 };
 use crate::dsl::parse::parse;
-use crate::scenario::{PlayerSlot, Team};
+use crate::scenario::{PitchSize, PlayerSlot, Team};
 use std::ops::Range;
 
 /// What gives a player or the ball its place.
@@ -97,12 +98,18 @@ impl Statement {
         }
     }
 
-    /// What makes metres of the world of those that are written, along and across the pitch.
-    ///
-    /// `is_own`: whether the word `own` stands before the point.
-    pub(super) fn signs(&self, is_own: bool) -> [f64; 2] {
-        let turn = if (is_own || self.is_own) && self.is_right { -1.0 } else { 1.0 };
-        self.mirror.map(|sign| sign * turn)
+    /// By what written metres are multiplied to be those of the world, along and across the pitch.
+    pub(super) fn scale(&self, written: &Written, pitch: &PitchSize) -> [f64; 2] {
+        let is_turned = (written.is_own || self.is_own) && self.is_right;
+        let turn = if is_turned { -1.0 } else { 1.0 };
+        // In a formation, what has no unit is stretched over the pitch.
+        let usual = PitchSize::USUAL;
+        let stretch = if self.is_own && !written.is_metres {
+            [pitch.half_length() / usual.half_length(), pitch.half_width() / usual.half_width()]
+        } else {
+            [1.0; 2]
+        };
+        [0, 1].map(|axis| turn * stretch[axis] * self.mirror[axis])
     }
 }
 

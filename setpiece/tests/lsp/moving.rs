@@ -204,7 +204,10 @@ fn a_pitch_of_another_size_keeps_the_scale_and_has_its_own_rim() {
     let text = text.replace("CB in right.box", "CB in right.box { overlap: allowed }");
     let mut drawn = Drawn::open(&text, "scenario drawn");
     assert_eq!(drawn.drawn["view"], json!([-34.5, -24.5, 69.0, 49.0]));
-    drawn.lands("stopper", [5.44, -16.72], ["-0.5", "0.1"], "stopper: CB at (-0.1, 0.2)");
+    // Numbers of a formation are stretched over the pitch.
+    let to = [5.44 * 60.0 / 110.0, -16.72 * 40.0 / 72.0];
+    drawn.lands("stopper", to, ["-0.5", "0.1"], "stopper: CB at (-0.1, 0.2)");
+    drawn.lands("emma", [15.0, 10.0], ["20m", "15m"], "emma: RB at (15m, 10m)");
     let (after, _) = drawn.moved("ball", [99.0, -99.0]);
     assert_eq!(after, text.replacen("(10m, 0m)", "(30m, -20m)", 1));
 }

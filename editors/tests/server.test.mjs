@@ -139,3 +139,16 @@ test("who is dragged in the picture changes the two numbers of the text", async 
   assert.match(await editor.drag(drill, again, inFormation.name, [0, 0]), /shapes\.pitch/);
   assert.equal(editor.text(drill), after);
 });
+
+test("what drawn starts show comes later, and goes with the next change", async () => {
+  const sound = editor.text(drill);
+  const drawn = "let x = uniform(0, 1)\n    require x < 0.2\n    ball at (0.02, 0)";
+  await editor.write(drill, sound.replace("ball at (0.02, 0)", drawn));
+  const [note, ...others] = await editor.diagnostics(drill, (found) => found.length > 0);
+  assert.deepEqual(others, []);
+  assert.equal(note.severity, 3);
+  assert.match(note.message, /^refuses \d\d% of the starts that are drawn\. /);
+  assert.deepEqual(note.range.start, editor.position(drill, "x < 0.2"));
+  await editor.write(drill, sound);
+  await editor.diagnostics(drill, NONE);
+});

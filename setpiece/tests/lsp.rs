@@ -6,6 +6,8 @@
     reason = "a test fails by panicking"
 )]
 
+#[path = "lsp/late.rs"]
+mod late;
 #[path = "lsp/moving.rs"]
 mod moving;
 
@@ -73,15 +75,19 @@ impl Client {
 
     /// The diagnostics that are sent now, by address.
     fn published(&mut self) -> Vec<(String, Vec<Value>)> {
-        let of = |message: Message| match message {
-            Message::Notification(note) => (
-                note.params["uri"].as_str().unwrap().to_owned(),
-                note.params["diagnostics"].as_array().unwrap().clone(),
-            ),
-            other => panic!("{other:?}"),
-        };
-        self.server.publish().into_iter().map(of).collect()
+        diagnostics_of(self.server.publish())
     }
+}
+
+fn diagnostics_of(messages: Vec<Message>) -> Vec<(String, Vec<Value>)> {
+    let of = |message: Message| match message {
+        Message::Notification(note) => (
+            note.params["uri"].as_str().unwrap().to_owned(),
+            note.params["diagnostics"].as_array().unwrap().clone(),
+        ),
+        other => panic!("{other:?}"),
+    };
+    messages.into_iter().map(of).collect()
 }
 
 /// The line and column behind some words.

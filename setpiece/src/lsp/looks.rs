@@ -4,7 +4,7 @@ use super::LanguageServer;
 use super::answers::{Answer, symbol_kind};
 use super::convert::{OfText, WithinText, bytes_of, offset_of, range_by, range_of};
 use crate::dsl::problem::Severity;
-use crate::editor::{Analysis, FoldedKind, LensKind, Symbol, TextReport, TokenKind};
+use crate::editor::{Analysis, FilePlace, FoldedKind, LensKind, Symbol, TextReport, TokenKind};
 use gen_lsp_types as lsp;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -31,13 +31,6 @@ pub(super) struct Positions {
 impl LanguageServer {
     /// A report as the protocol has it; `text`: the text of its file.
     pub(super) fn diagnostic(&self, report: &TextReport, text: &str) -> Value {
-        let related: Vec<Value> = report
-            .related
-            .iter()
-            .filter_map(|(place, words)| {
-                Some(json!({ "location": self.location(place)?, "message": words }))
-            })
-            .collect();
         let message = match &report.help {
             Some(help) => format!("{}\nhelp: {help}", report.message),
             None => report.message.clone(),
@@ -55,9 +48,17 @@ impl LanguageServer {
             "codeDescription": { "href": format!("{}/errors/{code}/", crate::DOCS) },
             "source": "setpiece",
             "message": message,
-            "relatedInformation": related,
+            "relatedInformation": self.related(&report.related),
             "tags": if is_unused { vec![1] } else { Vec::new() },
         })
+    }
+
+    /// Further places as the protocol has them.
+    pub(super) fn related(&self, places: &[(FilePlace, String)]) -> Value {
+        let shown = |(place, words): &(FilePlace, String)| {
+            Some(json!({ "location": self.location(place)?, "message": words }))
+        };
+        places.iter().filter_map(shown).collect()
     }
 
     pub(super) fn symbols(&mut self, asked: OfText) -> Answer {

@@ -40,12 +40,12 @@ impl Workspace {
     /// `goes_on`: whether somebody does; asked before each scenario.
     pub fn probed(&mut self, path: &Path, goes_on: &dyn Fn() -> bool) -> Option<StartFindings> {
         let mut findings = StartFindings::default();
-        if !is_scenario(path) || is_in_library(path) || !goes_on() {
-            return goes_on().then_some(findings);
+        let is_ours = is_scenario(path) && !is_in_library(path);
+        if !goes_on() {
+            return None;
         }
-        let Some(analysis) = self.analysis(path).filter(|it| it.errors() == 0) else {
-            return Some(findings);
-        };
+        let analysis = if is_ours { self.analysis(path) } else { None };
+        let Some(analysis) = analysis.filter(|it| it.errors() == 0) else { return Some(findings) };
         for item in &analysis.tree.items {
             let ItemKind::Scenario(scenario) = &item.kind else { continue };
             if scenario.is_abstract {

@@ -10,7 +10,7 @@ use std::time::Duration;
 /// How often work beside the conversation is looked at.
 const LOOK: Duration = Duration::from_millis(10);
 /// Longer than an editor is silent.
-const NEVER: Duration = Duration::from_hours(24);
+const NEVER: Duration = Duration::from_secs(86_400);
 
 /// Serves one editor until it leaves; gives the exit code.
 ///
@@ -76,16 +76,14 @@ impl LateThread {
 
     /// What is to be sent of what was found; begins what is to be done.
     fn turn(&mut self, server: &mut LanguageServer) -> Vec<Message> {
-        match self.running.take_if(|thread| thread.is_finished()) {
+        if let Some(thread) = self.running.take_if(|thread| thread.is_finished()) {
             // Work that panics has found nothing.
-            Some(thread) => thread.join().map(|found| server.settle(&found)).unwrap_or_default(),
-            None => {
-                if self.running.is_none() {
-                    self.running = server.later().map(|work| spawn(|| work.run()));
-                }
-                Vec::new()
-            }
+            return thread.join().map(|found| server.settle(&found)).unwrap_or_default();
         }
+        if self.running.is_none() {
+            self.running = server.later().map(|work| spawn(|| work.run()));
+        }
+        Vec::new()
     }
 }
 

@@ -40,7 +40,7 @@ impl Written {
         rest.skip();
         // `(1m, 2m) + (3m, 0m)` is computed.
         let is_whole = is_plain && rest.at == place.end;
-        is_whole.then(|| Written { numbers: [first, second], is_metres: first_metres, is_own })
+        is_whole.then_some(Written { numbers: [first, second], is_metres: first_metres, is_own })
     }
 
     /// What they say, metres.

@@ -129,8 +129,8 @@ fn overriding<'a>(
         _ => None,
     });
     let is_meant = |who: &str| slot.name.as_deref() == Some(who) || slot.role.name() == who;
-    let placed = changes.filter(|(who, change)| is_meant(who) && change.place.is_some());
-    placed.last().map(|(_, change)| change)
+    let mut placed = changes.filter(|(who, change)| is_meant(who) && change.place.is_some());
+    placed.next_back().map(|(_, change)| change)
 }
 
 /// The statement of a player at a place of the text.

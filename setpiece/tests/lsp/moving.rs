@@ -40,7 +40,7 @@ scenario last extends base { ball at (0, 0) }
 struct Drawn {
     client: Client,
     text: String,
-    drawn: Value,
+    picture: Value,
 }
 
 impl Drawn {
@@ -55,20 +55,20 @@ impl Drawn {
         let line = before.matches('\n').count();
         let place = json!({ "line": line, "character": 0 });
         let asked = json!({ "textDocument": { "uri": URI }, "position": place });
-        let drawn = client.result("setpiece/preview", asked);
-        Drawn { client, text: text.to_owned(), drawn }
+        let picture = client.result("setpiece/preview", asked);
+        Drawn { client, text: text.to_owned(), picture }
     }
 
     fn thing(&self, name: &str) -> Value {
-        let things = self.drawn["things"].as_array().expect("a picture");
+        let things = self.picture["things"].as_array().expect("a picture");
         things.iter().find(|it| it["name"] == name).expect(name).clone()
     }
 
     /// What the server answers if somebody is dragged.
     fn drag(&mut self, name: &str, to: [f64; 2]) -> Value {
         let asked = json!({
-            "textDocument": { "uri": URI, "version": self.drawn["version"] },
-            "scenario": self.drawn["scenario"], "player": self.thing(name)["player"], "to": to,
+            "textDocument": { "uri": URI, "version": self.picture["version"] },
+            "scenario": self.picture["scenario"], "player": self.thing(name)["player"], "to": to,
         });
         self.client.result("setpiece/move", asked)
     }
@@ -77,7 +77,7 @@ impl Drawn {
     /// numbers that were replaced.
     fn moved(&mut self, name: &str, to: [f64; 2]) -> (String, Vec<String>) {
         let answer = self.drag(name, to);
-        assert_eq!(answer["version"], self.drawn["version"], "{answer}");
+        assert_eq!(answer["version"], self.picture["version"], "{answer}");
         let edits = answer["edits"].as_array().expect("edits");
         let units: Vec<u16> = self.text.encode_utf16().collect();
         let newline = u16::from(b'\n');
@@ -109,7 +109,7 @@ impl Drawn {
             text.lines().find(|line| line.contains(wanted)).map(str::to_owned)
         };
         assert!(line(&text, instead).is_some(), "{name}: no {instead} in\n{text}");
-        let scenario = self.drawn["scenario"].as_str().unwrap();
+        let scenario = self.picture["scenario"].as_str().unwrap();
         let after = Drawn::open(&text, &format!("scenario {scenario}"));
         let at = [0, 1].map(|axis| after.thing(name)["at"][axis].as_f64().unwrap());
         let far = (at[0] - to[0]).hypot(at[1] - to[1]);
@@ -126,7 +126,7 @@ impl Drawn {
 #[test]
 fn who_is_dragged_lands_where_they_are_dropped() {
     let mut drawn = Drawn::open(SEVERAL, "scenario drawn");
-    assert_eq!(drawn.drawn["scenario"], "drawn");
+    assert_eq!(drawn.picture["scenario"], "drawn");
     drawn.lands("ball", [12.34, -5.0], ["10m", "0m"], "    ball at (12.3m, -5m)");
     // Of a jitter, the middle moves by as much as the player.
     let [x, y] = [0, 1].map(|axis| drawn.thing("bert")["at"][axis].as_f64().unwrap());
@@ -203,7 +203,7 @@ fn a_pitch_of_another_size_keeps_the_scale_and_has_its_own_rim() {
     let text = text.replace("GK at (-1, 0)", "GK at (-0.5, 0)").replace("(30m, 20m)", "(20m, 15m)");
     let text = text.replace("CB in right.box", "CB in right.box { overlap: allowed }");
     let mut drawn = Drawn::open(&text, "scenario drawn");
-    assert_eq!(drawn.drawn["view"], json!([-34.5, -24.5, 69.0, 49.0]));
+    assert_eq!(drawn.picture["view"], json!([-34.5, -24.5, 69.0, 49.0]));
     // Numbers of a formation are stretched over the pitch.
     let to = [5.44 * 60.0 / 110.0, -16.72 * 40.0 / 72.0];
     drawn.lands("stopper", to, ["-0.5", "0.1"], "stopper: CB at (-0.1, 0.2)");
@@ -222,16 +222,16 @@ fn only_the_text_that_was_drawn_is_edited() {
     };
     drawn.client.say("textDocument/didChange", change(2, &changed));
     assert!(drawn.refusal("ball").contains("has changed"));
-    drawn.drawn["version"] = Value::Null;
+    drawn.picture["version"] = Value::Null;
     assert!(drawn.refusal("ball").contains("has changed"));
-    drawn.drawn["version"] = 2.into();
+    drawn.picture["version"] = 2.into();
     assert!(drawn.drag("ball", [1.0, 2.0])["edits"].is_array());
-    drawn.drawn["scenario"] = "gone".into();
+    drawn.picture["scenario"] = "gone".into();
     assert!(drawn.refusal("ball").contains("can't be compiled"));
-    drawn.drawn["scenario"] = "drawn".into();
+    drawn.picture["scenario"] = "drawn".into();
     let broken = changed.replacen("team left", "tem left", 1);
     drawn.client.say("textDocument/didChange", change(3, &broken));
-    drawn.drawn["version"] = 3.into();
+    drawn.picture["version"] = 3.into();
     assert!(drawn.refusal("ball").contains("in the text"));
     let nobody = json!({ "textDocument": { "uri": URI, "version": 3 }, "scenario": "drawn",
         "player": { "team": "middle", "slot": 0 }, "to": [0, 0] });

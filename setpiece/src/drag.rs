@@ -97,7 +97,7 @@ impl HeldThing {
         let metres = written.metres(text).ok_or_else(computed)?;
         let strays = [0, 1].map(|axis| self.from[axis] - metres[axis] * scale[axis]);
         if !statement.is_jittered && strays.iter().any(|stray| stray.abs() > NEAR_M) {
-            return Err(computed());
+            return Err("another statement gives this place: edit the text".to_owned());
         }
         // Who is jittered is moved by as much as they were dragged: the same draw puts them there.
         let strays = if statement.is_jittered { strays } else { [0.0; 2] };

@@ -3,7 +3,7 @@
 use super::numbers::Written;
 use crate::Loaded;
 use crate::dsl::ast::{
-    ItemKind, Place, PlayerStmt, ScenarioItem, ScenarioStmtKind, Span, TeamStmt, TeamStmtKind,
+    ItemKind, Place, PlayerStmt, ScenarioStmtKind, Span, TeamStmt, TeamStmtKind,
 };
 use crate::dsl::parse::parse;
 use crate::scenario::{PitchSize, PlayerSlot, Team};
@@ -57,11 +57,6 @@ impl Statement {
             is_right,
             mirror,
         };
-        if let Some((_, slot)) = player
-            && let Some(change) = overriding(own, slot, is_right)
-        {
-            return Ok(whole(change.place.as_ref(), change.jitter.is_some(), false));
-        }
         let span = match player {
             Some((index, _)) => loaded.origins.players.get(index).copied(),
             None => loaded.origins.ball,
@@ -113,30 +108,11 @@ impl Statement {
     }
 }
 
-/// The `place NAME …` of the scenario that gives a player another place, the last if several do.
-fn overriding<'a>(
-    own: &'a ScenarioItem,
-    slot: &PlayerSlot,
-    is_right: bool,
-) -> Option<&'a PlayerStmt> {
-    let written = if is_right { Team::Right } else { Team::Left };
-    let bodies = own.body.iter().filter_map(|stmt| match &stmt.kind {
-        ScenarioStmtKind::Team { team, body } if team.node == written.name() => Some(body),
-        _ => None,
-    });
-    let changes = bodies.flatten().filter_map(|stmt| match &stmt.kind {
-        TeamStmtKind::Override { who, change } => Some((who.node.as_str(), change)),
-        _ => None,
-    });
-    let is_meant = |who: &str| slot.name.as_deref() == Some(who) || slot.role.name() == who;
-    let mut placed = changes.filter(|(who, change)| is_meant(who) && change.place.is_some());
-    placed.next_back().map(|(_, change)| change)
-}
-
-/// The statement of a player at a place of the text.
+/// The statement of a player that holds a place of the text, or that of their override.
 fn player_at(body: &[TeamStmt], span: Span) -> Option<&PlayerStmt> {
-    body.iter().find_map(|stmt| match &stmt.kind {
-        TeamStmtKind::Player(player) if stmt.span == span => Some(player),
+    body.iter().find(|stmt| stmt.span.holds(span)).and_then(|stmt| match &stmt.kind {
+        TeamStmtKind::Player(player) => Some(player),
+        TeamStmtKind::Override { change, .. } => Some(change),
         _ => None,
     })
 }

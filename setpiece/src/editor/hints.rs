@@ -190,6 +190,9 @@ impl Analysis {
     /// How many starts each requirement refuses. Where it is many, a report says so.
     fn refused(&self) -> Vec<InlayHint> {
         let Some(loaded) = &self.loaded else { return Vec::new() };
+        if loaded.origins.requires.iter().all(|require| require.span.is_none()) {
+            return Vec::new();
+        }
         let Some(found) = Refusals::of(loaded) else { return Vec::new() };
         let written = loaded.origins.requires.iter().zip(&found.by);
         written

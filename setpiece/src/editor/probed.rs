@@ -88,30 +88,41 @@ fn refusal(analysis: &Analysis, loaded: &Loaded, whole: Span) -> Option<StartNot
     let percent = |count: u32| format!("{:.0}%", 100.0 * found.share(count));
     let draws =
         format!("A reset draws {} on average until it finds one that is accepted.", found.draws());
-    let parts = loaded.origins.requires.iter().zip(&found.by);
-    let written = parts.filter_map(|(origin, count)| Some((origin.span?, *count)));
-    let mut written: Vec<(Span, u32)> = written.filter(|(_, count)| *count > 0).collect();
-    written.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-    if let Some((span, count)) = written.first()
+    let requires = loaded.origins.requires.iter().zip(&loaded.scenario.start.requires);
+    let parts = requires.zip(&found.by).filter(|(_, count)| **count > 0);
+    let mut written: Vec<(Span, u32, String)> = parts
+        .filter_map(|((origin, require), count)| {
+            let share = percent(*count);
+            // What nobody wrote has a place, too: what makes it fail.
+            let words = match origin.help {
+                None => format!("refuses {share} of the starts that are drawn"),
+                Some(_) => format!("{share} of the starts fail here: `{}`", require.label),
+            };
+            Some((origin.span?, *count, words))
+        })
+        .collect();
+    written.sort_by_key(|(_, count, _)| std::cmp::Reverse(*count));
+    if let Some((span, count, words)) = written.first()
         && found.is_worth_saying(*count)
         && whole.holds(*span)
     {
         return Some(StartNote {
             place: analysis.place(*span)?,
-            message: format!("refuses {} of the starts that are drawn. {draws}", percent(*count)),
+            message: format!("{words}. {draws}"),
             related: Vec::new(),
         });
     }
     let name = &loaded.scenario.name;
-    let part = |(span, count): &(Span, u32)| {
-        let place = FilePlace::of(*span, &loaded.sources)?;
-        Some((place, format!("refuses {} of them", percent(*count))))
+    let part = |(span, _, words): &(Span, u32, String)| {
+        Some((FilePlace::of(*span, &loaded.sources)?, words.clone()))
     };
     Some(StartNote {
         place: analysis.place(loaded.origin?)?,
         message: format!(
-            "{} of the starts that are drawn for `{name}` are refused. {draws}",
-            percent(found.all())
+            "{} of the starts that are drawn for `{name}` are refused, most often because `{}` \
+             fails. {draws}",
+            percent(found.all()),
+            found.hardest.as_deref()?
         ),
         related: written.iter().filter_map(part).collect(),
     })

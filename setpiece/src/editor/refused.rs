@@ -18,20 +18,20 @@ pub(super) struct Refusals {
     met: u32,
     /// Attempts that each requirement was the first to refuse, in order.
     pub(super) by: Vec<u32>,
+    /// What failed most often, in the author's words or the pitch's.
+    pub(super) hardest: Option<String>,
 }
 
 impl Refusals {
-    /// Those of a scenario's usual parameters; none if it has no requirements of its own words.
+    /// Those of a scenario with its usual parameters.
     pub(super) fn of(loaded: &Loaded) -> Option<Refusals> {
-        if loaded.origins.requires.iter().all(|require| require.span.is_none()) {
-            return None;
-        }
         let scenario = &loaded.scenario;
         let bindings = Bindings::defaults(&scenario.params);
         let roster = Roster::new(scenario, &bindings, None).ok()?;
         let found =
             Drawer::new(scenario).acceptance(scenario, &bindings, &roster, ATTEMPTS, u32::MAX);
-        Some(Refusals { attempts: found.attempts, met: found.met, by: found.refused })
+        let (attempts, met) = (found.attempts, found.met);
+        Some(Refusals { attempts, met, by: found.refused, hardest: found.hardest })
     }
 
     /// The share of so many attempts, 0..1.

@@ -81,11 +81,25 @@ fn several_that_refuse_them_together_are_told_of_at_the_scenario() {
     assert_eq!(later.words(&note["range"]), "drawn");
     let message = note["message"].as_str().unwrap();
     assert!((58.0..72.0).contains(&percent(message)), "{message}");
-    assert!(message.contains("are drawn for `drawn` are refused"), "{message}");
+    let words = "are drawn for `drawn` are refused, most often because `x > 0.35` fails. ";
+    assert!(message.contains(words), "{message}");
     let related = note["relatedInformation"].as_array().unwrap();
     assert_eq!(related.len(), 2, "{related:?}");
     assert_eq!(later.words(&related[0]["location"]["range"]), "x > 0.35");
     assert_eq!(later.words(&related[1]["location"]["range"]), "x < 0.7");
+}
+
+/// Nobody wrote that players stand on the pitch.
+#[test]
+fn what_the_pitch_refuses_counts_too() {
+    let corner = "CF in circle(left.corner.top, 20m + 1m * x)";
+    let text = text("").replace("CF at (0.1 * x, 0)", corner);
+    let mut later = Later::open(&text);
+    let note = later.only();
+    assert_eq!(later.words(&note["range"]), "in circle(left.corner.top, 20m + 1m * x)");
+    let message = note["message"].as_str().unwrap();
+    assert!((60.0..80.0).contains(&percent(message)), "{message}");
+    assert!(message.contains("of the starts fail here: `"), "{message}");
 }
 
 #[test]

@@ -144,6 +144,11 @@ fn the_right_team_s_own_frame_is_turned() {
     drawn.lands("emma", [15.0, 25.0], ["30m", "20m"], "emma: RB at (15m, 25m)");
     // A formation is in the own frame without the word.
     drawn.lands("stopper", [5.44, -16.72], ["-0.5", "0.1"], "stopper: CB at (-0.1, 0.2)");
+    let high = "formation high extends block { place stopper at (-0.3, 0.1) }\nscenario first";
+    let text = SEVERAL.replacen("scenario first", high, 1);
+    let text = text.replacen("formation: block", "formation: high", 1);
+    let mut drawn = Drawn::open(&text, "scenario drawn");
+    drawn.lands("stopper", [5.44, -16.72], ["-0.3", "0.1"], "place stopper at (-0.1, 0.2)");
 }
 
 #[test]
@@ -157,6 +162,19 @@ fn what_the_scenario_doesn_t_write_as_numbers_is_refused_in_words() {
     assert_eq!(first.refusal("ball"), inherited);
     let mut last = Drawn::open(SEVERAL, "scenario last");
     last.lands("ball", [5.44, 0.0], ["0", "0"], "last extends base { ball at (0.1, 0) }");
+    // In the picture the left team receives, and has the places of the other layout.
+    let text = "\
+formation kicks { CB at (-0.5, 0.1) }
+formation waits { CB at (-0.4, 0.1) }
+scenario kicked_off extends academy {
+    ball at centre
+    agents { left: 0, right: 0 }
+    kickoff right { kicking: kicks, receiving: waits }
+}
+";
+    let mut kicked_off = Drawn::open(text, "scenario kicked_off");
+    let why = "another statement gives this place: edit the text";
+    assert_eq!(kicked_off.refusal("CB"), why);
     // Of the library.
     let text = "scenario corner extends academy_corner { end limit 9s }\n";
     let mut corner = Drawn::open(text, "scenario corner");

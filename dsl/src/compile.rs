@@ -296,6 +296,7 @@ impl<'a> Compilation<'a> {
             rewards: reward_spans,
             endings: flat.ends.iter().map(|end| end.span).collect(),
             records: flat.records.iter().map(|record| record.name.span).collect(),
+            mirror: flat.mirror.map(|word| word.span),
             observation: flat.observed.map(|(_, span)| span),
             requires,
             regions,

@@ -21,6 +21,8 @@ pub struct Origins {
     pub endings: Vec<Span>,
     /// Its records, in order.
     pub records: Vec<Span>,
+    /// The word behind its `mirror:`, own or inherited.
+    pub mirror: Option<Span>,
     /// Its observation.
     pub observation: Option<Span>,
     /// Its requirements, in order: the written ones, then the implied.

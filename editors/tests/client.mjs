@@ -150,6 +150,16 @@ export class Editor {
     return this.request("setpiece/preview", { textDocument: { uri }, position });
   }
 
+  /** Drops a player of a drawn start, or the ball, elsewhere: makes the edits, or says why not. */
+  async drag(uri, drawn, name, to) {
+    const { version, scenario, things } = drawn;
+    const { player } = things.find((thing) => thing.name === name);
+    const asked = { textDocument: { uri, version }, scenario, player, to };
+    const { message, edits } = await this.request("setpiece/move", asked);
+    if (edits) await this.write(uri, edited(this.text(uri), edits));
+    return message;
+  }
+
   fixes(uri, diagnostic) {
     return this.request(CodeActionRequest.type, {
       textDocument: { uri }, range: diagnostic.range,

@@ -123,3 +123,32 @@ test("a start is drawn, and what is wrong is said in its place", async () => {
   assert.equal(failed.svg, undefined);
   assert.ok(failed.message, JSON.stringify(failed));
 });
+
+test("who is dragged in the picture changes the two numbers of the text", async () => {
+  const before = editor.text(drill);
+  const drawn = await editor.preview(drill, "striker");
+  assert.equal(await editor.drag(drill, drawn, "striker", [-10.88, 8.36]), undefined);
+  const after = before.replace("striker: CF at (0, 0)", "striker: CF at (-0.2, 0.1)");
+  assert.equal(editor.text(drill), after);
+  // The picture is of the text before.
+  assert.match(await editor.drag(drill, drawn, "striker", [0, 0]), /has changed/);
+  const again = await editor.preview(drill, "striker");
+  const striker = again.things.find(({ name }) => name === "striker");
+  assert.ok(Math.hypot(striker.at[0] + 10.88, striker.at[1] - 8.36) < 0.01, String(striker.at));
+  const [, inFormation] = again.things;
+  assert.match(await editor.drag(drill, again, inFormation.name, [0, 0]), /shapes\.pitch/);
+  assert.equal(editor.text(drill), after);
+});
+
+test("what drawn starts show comes later, and goes with the next change", async () => {
+  const sound = editor.text(drill);
+  const drawn = "let x = uniform(0, 1)\n    require x < 0.2\n    ball at (0.02, 0)";
+  await editor.write(drill, sound.replace("ball at (0.02, 0)", drawn));
+  const [note, ...others] = await editor.diagnostics(drill, (found) => found.length > 0);
+  assert.deepEqual(others, []);
+  assert.equal(note.severity, 3);
+  assert.match(note.message, /^refuses \d\d% of the starts that are drawn\. /);
+  assert.deepEqual(note.range.start, editor.position(drill, "x < 0.2"));
+  await editor.write(drill, sound);
+  await editor.diagnostics(drill, NONE);
+});

@@ -9,6 +9,17 @@ const files = tests ? readdirSync("test").map((name) => `test/${name}`) : ["src/
 const outdir = tests ? "dist/test" : "dist";
 
 rmSync(outdir, { recursive: true, force: true });
+// The page of the panel holds its script.
+const panel = await build({
+  entryPoints: ["src/panel.ts"],
+  bundle: true,
+  write: false,
+  platform: "browser",
+  target: "es2023",
+  format: "iife",
+  minify: !tests,
+  logLevel: "warning",
+});
 const { metafile } = await build({
   metafile: true,
   entryPoints: files,
@@ -17,6 +28,7 @@ const { metafile } = await build({
   platform: "node",
   target: "node20",
   format: "cjs",
+  define: { PANEL: JSON.stringify(panel.outputFiles[0].text) },
   external: ["vscode", "playwright-core"],
   minify: !tests,
   logLevel: "warning",

@@ -10,6 +10,8 @@ pub mod bench;
 pub mod cli;
 pub mod curves;
 pub mod doc;
+#[cfg(feature = "editor")]
+mod drag;
 pub mod drawing;
 #[cfg(feature = "editor")]
 pub mod editor;

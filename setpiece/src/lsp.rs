@@ -4,8 +4,12 @@
 
 mod answers;
 mod convert;
+mod late;
 mod library;
 mod looks;
+mod start;
+
+pub use late::{LateFindings, LateWork, QUIET};
 
 use crate::editor::Workspace;
 use convert::{path_of, range_of, read};
@@ -14,6 +18,8 @@ use lsp_server::{ErrorCode, Message, Notification, Response, ResponseError};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What the server can do, as the answer to `initialize` says it.
 pub fn capabilities() -> Value {
@@ -65,6 +71,12 @@ pub struct LanguageServer {
     shown: BTreeMap<PathBuf, lsp::Uri>,
     /// Whether texts have changed since the last problems were sent.
     is_stale: bool,
+    /// Whether the starts of the texts as they are now are still to be drawn.
+    is_unprobed: bool,
+    /// How often the texts have changed.
+    age: Arc<AtomicU64>,
+    /// The problems that were sent last, by file, without those that come later.
+    said: BTreeMap<PathBuf, Value>,
     /// Whether the editor fills places in what it inserts.
     has_snippets: bool,
 }
@@ -82,6 +94,9 @@ impl LanguageServer {
             open: BTreeMap::new(),
             shown: BTreeMap::new(),
             is_stale: false,
+            is_unprobed: false,
+            age: Arc::default(),
+            said: BTreeMap::new(),
             has_snippets: snippets.and_then(Value::as_bool).unwrap_or_default(),
         }
     }
@@ -139,6 +154,7 @@ impl LanguageServer {
             _ => return Ok(()),
         }
         self.is_stale = true;
+        self.age.fetch_add(1, Ordering::Relaxed);
         Ok(())
     }
 
@@ -153,6 +169,8 @@ impl LanguageServer {
         for gone in shown.keys() {
             found.entry(gone.clone()).or_default();
         }
+        self.is_unprobed = true;
+        self.said.clear();
         let mut messages = Vec::new();
         for (path, reports) in found {
             let Some(uri) = shown.get(&path).cloned().or_else(|| self.uri(&path)) else { continue };
@@ -168,6 +186,7 @@ impl LanguageServer {
             if let (Some(version), Some(params)) = (version, params.as_object_mut()) {
                 params.insert("version".to_owned(), version.into());
             }
+            self.said.insert(path, params.clone());
             let method = "textDocument/publishDiagnostics".to_owned();
             messages.push(Notification { method, params }.into());
         }

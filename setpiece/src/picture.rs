@@ -33,13 +33,10 @@ pub(crate) fn svg_over(
     scene: &Scene,
     beneath: &str,
 ) -> String {
-    let [x, y] = half(&scene.pitch).map(|half| half + MARGIN_M);
-    let (width, height) = (2.0 * x, 2.0 * y);
+    let [left, top, width, height] = view(&scene.pitch);
     let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{} {} {width} {height}\" width=\"{}\" height=\"{}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{left} {top} {width} {height}\" width=\"{}\" height=\"{}\" \
          font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n<title>{}</title>\n",
-        -x,
-        -y,
         width * 8.0,
         height * 8.0,
         escaped(title)
@@ -57,6 +54,13 @@ pub(crate) fn svg_over(
         "<circle cx=\"{ball_x:.2}\" cy=\"{ball_y:.2}\" r=\"0.7\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"0.3\"/>\n</svg>\n",
     );
     text
+}
+
+/// What a picture shows, metres: its left and top edge, its width and height. The world's frame is
+/// the picture's.
+pub(crate) fn view(pitch: &Pitch) -> [f64; 4] {
+    let [x, y] = half(pitch).map(|half| half + MARGIN_M);
+    [-x, -y, 2.0 * x, 2.0 * y]
 }
 
 /// Half the pitch along each axis, metres.

@@ -7,7 +7,6 @@
 //! Only this machine can connect, with the token of the printed address: [`guard`] checks each
 //! request.
 
-pub mod drag;
 pub mod guard;
 pub mod hands;
 mod language;

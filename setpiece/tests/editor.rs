@@ -400,7 +400,7 @@ fn folds_are_blocks_comments_and_imports() {
 fn hints_show_metres_arguments_and_what_is_inherited() {
     let text = "fn far_from(spot: point, least: length) = distance(ball, spot) > least\n\
         scenario a extends academy {\n    ball at (0.5, 0)\n    let x = uniform(0, 1)\n    team left { CF at (0.4, 0) }\n    \
-        require x > 0.5\n    end success far when far_from(right.goal, 60m)\n}\n";
+        require x > 0.3\n    require x < 0.4\n    end success far when far_from(right.goal, 60m)\n}\n";
     let path = Path::new("/nowhere/hints.pitch");
     let mut workspace = Workspace::default();
     workspace.set(path, text);
@@ -412,9 +412,11 @@ fn hints_show_metres_arguments_and_what_is_inherited() {
         assert!(hints.iter().any(|it| it == expected), "{expected}: {hints:?}");
     }
     assert!(hints.iter().any(|it| it.starts_with("from academy: ")), "{hints:?}");
-    let refused = hints.iter().find_map(|it| it.strip_prefix("refuses ")?.strip_suffix('%'));
-    let refused: f64 = refused.and_then(|it| it.parse().ok()).expect("a share");
-    assert!((35.0..65.0).contains(&refused), "{refused}");
+    // The second one refuses half of them, which a report says a little later.
+    let refused = hints.iter().filter_map(|it| it.strip_prefix("refuses ")?.strip_suffix('%'));
+    let refused: Vec<f64> = refused.map(|it| it.parse().expect("a share")).collect();
+    let [refused] = refused.as_slice() else { panic!("{hints:?}") };
+    assert!((20.0..40.0).contains(refused), "{refused}");
 }
 
 #[test]
@@ -467,11 +469,11 @@ fn the_preview_follows_the_cursor() {
     workspace.set(&attack, &text);
     let first = workspace.preview(&attack, behind(&text, "ball at (0.5")).expect("a scenario");
     assert_eq!(first.scenario, "attack");
-    let svg = first.picture.expect("a picture");
+    let svg = first.picture.expect("a picture").svg;
     assert!(svg.starts_with("<svg") && svg.contains(">striker</text>"), "{svg}");
     let last = workspace.preview(&attack, text.len()).expect("a scenario");
     assert_eq!(last.scenario, "other");
-    let dots = last.picture.expect("a picture").matches("fill-opacity=\"0.45\"").count();
+    let dots = last.picture.expect("a picture").svg.matches("fill-opacity=\"0.45\"").count();
     assert_eq!(dots, 9 + 1, "nine other places of the player, one of the ball");
     workspace.set(&attack, "scenario broken {");
     assert!(workspace.preview(&attack, 0).is_none_or(|it| it.picture.is_err()));

@@ -6,6 +6,11 @@
     reason = "a test fails by panicking"
 )]
 
+#[path = "lsp/late.rs"]
+mod late;
+#[path = "lsp/moving.rs"]
+mod moving;
+
 use lsp_server::{Message, Notification, Request, Response};
 use serde_json::{Value, json};
 use setpiece::lsp::{LanguageServer, capabilities};
@@ -70,15 +75,19 @@ impl Client {
 
     /// The diagnostics that are sent now, by address.
     fn published(&mut self) -> Vec<(String, Vec<Value>)> {
-        let of = |message: Message| match message {
-            Message::Notification(note) => (
-                note.params["uri"].as_str().unwrap().to_owned(),
-                note.params["diagnostics"].as_array().unwrap().clone(),
-            ),
-            other => panic!("{other:?}"),
-        };
-        self.server.publish().into_iter().map(of).collect()
+        diagnostics_of(self.server.publish())
     }
+}
+
+fn diagnostics_of(messages: Vec<Message>) -> Vec<(String, Vec<Value>)> {
+    let of = |message: Message| match message {
+        Message::Notification(note) => (
+            note.params["uri"].as_str().unwrap().to_owned(),
+            note.params["diagnostics"].as_array().unwrap().clone(),
+        ),
+        other => panic!("{other:?}"),
+    };
+    messages.into_iter().map(of).collect()
 }
 
 /// The line and column behind some words.
@@ -298,10 +307,21 @@ fn a_file_of_the_library_can_be_opened() {
 fn the_start_is_drawn_unless_the_text_is_broken() {
     let mut client = Client::new();
     let broken = client.result("setpiece/preview", place("striker"));
-    assert_eq!(broken, json!({ "scenario": "a", "message": "1 error in the text" }));
+    let words = "1 error in the text";
+    assert_eq!(broken, json!({ "scenario": "a", "version": 1, "message": words }));
     client.open(URI, &TEXT.replace("scorin", "scoring"));
     let drawn = client.result("setpiece/preview", place("striker"));
     assert!(drawn["svg"].as_str().unwrap().contains(">striker</text>"), "{drawn}");
+    assert_eq!(drawn["view"], json!([-59.5, -40.5, 119.0, 81.0]));
+    assert!(drawn["svg"].as_str().unwrap().contains("viewBox=\"-59.5 -40.5 119 81\""));
+    let [striker, ball] = drawn["things"].as_array().unwrap().as_slice() else { panic!("{drawn}") };
+    assert_eq!((&striker["name"], &ball["name"]), (&json!("striker"), &json!("ball")));
+    assert_eq!(
+        (&striker["player"], &ball["player"]),
+        (&json!({ "team": "left", "slot": 0 }), &Value::Null)
+    );
+    let at = |thing: &Value| [0, 1].map(|axis| thing["at"][axis].as_f64().unwrap());
+    assert!((at(striker)[0] - 24.48).abs() < 1e-3 && (at(ball)[0] - 27.2).abs() < 1e-3);
 }
 
 #[test]

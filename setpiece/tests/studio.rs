@@ -374,6 +374,21 @@ fn the_ball_s_own_numbers_change_wherever_else_its_words_stand() {
 }
 
 #[test]
+fn a_place_of_the_parent_is_not_moved_for_its_child() {
+    let text = format!("{SCENARIO}scenario later extends two {{ ball at (5m, 0m) }}\n");
+    let studio = Studio::with(&["two.pitch"], &text);
+    let mut tab = studio.tab();
+    tab.hear("episode");
+    let left = json!({"team": "left", "slot": 0});
+    tab.ask(&json!({"type": "move", "player": left, "to": [1.0, 1.0]}));
+    let refused = tab.hear("refused");
+    assert!(refused["message"].as_str().unwrap().contains("inherited from `two`"), "{refused}");
+    tab.ask(&json!({"type": "move", "player": null, "to": [6.0, 1.0]}));
+    let moved = tab.hear("opened")["text"].as_str().unwrap().to_owned();
+    assert_eq!(moved, text.replace("(5m, 0m)", "(6m, 1m)"));
+}
+
+#[test]
 fn what_one_tab_types_the_others_show() {
     let studio = Studio::open();
     let (mut tab, mut other) = (studio.tab(), studio.tab());

@@ -2,11 +2,12 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { debounced } from "../src/debounce";
 import { INSTALL, missingText } from "../src/missing";
-import { page, shownOf } from "../src/picture";
+import { page } from "../src/page";
+import { shownOf } from "../src/picture";
 
 test("a drawing is shown as an image, which can run nothing", () => {
   const svg = '<svg xmlns="http://www.w3.org/2000/svg"><script>alert("ü")</script></svg>';
-  const shown = shownOf({ scenario: "drill", svg });
+  const shown = shownOf({ scenario: "drill", svg }, 1);
   assert.equal(shown.title, "drill");
   assert.equal(shown.words, "");
   const [head, data] = shown.picture?.split(",") ?? [];
@@ -15,10 +16,10 @@ test("a drawing is shown as an image, which can run nothing", () => {
 });
 
 test("without a drawing there are words, and the last picture stays", () => {
-  const failed = shownOf({ scenario: "drill", message: "1 error" });
+  const failed = shownOf({ scenario: "drill", message: "1 error" }, 2);
   assert.deepEqual(failed, { title: "drill", words: "1 error" });
   for (const nothing of [undefined, null, {}]) {
-    assert.deepEqual(shownOf(nothing), { title: "", words: "No scenario stands here." });
+    assert.deepEqual(shownOf(nothing, 3), { title: "", words: "No scenario stands here." });
   }
 });
 

@@ -2,8 +2,15 @@
 //! output.
 
 use super::common::{FAULT, FINE};
-use crate::lsp::{LanguageServer, capabilities};
+use crate::lsp::{LanguageServer, LateFindings, QUIET, capabilities};
 use lsp_server::{Connection, ErrorCode, Message, Response};
+use std::thread::{JoinHandle, spawn};
+use std::time::Duration;
+
+/// How often work beside the conversation is looked at.
+const LOOK: Duration = Duration::from_millis(10);
+/// Longer than an editor is silent.
+const NEVER: Duration = Duration::from_secs(86_400);
 
 /// Serves one editor until it leaves; gives the exit code.
 ///
@@ -20,7 +27,18 @@ fn talk(connection: &Connection, allow_outside: bool) -> Option<()> {
     let (id, params) = connection.initialize_start().ok()?;
     connection.initialize_finish(id, capabilities()).ok()?;
     let mut server = LanguageServer::new(&params, allow_outside);
-    while let Ok(message) = connection.receiver.recv() {
+    let mut late = LateThread::default();
+    loop {
+        let message = match connection.receiver.recv_timeout(late.patience(&server)) {
+            Ok(message) => message,
+            Err(why) if why.is_timeout() => {
+                for answer in late.turn(&mut server) {
+                    connection.sender.send(answer).ok()?;
+                }
+                continue;
+            }
+            Err(_) => return None,
+        };
         if let Message::Request(request) = &message
             && request.method == "shutdown"
         {
@@ -36,7 +54,37 @@ fn talk(connection: &Connection, allow_outside: bool) -> Option<()> {
             connection.sender.send(answer).ok()?;
         }
     }
-    None
+}
+
+/// Work that goes on beside the conversation, one at a time.
+#[derive(Default)]
+struct LateThread {
+    running: Option<JoinHandle<LateFindings>>,
+}
+
+impl LateThread {
+    /// How long the next message is waited for before it is this one's turn.
+    fn patience(&self, server: &LanguageServer) -> Duration {
+        if self.running.is_some() {
+            LOOK
+        } else if server.has_later() {
+            QUIET
+        } else {
+            NEVER
+        }
+    }
+
+    /// What is to be sent of what was found; begins what is to be done.
+    fn turn(&mut self, server: &mut LanguageServer) -> Vec<Message> {
+        if let Some(thread) = self.running.take_if(|thread| thread.is_finished()) {
+            // Work that panics has found nothing.
+            return thread.join().map(|found| server.settle(&found)).unwrap_or_default();
+        }
+        if self.running.is_none() {
+            self.running = server.later().map(|work| spawn(|| work.run()));
+        }
+        Vec::new()
+    }
 }
 
 /// Waits for the editor's `exit`; what it still asks for is refused.

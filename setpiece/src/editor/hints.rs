@@ -1,16 +1,12 @@
 //! What an editor writes between the words: metres, names of arguments, what is inherited, how
 //! many starts a requirement refuses.
 
+use super::refused::Refusals;
 use super::text::{brackets, code};
 use super::{Analysis, SymbolKind};
 use crate::dsl::ast::{ItemKind, ScenarioStmtKind, Span, TeamStmtKind};
-use crate::engine::draw::{Drawer, Roster};
-use crate::scenario::Bindings;
 use std::collections::BTreeMap;
 use std::ops::Range;
-
-/// Attempts at a start that show how many a requirement refuses.
-const ATTEMPTS: u32 = 300;
 
 /// Some words beside a byte of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -191,26 +187,21 @@ impl Analysis {
         })
     }
 
-    /// How many starts each requirement refuses.
+    /// How many starts each requirement refuses. Where it is many, a report says so.
     fn refused(&self) -> Vec<InlayHint> {
         let Some(loaded) = &self.loaded else { return Vec::new() };
-        let scenario = &loaded.scenario;
         if loaded.origins.requires.iter().all(|require| require.span.is_none()) {
             return Vec::new();
         }
-        let bindings = Bindings::defaults(&scenario.params);
-        let Ok(roster) = Roster::new(scenario, &bindings, None) else { return Vec::new() };
-        let mut drawer = Drawer::new(scenario);
-        let found = drawer.acceptance(scenario, &bindings, &roster, ATTEMPTS, u32::MAX);
-        let written = loaded.origins.requires.iter().zip(&found.refused);
+        let Some(found) = Refusals::of(loaded) else { return Vec::new() };
+        let written = loaded.origins.requires.iter().zip(&found.by);
         written
-            .filter(|(origin, _)| origin.help.is_none())
+            .filter(|(origin, refused)| origin.help.is_none() && !found.is_worth_saying(**refused))
             .filter_map(|(origin, refused)| {
                 let own = self.own(origin.span?)?;
-                let share = 100.0 * f64::from(*refused) / f64::from(found.attempts.max(1));
                 Some(InlayHint {
                     at: own.end,
-                    text: format!("refuses {share:.0}%"),
+                    text: format!("refuses {:.0}%", 100.0 * found.share(*refused)),
                     doc: format!(
                         "of {} attempts at a start this is the first requirement that {refused} fail",
                         found.attempts

@@ -1,8 +1,9 @@
-//! The picture of a start beside the text.
+//! The picture of a start beside the text, and what somebody moves in it.
 
 use super::analysis::scenario_of;
-use super::{SymbolKind, Workspace};
+use super::{Analysis, Edit, SymbolKind, Workspace};
 use crate::Loaded;
+use crate::drag::HeldThing;
 use crate::dsl::Outline;
 use crate::dsl::ast::ItemKind;
 use crate::engine::draw::Drawer;
@@ -11,7 +12,8 @@ use crate::error::Error;
 use crate::film;
 use crate::picture;
 use crate::render::Scene;
-use crate::scene::of_match;
+use crate::render::scene::Id;
+use crate::scene::{of_match, player_id};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -21,12 +23,34 @@ const STARTS: u64 = 10;
 const SEED: u64 = 0;
 
 /// The picture of a start.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
     /// The scenario.
     pub scenario: String,
-    /// The picture, SVG, or why there is none.
-    pub picture: Result<String, String>,
+    /// The picture, or why there is none.
+    pub picture: Result<StartPicture, String>,
+}
+
+/// A start that is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartPicture {
+    /// The picture, in metres of the world's frame.
+    pub svg: String,
+    /// What of the world it shows: the left and top edge, the width and the height.
+    pub view: [f64; 4],
+    /// Whoever and whatever can be moved in it.
+    pub things: Vec<PlacedThing>,
+}
+
+/// A player or the ball in a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedThing {
+    /// The player; none for the ball.
+    pub player: Option<Id>,
+    /// The player's name or role; of the ball, `ball`.
+    pub name: String,
+    /// Where they stand, metres.
+    pub at: [f32; 2],
 }
 
 impl Workspace {
@@ -45,28 +69,54 @@ impl Workspace {
             .find(|name| Some(**name) == around.as_deref())
             .or(names.last())
             .map(|name| (*name).to_owned())?;
-        let broken = analysis.errors();
-        let picture = if broken > 0 {
-            let errors =
-                if broken == 1 { "1 error".to_owned() } else { format!("{broken} errors") };
-            Err(format!("{errors} in the text"))
-        } else {
-            let is_last = names.last() == Some(&name.as_str());
-            let known = analysis.loaded.as_ref().filter(|_| is_last).cloned();
-            let loaded =
-                known.or_else(|| scenario_of(path, &analysis.text, &self.loader(path), &name));
-            loaded.map_or_else(|| Err("it can't be compiled".to_owned()), |it| drawn(&it))
-        };
+        let picture = self.sound(path, &analysis, &name).and_then(|it| drawn(&it));
         Some(Preview { scenario: name, picture })
+    }
+
+    /// The edits after which a player of the drawn start, or the ball, stands elsewhere: two
+    /// numbers of the text.
+    ///
+    /// - `player`: who; none for the ball.
+    /// - `to`: metres, in the world's frame; what lies off the pitch is put on its rim.
+    ///
+    /// # Errors
+    /// A sentence for the user, if the place isn't two plain numbers of this text.
+    pub fn move_to(
+        &mut self,
+        path: &Path,
+        scenario: &str,
+        player: Option<Id>,
+        to: [f64; 2],
+    ) -> Result<Vec<Edit>, String> {
+        let analysis = self.analysis(path).ok_or("the text is gone")?;
+        let loaded = self.sound(path, &analysis, scenario)?;
+        let environment = environment_of(&loaded)?;
+        let drawer = first_draw(&loaded, &environment);
+        let held = HeldThing::of(&loaded.scenario, &drawer, player);
+        let held = held.ok_or("nobody stands there any more")?;
+        let numbers = held.moved(&loaded, &analysis.text, to)?;
+        Ok(numbers.into_iter().map(|it| Edit::replace(path, it.range, it.text)).collect())
+    }
+
+    /// A scenario of a text, if nothing is wrong with the text.
+    fn sound(&self, path: &Path, analysis: &Analysis, name: &str) -> Result<Loaded, String> {
+        match analysis.errors() {
+            0 => {}
+            1 => return Err("1 error in the text".to_owned()),
+            broken => return Err(format!("{broken} errors in the text")),
+        }
+        let known = analysis.loaded.as_ref().filter(|it| it.scenario.name == name).cloned();
+        known
+            .or_else(|| scenario_of(path, &analysis.text, &self.loader(path), name))
+            .ok_or_else(|| "it can't be compiled".to_owned())
     }
 }
 
 /// The starts of a scenario.
-fn drawn(loaded: &Loaded) -> Result<String, String> {
+fn drawn(loaded: &Loaded) -> Result<StartPicture, String> {
     let scenario = &loaded.scenario;
     let fault = |why: crate::engine::batch::EpisodeError| Error::Episode(Box::new(why)).to_string();
-    let mut environment = Environment::new(scenario.clone(), EnvironmentOptions::default())
-        .map_err(|why| Error::Environment(why).to_string())?;
+    let mut environment = environment_of(loaded)?;
     let mut scene = Scene::default();
     let mut beneath = regions(loaded, &environment);
     let mut dots: Vec<[String; 3]> = Vec::new();
@@ -93,15 +143,39 @@ fn drawn(loaded: &Loaded) -> Result<String, String> {
         );
     }
     let names = film::names(scenario);
-    Ok(picture::svg_over(&scenario.name, &names, &scene, &beneath))
+    let [x, y, _] = scene.ball.pos;
+    let ball = PlacedThing { player: None, name: "ball".to_owned(), at: [x, y] };
+    let present = scene.players.iter().filter(|player| player.present);
+    let players = present.map(|player| PlacedThing {
+        player: Some(player.id),
+        name: names.get(player_id(player.id).index()).cloned().unwrap_or_default(),
+        at: player.pos,
+    });
+    let things = players.chain([ball]).collect();
+    Ok(StartPicture {
+        svg: picture::svg_over(&scenario.name, &names, &scene, &beneath),
+        view: picture::view(&scene.pitch),
+        things,
+    })
+}
+
+/// The environment in which a start is drawn.
+fn environment_of(loaded: &Loaded) -> Result<Environment, String> {
+    Environment::new(loaded.scenario.clone(), EnvironmentOptions::default())
+        .map_err(|why| Error::Environment(why).to_string())
+}
+
+/// What has drawn the first start, also one that is refused.
+fn first_draw(loaded: &Loaded, environment: &Environment) -> Drawer {
+    let mut drawer = Drawer::new(&loaded.scenario);
+    let (roster, bindings) = (environment.roster(), environment.bindings());
+    let _ = drawer.draw(&loaded.scenario, bindings, roster, SEED, 0);
+    drawer
 }
 
 /// The outlines of the regions of the first start.
 fn regions(loaded: &Loaded, environment: &Environment) -> String {
-    let (roster, bindings) = (environment.roster(), environment.bindings());
-    let mut drawer = Drawer::new(&loaded.scenario);
-    // A start that is refused has regions, too.
-    let _ = drawer.draw(&loaded.scenario, bindings, roster, SEED, 0);
+    let drawer = first_draw(loaded, environment);
     let mut text = String::new();
     for (_, shape) in loaded.regions(&drawer) {
         outline(&shape, &mut text);

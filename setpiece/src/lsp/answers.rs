@@ -147,6 +147,7 @@ impl LanguageServer {
                     .collect())
             }
             "setpiece/preview" => self.preview(read(params)?),
+            "setpiece/move" => self.move_to(&read(params)?),
             other => Err(fault(ErrorCode::MethodNotFound, format!("`{other}` is not supported"))),
         }
     }

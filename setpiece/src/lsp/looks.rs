@@ -1,11 +1,10 @@
-//! How a text looks in an editor: problems, outline, folds, colours, hints, lenses, the picture.
+//! How a text looks in an editor: problems, outline, folds, colours, hints, lenses.
 
 use super::LanguageServer;
 use super::answers::{Answer, symbol_kind};
 use super::convert::{OfText, WithinText, bytes_of, offset_of, range_by, range_of};
 use crate::dsl::problem::Severity;
-use crate::editor::text::Lines;
-use crate::editor::{Analysis, FoldedKind, LensKind, Symbol, TextReport, TokenKind};
+use crate::editor::{Analysis, FilePlace, FoldedKind, LensKind, Symbol, TextReport, TokenKind};
 use gen_lsp_types as lsp;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -29,23 +28,9 @@ pub(super) struct Positions {
     positions: Vec<lsp::Position>,
 }
 
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub(super) struct PreviewOf {
-    text_document: lsp::TextDocumentIdentifier,
-    position: Option<lsp::Position>,
-}
-
 impl LanguageServer {
     /// A report as the protocol has it; `text`: the text of its file.
     pub(super) fn diagnostic(&self, report: &TextReport, text: &str) -> Value {
-        let related: Vec<Value> = report
-            .related
-            .iter()
-            .filter_map(|(place, words)| {
-                Some(json!({ "location": self.location(place)?, "message": words }))
-            })
-            .collect();
         let message = match &report.help {
             Some(help) => format!("{}\nhelp: {help}", report.message),
             None => report.message.clone(),
@@ -63,9 +48,17 @@ impl LanguageServer {
             "codeDescription": { "href": format!("{}/errors/{code}/", crate::DOCS) },
             "source": "setpiece",
             "message": message,
-            "relatedInformation": related,
+            "relatedInformation": self.related(&report.related),
             "tags": if is_unused { vec![1] } else { Vec::new() },
         })
+    }
+
+    /// Further places as the protocol has them.
+    pub(super) fn related(&self, places: &[(FilePlace, String)]) -> Value {
+        let shown = |(place, words): &(FilePlace, String)| {
+            Some(json!({ "location": self.location(place)?, "message": words }))
+        };
+        places.iter().filter_map(shown).collect()
     }
 
     pub(super) fn symbols(&mut self, asked: OfText) -> Answer {
@@ -194,17 +187,6 @@ impl LanguageServer {
                 json!({ "range": range, "command": command })
             })
             .collect())
-    }
-
-    /// The picture of a start: `{ scenario, svg }`, or `{ scenario, message }`; null without a
-    /// scenario.
-    pub(super) fn preview(&mut self, asked: PreviewOf) -> Answer {
-        let (path, text) = self.text(&asked.text_document.uri)?;
-        let at = asked.position.map_or(text.len(), |at| offset_of(&Lines::of(&text), &text, at));
-        Ok(self.workspace.preview(&path, at).map_or(Value::Null, |it| match it.picture {
-            Ok(svg) => json!({ "scenario": it.scenario, "svg": svg }),
-            Err(message) => json!({ "scenario": it.scenario, "message": message }),
-        }))
     }
 }
 

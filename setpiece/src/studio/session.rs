@@ -2,13 +2,13 @@
 
 mod about;
 
-use super::drag::dragged;
 use super::live::LiveMatch;
 use super::message::{DRAWS_MAX, EPISODES_MAX, Episode, Reply, Request};
 use super::players::{ActingPolicy, Guests, Performer};
 use super::stage::{STEPS_MAX, StudioStage, episode_of};
 use super::summary::RunningSummary;
 use super::tell::{said, said_episode, send_all, step, tell};
+use crate::drag::rewritten;
 use crate::dsl::report::{Diagnostic, diagnostics};
 use crate::engine::batch::ReadyMade;
 use crate::engine::control::agents::Agent;
@@ -303,9 +303,9 @@ impl Session {
                 self.is_stale = true;
             }
             Request::Move { player, to } => {
-                let pitch = self.stage(&self.who)?.pitch((self.seed, self.episode))?;
-                let text = dragged(&self.loaded, &self.text, player, to, &pitch)?;
-                self.take(text, None, pages);
+                let held = self.stage(&self.who)?.held((self.seed, self.episode), player)?;
+                let numbers = held.moved(&self.loaded, &self.text, to)?;
+                self.take(rewritten(&self.text, &numbers), None, pages);
             }
             Request::Cloud { count } => {
                 let starts = self.stage(&self.who)?.cloud(self.seed, count.min(DRAWS_MAX))?;

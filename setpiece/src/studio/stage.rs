@@ -3,6 +3,7 @@
 use super::message::{Episode, Happened, RegionReply, RequireReply, SketchReply};
 use super::moment::{MomentReply, pitch, roster};
 use super::players::ActingPolicy;
+use crate::drag::HeldThing;
 use crate::engine::batch::EpisodeError;
 use crate::engine::control::agents::Agent;
 use crate::engine::draw::Drawer;
@@ -11,8 +12,9 @@ use crate::engine::state::PlayerId;
 use crate::engine::state::event::Event;
 use crate::film::{Film, FilmOptions, film_of};
 use crate::render::Scene;
+use crate::render::scene::Id;
 use crate::replay::Replay;
-use crate::scenario::{PitchSize, Scenario, Team, Verdict};
+use crate::scenario::{Scenario, Team, Verdict};
 use crate::scene::{of_match, pitch_of};
 use crate::{Error, Loaded};
 use std::sync::Arc;
@@ -95,17 +97,23 @@ impl StudioStage {
         Ok(starts)
     }
 
-    /// The pitch of a start, also of one that doesn't meet its requirements.
+    /// A player of a start, or the ball, to be moved: also of a start that doesn't meet its
+    /// requirements.
     ///
     /// # Errors
-    /// A sentence, if the parameters don't fit.
-    pub(super) fn pitch(&self, (seed, episode): (u64, u64)) -> Result<PitchSize, String> {
+    /// A sentence, if the parameters don't fit, or there is no such player.
+    pub(super) fn held(
+        &self,
+        (seed, episode): (u64, u64),
+        player: Option<Id>,
+    ) -> Result<HeldThing, String> {
         let environment = self.environment()?;
         let (roster, bindings) = (environment.roster(), environment.bindings());
         let mut drawer = Drawer::new(&self.scenario);
-        // An attempt that is refused has drawn a pitch, too.
+        // An attempt that is refused has drawn places, too.
         let _ = drawer.draw(&self.scenario, bindings, roster, seed, episode);
-        Ok(drawer.pitch(&self.scenario))
+        HeldThing::of(&self.scenario, &drawer, player)
+            .ok_or_else(|| "this place isn't written in this file".to_owned())
     }
 
     /// The regions of a start, and how often each requirement refuses one.

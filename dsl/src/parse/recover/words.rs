@@ -257,6 +257,14 @@ impl Context {
         })
     }
 
+    /// How the statement is written that most often stands here, if no keyword begins it.
+    pub(super) const fn usual(self) -> Option<&'static str> {
+        match self {
+            Context::Suite => Some("academy_corner for 100 episodes"),
+            _ => None,
+        }
+    }
+
     /// The rule of the block that belongs to a keyword.
     pub(super) fn block_of(self, keyword: &str) -> Option<Rule> {
         Some(match (self, keyword) {

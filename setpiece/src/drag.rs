@@ -101,7 +101,8 @@ impl HeldThing {
         }
         // Who is jittered is moved by as much as they were dragged: the same draw puts them there.
         let strays = if statement.is_jittered { strays } else { [0.0; 2] };
-        Ok(written.with([0, 1].map(|axis| (to[axis] - strays[axis]) / scale[axis])))
+        let most = [0, 1].map(|axis| half[axis] / scale[axis].abs());
+        Ok(written.with([0, 1].map(|axis| (to[axis] - strays[axis]) / scale[axis]), most))
     }
 
     fn slot<'a>(&self, loaded: &'a Loaded) -> Option<(usize, &'a PlayerSlot)> {

@@ -11,6 +11,8 @@ mod start;
 
 pub use late::{LateFindings, LateWork, QUIET};
 
+use late::KeptFindings;
+
 use crate::editor::Workspace;
 use convert::{path_of, range_of, read};
 use gen_lsp_types as lsp;
@@ -77,6 +79,8 @@ pub struct LanguageServer {
     age: Arc<AtomicU64>,
     /// The problems that were sent last, by file, without those that come later.
     said: BTreeMap<PathBuf, Value>,
+    /// What was found later and is still shown, by file.
+    late: BTreeMap<PathBuf, KeptFindings>,
     /// Whether the editor fills places in what it inserts.
     has_snippets: bool,
 }
@@ -97,6 +101,7 @@ impl LanguageServer {
             is_unprobed: false,
             age: Arc::default(),
             said: BTreeMap::new(),
+            late: BTreeMap::new(),
             has_snippets: snippets.and_then(Value::as_bool).unwrap_or_default(),
         }
     }
@@ -176,7 +181,7 @@ impl LanguageServer {
             let Some(uri) = shown.get(&path).cloned().or_else(|| self.uri(&path)) else { continue };
             // A text that is gone has no problems any more.
             let text = self.workspace.file_text(&path).unwrap_or_default();
-            if !reports.is_empty() {
+            if !reports.is_empty() || self.late.contains_key(&path) {
                 self.shown.insert(path.clone(), uri.clone());
             }
             let diagnostics: Vec<Value> =
@@ -186,7 +191,10 @@ impl LanguageServer {
             if let (Some(version), Some(params)) = (version, params.as_object_mut()) {
                 params.insert("version".to_owned(), version.into());
             }
-            self.said.insert(path, params.clone());
+            self.said.insert(path.clone(), params.clone());
+            if let Some(kept) = self.late.get(&path).filter(|_| version.is_some()) {
+                self.add_late(&mut params, &kept.within(&path, &text), &text);
+            }
             let method = "textDocument/publishDiagnostics".to_owned();
             messages.push(Notification { method, params }.into());
         }

@@ -275,6 +275,12 @@ fn fixes_mend_what_they_are_about() {
         ),
         ("let x = max(1,\n        2\n    require x > 0", "        2)\n    require"),
         ("record near = count of ball in right.box", ""),
+        ("reward r { give 1 if ball in them.box }", "{ give 1 when ball in them.box }"),
+        ("reward r { give -1 if ball in us.box }", "{ give -1 when ball in us.box }"),
+        ("reward r { give -1 if goal by them }", "{ give -1 when goal by them }"),
+        ("team right { CF at (0.09m, 0) }", ""),
+        // What is warned of once the text makes sense is no reason to leave it broken.
+        ("let spare = 3\n    reward r { give 1 on gaol by us }", "give 1 on goal by us"),
     ] {
         let text = format!(
             "scenario a extends academy {{\n    ball at (0.5, 0)\n    team left {{ CF at (0.4, 0) }}\n    {line}\n}}\n"
@@ -302,7 +308,8 @@ fn fixes_mend_what_they_are_about() {
 /// Lines of Google Research Football are replaced as a whole, and no help brings its own numbers.
 #[test]
 fn everything_that_says_how_is_mended_at_once() {
-    let text = "scenario s extends academy {\n    builder.config().game_duration = 400\n    \
+    let text = "scenario s extends academy {\n    agents { left: alle }\n    \
+        builder.config().game_duration = 400\n    \
         builder.SetBallPosition(0.26, y)\n    ball at (0.26, -0.11)\n    reward scorin\n}\nscenario \
         t extends academy {\n    builder.SetBallPosition(-0.26, -0.11)\n}\n";
     let path = Path::new("/nowhere/grf.pitch");
@@ -317,6 +324,8 @@ fn everything_that_says_how_is_mended_at_once() {
         "builder.SetBallPosition(0.26, y)",
         "    ball at (-0.26, -0.11)\n",
         "reward scoring\n",
+        // Of several forms the author chooses one.
+        "left: alle",
     ] {
         assert!(after.contains(expected), "{expected}: {after}");
     }

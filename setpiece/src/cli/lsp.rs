@@ -5,7 +5,7 @@ use super::common::{FAULT, FINE};
 use crate::lsp::{LanguageServer, LateFindings, QUIET, capabilities};
 use lsp_server::{Connection, ErrorCode, Message, Response};
 use std::thread::{JoinHandle, spawn};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How often work beside the conversation is looked at.
 const LOOK: Duration = Duration::from_millis(10);
@@ -27,7 +27,7 @@ fn talk(connection: &Connection, allow_outside: bool) -> Option<()> {
     let (id, params) = connection.initialize_start().ok()?;
     connection.initialize_finish(id, capabilities()).ok()?;
     let mut server = LanguageServer::new(&params, allow_outside);
-    let mut late = LateThread::default();
+    let mut late = LateThread { running: None, since: Instant::now() };
     loop {
         let message = match connection.receiver.recv_timeout(late.patience(&server)) {
             Ok(message) => message,
@@ -39,6 +39,10 @@ fn talk(connection: &Connection, allow_outside: bool) -> Option<()> {
             }
             Err(_) => return None,
         };
+        // Whoever asks doesn't type: hover and hints go on while starts are drawn.
+        if matches!(message, Message::Notification(_)) {
+            late.since = Instant::now();
+        }
         if let Message::Request(request) = &message
             && request.method == "shutdown"
         {
@@ -57,9 +61,10 @@ fn talk(connection: &Connection, allow_outside: bool) -> Option<()> {
 }
 
 /// Work that goes on beside the conversation, one at a time.
-#[derive(Default)]
 struct LateThread {
     running: Option<JoinHandle<LateFindings>>,
+    /// When the editor said something last.
+    since: Instant,
 }
 
 impl LateThread {
@@ -68,7 +73,7 @@ impl LateThread {
         if self.running.is_some() {
             LOOK
         } else if server.has_later() {
-            QUIET
+            QUIET.saturating_sub(self.since.elapsed())
         } else {
             NEVER
         }

@@ -53,25 +53,34 @@ impl Written {
         Some([number(0)?, number(1)?])
     }
 
-    /// The numbers that say some metres instead.
-    pub(super) fn with(self, metres: [f64; 2]) -> [NewNumber; 2] {
+    /// The numbers that say some metres instead, rounded, but not beyond `most` metres on either
+    /// side of the centre.
+    pub(super) fn with(self, metres: [f64; 2], most: [f64; 2]) -> [NewNumber; 2] {
         let [x, y] = self.numbers;
         let is_metres = self.is_metres;
         let number = |range, axis: usize| NewNumber {
             range,
             text: if is_metres {
-                format!("{}m", short(metres[axis], 1))
+                format!("{}m", short(metres[axis], 1, most[axis]))
             } else {
-                short(metres[axis] / NORMALISED_M[axis], 3)
+                let unit = NORMALISED_M[axis];
+                short(metres[axis] / unit, 3, most[axis] / unit)
             },
         };
         [number(x, 0), number(y, 1)]
     }
 }
 
-/// A number with at most so many decimals.
-fn short(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
+/// A number with at most so many decimals, no further from 0 than `most`.
+fn short(value: f64, decimals: usize, most: f64) -> String {
+    let nearest = format!("{value:.decimals$}");
+    let is_beyond = nearest.parse().is_ok_and(|nearest: f64| nearest.abs() > most);
+    let text = if is_beyond {
+        let tens = 10_f64.powi(decimals as i32);
+        format!("{:.decimals$}", (most * tens).floor() / tens * value.signum())
+    } else {
+        nearest
+    };
     let text = if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.')
     } else {
@@ -142,7 +151,7 @@ mod tests {
         let start = text.find("at").unwrap_or_default();
         let end = text.find(['{', '/']).unwrap_or(text.len());
         let end = text.get(..end)?.trim_end().len();
-        Some(rewritten(text, &Written::of(text, start..end)?.with(metres)))
+        Some(rewritten(text, &Written::of(text, start..end)?.with(metres, [54.999, 36.0])))
     }
 
     #[test]
@@ -165,8 +174,19 @@ mod tests {
         );
         let within = "at /* a */ (1, // x\n2) // y";
         let written = Written::of(within, 0..within.len()).unwrap();
-        assert_eq!(rewritten(within, &written.with([0.0; 2])), "at /* a */ (0, // x\n0) // y");
+        assert_eq!(
+            rewritten(within, &written.with([0.0; 2], [55.0, 36.0])),
+            "at /* a */ (0, // x\n0) // y"
+        );
         assert_eq!(to("CM at (5m, 5m)", [-0.04, -0.0]).unwrap(), "CM at (0m, 0m)");
+    }
+
+    #[test]
+    fn rounding_leads_nobody_off_the_pitch() {
+        // 36 m are 0.4306.
+        assert_eq!(to("CM at (0, 0)", [20.0, 36.0]).unwrap(), "CM at (0.368, 0.43)");
+        assert_eq!(to("CM at (0, 0)", [20.0, -36.0]).unwrap(), "CM at (0.368, -0.43)");
+        assert_eq!(to("CM at (0m, 0m)", [-54.999, -36.0]).unwrap(), "CM at (-54.9m, -36m)");
     }
 
     #[test]

@@ -53,8 +53,9 @@ impl Workspace {
                 .filter(|report| !is_in_script(report.place.range.start))
                 .find_map(|report| {
                     let fixes = after.clone().fixes_of(path, &analysis, report);
-                    // Which of several units is meant only the author knows.
-                    let is_open = names_unit(report) && fixes.len() > 1;
+                    // Which of several units or forms is meant only the author knows.
+                    let has_forms = report.help.as_ref().is_some_and(|it| it.contains(", or "));
+                    let is_open = has_forms || (names_unit(report) && fixes.len() > 1);
                     let fix = fixes.into_iter().next().filter(|_| !is_open);
                     Some((report.place.range.start, fix?))
                 });
@@ -108,9 +109,13 @@ impl Workspace {
         };
         let errors = |analysis: &Analysis| analysis.errors();
         if !is_unread(report) {
-            let less = is.reports.len() < was.reports.len();
-            let mends = less && alike(&is) < alike(&was) && errors(&is) <= errors(&was);
-            return mends.then(|| errors(&is));
+            // Of some things the compiler warns only in a text without errors.
+            let less = if report.severity == Severity::Error {
+                errors(&is) < errors(&was)
+            } else {
+                is.reports.len() < was.reports.len() && errors(&is) <= errors(&was)
+            };
+            return (less && alike(&is) < alike(&was)).then(|| errors(&is));
         }
         // What could not be read hides what is wrong behind it, but not in its own lines.
         let unread = |analysis: &Analysis| {
@@ -198,7 +203,9 @@ fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
             return tries;
         }
     }
+    let before = analysis.text.get(..range.start).unwrap_or_default();
     for text in quoted(help) {
+        let Some(text) = behind(before, text) else { continue };
         let unit = text.trim_start_matches(|sign: char| sign.is_ascii_digit() || sign == '.');
         let has_unit =
             unit.len() < text.len() && unit.trim_start().starts_with(char::is_alphabetic);
@@ -273,6 +280,36 @@ fn quoted(help: &str) -> impl Iterator<Item = &str> {
         .filter(|part| !part.contains('…') && !part.is_empty())
 }
 
+/// What a help says to write behind what stands before the place already: of `give 1 when`, it is
+/// `when` behind `give -1`. None if the author has written another beginning of it.
+fn behind<'t>(before: &str, text: &'t str) -> Option<&'t str> {
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    let written: Vec<&str> = line.split_whitespace().collect();
+    let is_alike =
+        |(one, other): (&&str, &str)| *one == other || (is_number(one) && is_number(other));
+    let words = || text.split_whitespace();
+    let starts = |count: usize| {
+        written.len() >= count && written[written.len() - count..].iter().zip(words()).all(is_alike)
+    };
+    let count = words().count();
+    let Some(known) = (1..count).rev().find(|count| starts(*count)) else {
+        let first = words().next().unwrap_or_default();
+        let is_word = first.len() > 1 && first.chars().all(char::is_alphabetic);
+        let stands = count > 1 && is_word && statement_of(line).contains(&first);
+        return (!stands).then_some(text);
+    };
+    let mut rest = text;
+    for _ in 0..known {
+        rest = rest.trim_start().split_once(char::is_whitespace)?.1;
+    }
+    Some(rest.trim_start())
+}
+
+/// The words of the statement under way at the end of a line.
+fn statement_of(line: &str) -> Vec<&str> {
+    line.rsplit(['{', '}']).next().unwrap_or_default().split_whitespace().collect()
+}
+
 /// Whether a help has numbers of its own where the author wrote others.
 fn invents(text: &str, marked: &str, line: &str) -> bool {
     let numbers = |text: &str| -> Vec<String> {
@@ -284,9 +321,8 @@ fn invents(text: &str, marked: &str, line: &str) -> bool {
             .collect()
     };
     let written = numbers(line);
-    !is_number(marked)
-        && !written.is_empty()
-        && numbers(text).iter().any(|number| !written.contains(number))
+    let is_new = !is_number(marked) || text.contains(['(', '[', '{']);
+    is_new && !written.is_empty() && numbers(text).iter().any(|number| !written.contains(number))
 }
 
 fn is_number(text: &str) -> bool {

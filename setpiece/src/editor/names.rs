@@ -228,10 +228,10 @@ impl Workspace {
             return Err(RenameError::ReplacesLibrary { name, item });
         }
         // The name of a scenario may begin with a digit.
-        let is_scenario =
+        let is_of_scenario =
             self.node(path, offset).is_some_and(|node| node.kind == SymbolKind::Scenario);
         let is_letter = |letter: char| letter.is_alphanumeric() || letter == '_';
-        let begins = |letter: char| is_letter(letter) && (is_scenario || !letter.is_numeric());
+        let begins = |letter: char| is_letter(letter) && (is_of_scenario || !letter.is_numeric());
         let has_letter = name.chars().any(|letter| !letter.is_numeric());
         if !name.starts_with(begins) || !name.chars().all(is_letter) || !has_letter {
             return Err(RenameError::NotAName(name.to_owned()));
@@ -240,7 +240,10 @@ impl Workspace {
             places.all().into_iter().map(|place| Edit { place, text: name.to_owned() }).collect();
         for edit in &edits {
             let path = &edit.place.path;
-            if self.analysis(path).is_some_and(|analysis| analysis.is_unreadable(path)) {
+            // A script is read with the scenarios that name it.
+            if is_scenario(path)
+                && self.analysis(path).is_some_and(|analysis| analysis.is_unreadable(path))
+            {
                 return Err(RenameError::Unreadable(path.clone()));
             }
         }

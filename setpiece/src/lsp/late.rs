@@ -3,10 +3,10 @@
 
 use super::LanguageServer;
 use super::convert::range_of;
-use crate::editor::{StartFindings, StartNote, Workspace};
+use crate::editor::{FilePlace, StartFindings, StartNote, TextReport, Workspace};
 use lsp_server::{Message, Notification};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -24,6 +24,51 @@ pub struct LateWork {
     age: u64,
     /// The age of the server's texts.
     now: Arc<AtomicU64>,
+}
+
+/// What an editor shows of a text beside the compiler's reports.
+#[derive(Debug)]
+pub(super) struct KeptFindings {
+    /// The text of which it was found.
+    text: String,
+    findings: StartFindings,
+}
+
+impl KeptFindings {
+    /// What is still shown of the text as it is now, until it has been looked at again: what stands
+    /// before and behind the change.
+    pub(super) fn within(&self, path: &Path, text: &str) -> StartFindings {
+        let (was, is) = (self.text.as_bytes(), text.as_bytes());
+        let before = was.iter().zip(is).take_while(|(was, is)| was == is).count();
+        let rest = was.len().min(is.len()) - before;
+        let behind =
+            was.iter().rev().zip(is.iter().rev()).take(rest).take_while(|(was, is)| was == is);
+        let changed = before..was.len() - behind.count();
+        let moved = |place: &FilePlace| {
+            let range = &place.range;
+            if place.path != path || range.end <= changed.start {
+                return Some(place.clone());
+            }
+            let shift = |at: usize| at + is.len() - was.len();
+            let is_behind = range.start >= changed.end;
+            is_behind.then(|| FilePlace {
+                path: place.path.clone(),
+                range: shift(range.start)..shift(range.end),
+            })
+        };
+        let related = |all: &[(FilePlace, String)]| {
+            all.iter().filter_map(|(place, words)| Some((moved(place)?, words.clone()))).collect()
+        };
+        let reports = self.findings.reports.iter().filter_map(|it| {
+            let (place, related) = (moved(&it.place)?, related(&it.related));
+            Some(TextReport { place, related, ..it.clone() })
+        });
+        let notes = self.findings.notes.iter().filter_map(|it| {
+            let (place, related) = (moved(&it.place)?, related(&it.related));
+            Some(StartNote { place, related, ..it.clone() })
+        });
+        StartFindings { reports: reports.collect(), notes: notes.collect() }
+    }
 }
 
 /// What was found.
@@ -67,26 +112,47 @@ impl LanguageServer {
         self.is_unprobed && !self.is_stale
     }
 
-    /// The problems of the texts of which something was found, together with that; nothing if a
-    /// text has changed since.
+    /// The problems of the texts of which something was or had been found, together with that;
+    /// nothing if a text has changed since.
     pub fn settle(&mut self, late: &LateFindings) -> Vec<Message> {
         let mut messages = Vec::new();
         if late.age != self.age.load(Ordering::Relaxed) {
             return messages;
         }
-        for (path, findings) in &late.found {
+        let was = std::mem::take(&mut self.late);
+        let paths: BTreeSet<&PathBuf> = late.found.keys().chain(was.keys()).collect();
+        let nothing = StartFindings::default();
+        for path in paths {
             let (Some(said), Some(uri)) = (self.said.get(path), self.uri(path)) else { continue };
             let text = self.workspace.file_text(path).unwrap_or_default();
+            let findings = late.found.get(path).unwrap_or(&nothing);
             let mut params = said.clone();
-            if let Some(all) = params.get_mut("diagnostics").and_then(Value::as_array_mut) {
-                all.extend(findings.reports.iter().map(|it| self.diagnostic(it, &text)));
-                all.extend(findings.notes.iter().map(|it| self.information(it, &text)));
-            }
+            self.add_late(&mut params, findings, &text);
             self.shown.insert(path.clone(), uri);
             let method = "textDocument/publishDiagnostics".to_owned();
             messages.push(Notification { method, params }.into());
         }
+        for (path, findings) in &late.found {
+            let text = self.workspace.file_text(path).unwrap_or_default().to_string();
+            self.late.insert(path.clone(), KeptFindings { text, findings: findings.clone() });
+        }
         messages
+    }
+
+    /// Adds what starts have shown to the problems of a text.
+    pub(super) fn add_late(&self, params: &mut Value, findings: &StartFindings, text: &str) {
+        if let Some(all) = params.get_mut("diagnostics").and_then(Value::as_array_mut) {
+            for report in &findings.reports {
+                let report = self.diagnostic(report, text);
+                // What the compiler has found meanwhile is said once.
+                let is_same =
+                    |it: &Value| (&it["code"], &it["range"]) == (&report["code"], &report["range"]);
+                if !all.iter().any(is_same) {
+                    all.push(report);
+                }
+            }
+            all.extend(findings.notes.iter().map(|it| self.information(it, text)));
+        }
     }
 
     /// Something worth knowing as the protocol has it.

@@ -74,7 +74,7 @@ fn a_requirement_that_refuses_most_starts_is_information() {
 }
 
 #[test]
-fn several_that_refuse_them_together_are_told_of_at_the_scenario() {
+fn several_that_refuse_them_together_are_reported_at_the_scenario() {
     let requires = "    require x > 0.35\n    require x < 0.7\n";
     let mut later = Later::open(&text(requires));
     let note = later.only();
@@ -103,7 +103,7 @@ fn what_the_pitch_refuses_counts_too() {
 }
 
 #[test]
-fn what_is_inherited_is_told_of_at_the_child() {
+fn what_is_inherited_is_reported_at_the_child() {
     let child = "scenario child extends drawn {\n    end limit 9s\n}\n";
     let mut later = Later::open(&format!("{}{child}", text("    require x < 0.3\n")));
     let (_, all) = later.said();
@@ -156,6 +156,38 @@ fn what_was_found_of_an_older_text_is_dropped() {
     let (first, all) = later.said();
     assert_eq!((first, all), (Vec::new(), None));
     assert!(later.client.server.settle(&found).is_empty());
+}
+
+/// What was found stays in view while somebody types elsewhere, until starts are drawn again.
+#[test]
+fn what_was_found_stays_until_it_is_looked_for_again() {
+    let mut later = Later::open(&text("    require x < 0.25\n"));
+    let note = later.only();
+    let mut version = 1;
+    let mut change = |later: &mut Later, text: &str| {
+        version += 1;
+        text.clone_into(&mut later.text);
+        let document = json!({ "uri": URI, "version": version });
+        let changes = json!([{ "text": text }]);
+        let params = json!({ "textDocument": document, "contentChanges": changes });
+        later.client.say("textDocument/didChange", params);
+    };
+    // Above it, it moves; behind it, it stays; at another text nothing happens.
+    let above = format!("// A line.\n{}", later.text);
+    change(&mut later, &above);
+    let (first, all) = later.said();
+    assert_eq!(first, all.unwrap());
+    assert_eq!(
+        (&first[0]["message"], later.words(&first[0]["range"])),
+        (&note["message"], "x < 0.25")
+    );
+    let below = format!("{above}// \u{1d4d0}\n");
+    change(&mut later, &below);
+    let (first, _) = later.said();
+    assert_eq!(later.words(&first[0]["range"]), "x < 0.25");
+    // A requirement that is written again has nothing to say until its starts are drawn.
+    change(&mut later, &below.replace("x < 0.25", "x < 0.95"));
+    assert_eq!(later.said(), (Vec::new(), Some(Vec::new())));
 }
 
 /// Work that nobody waits for ends.

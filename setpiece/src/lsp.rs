@@ -4,6 +4,7 @@
 
 mod answers;
 mod convert;
+mod kept;
 mod late;
 mod library;
 mod looks;
@@ -11,11 +12,10 @@ mod start;
 
 pub use late::{LateFindings, LateWork, QUIET};
 
-use late::KeptFindings;
-
 use crate::editor::Workspace;
 use convert::{path_of, range_of, read};
 use gen_lsp_types as lsp;
+use kept::KeptFindings;
 use lsp_server::{ErrorCode, Message, Notification, Response, ResponseError};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

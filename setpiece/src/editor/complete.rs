@@ -13,7 +13,9 @@ use crate::dsl::ast::{Item, ItemKind};
 use crate::dsl::parse::parse;
 use crate::dsl::source::{FileId, SourceLoader};
 use crate::files::FileLoader;
-use crate::scenario::vocabulary::{AGENTS, EventField, Landmark, Owner, PROPERTIES, Role};
+use crate::scenario::vocabulary::{
+    AGENTS, EventField, Landmark, Owner, PROPERTIES, PitchRegion, Role,
+};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -73,8 +75,13 @@ fn members(base: &str) -> Vec<Completion> {
             })
             .collect(),
         "left" | "right" | "us" | "them" | "own" => {
-            owned(Owner::Team).chain(words_of(&[WordKind::Place])).collect()
+            // What the whole pitch has is nobody's.
+            let places = words_of(&[WordKind::Place]);
+            let has_sides = |it: &Completion| PitchRegion::from_name(&it.text).is_none();
+            owned(Owner::Team).chain(places.filter(has_sides)).collect()
         }
+        // `anna.metres.x`
+        "metres" => owned(Owner::Ball).filter(|it| matches!(it.text.as_str(), "x" | "y")).collect(),
         // `left.zone.CB`
         "zone" => words_of(&[WordKind::Role]).collect(),
         // Every place has these; an area has nothing.

@@ -5,7 +5,7 @@ use super::completion::{Completion, CompletionKind, joining, word, words_of};
 use super::cursor::{UnfinishedStatement, unfinished};
 use super::words::WordKind;
 use crate::dsl::parse::{NextPart, next_parts};
-use crate::scenario::vocabulary::{Owner, PROPERTIES, StartKind, Type, Unit};
+use crate::scenario::vocabulary::{EventKind, Owner, PROPERTIES, StartKind, Type, Unit};
 use std::collections::BTreeSet;
 
 /// Words that begin a place, with what follows them.
@@ -20,6 +20,14 @@ const PLACES: [(&str, &str); 9] = [
     ("beyond", "beyond ${1:ball} by ${2:2m} from ${3:right.goal}"),
     ("offset", "offset from ${1:ball} along ${2:90deg} by ${3:2m}"),
 ];
+
+/// What the last event of a text may be.
+fn qualifiers(text: &str) -> Vec<Completion> {
+    let event = text.split_whitespace().rev().find_map(EventKind::from_name);
+    let known = event.map_or(&[][..], EventKind::qualifiers);
+    let is_known = |it: &Completion| known.iter().any(|known| known.name() == it.text);
+    words_of(&[WordKind::Qualifier]).filter(is_known).collect()
+}
 
 impl Analysis {
     /// What may stand at the end of a text, within a statement.
@@ -55,7 +63,7 @@ impl Analysis {
                     })
                     .collect(),
                 NextPart::Event => words_of(&[WordKind::Event]).collect(),
-                NextPart::Qualifier => words_of(&[WordKind::Qualifier]).collect(),
+                NextPart::Qualifier => qualifiers(text),
                 NextPart::Role => words_of(&[WordKind::Role]).collect(),
                 NextPart::Type => words_of(&[WordKind::Type]).collect(),
                 NextPart::Act => words_of(&[WordKind::Act]).chain(self.after("behavior")).collect(),

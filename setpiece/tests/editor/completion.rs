@@ -33,7 +33,10 @@ fn completion_knows_the_place() {
         (scenario("‸"), &["ball", "team", "end"], &["GK", "scenario"]),
         (scenario("team right { ‸ }"), &["GK", "CB", "maybe"], &["ball"]),
         (scenario("reward ‸"), &["scoring", "checkpoints"], &["GK"]),
-        (scenario("end success when ball in them.‸"), &["box", "half", "goal"], &["far"]),
+        (scenario("end success when ball in them.‸"), &["box", "half", "goal"], &["far", "pitch"]),
+        (scenario("require striker.metres.‸"), &["x", "y"], &["fatigue", "speed", "metres"]),
+        (scenario("reward r { give 1 on goal ‸"), &["by", "when"], &["completed", "on_target"]),
+        (scenario("reward r { give 1 on shot ‸"), &["on_target", "by"], &["completed", "taken"]),
         (scenario("end success when ball.‸"), &["speed", "height"], &["fatigue"]),
         (scenario("end success when striker.‸"), &["fatigue", "role"], &["height"]),
         (

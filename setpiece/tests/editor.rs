@@ -488,6 +488,21 @@ fn the_preview_follows_the_cursor() {
     assert!(workspace.preview(&attack, 0).is_none_or(|it| it.picture.is_err()));
 }
 
+/// Of this scenario's first ten starts two aren't found.
+#[test]
+fn the_preview_shows_the_starts_that_there_are() {
+    let text = "scenario seldom extends academy {\n    let x = uniform(0, 1)\n    ball at centre\n    \
+        team left { CF at (0.1 * x, 0) }\n    require x > 0.9998\n}\n";
+    let path = Path::new("/nowhere/seldom.pitch");
+    let mut workspace = Workspace::default();
+    workspace.set(path, text);
+    let preview = workspace.preview(path, text.len()).expect("a scenario");
+    assert!(preview.picture.is_ok(), "{:?}", preview.picture);
+    workspace.set(path, &text.replace("0.9998", "0.99999999"));
+    let preview = workspace.preview(path, text.len()).expect("a scenario");
+    assert!(preview.picture.is_err(), "no start at all");
+}
+
 /// Random edits: no crash, and the answers of a server that has seen only the last text.
 #[test]
 fn any_edit_leads_to_what_a_fresh_workspace_says() {

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from os import PathLike, fspath
 
 from setpiece import _native
-from setpiece._errors import ParameterError
+from setpiece._errors import ParameterError, SetpieceError
 from setpiece._native import Scenario
 from setpiece._scenario_dict import ScenarioDict, pitch_text, scenario_name
-
-LEVEL = re.compile(r"\s*([A-Za-z_]\w*)(\{[^{}]*\})?#\d+(:\d+)?\s*")
-"""The text of a level, with the scenario's name as its first group."""
 
 Source = Scenario | ScenarioDict | str | PathLike[str]
 """A scenario: compiled, a `ScenarioDict`, a name in the library, a file's path, or a text."""
@@ -32,16 +28,25 @@ def load(source: Source, *, allow_outside: bool = False) -> Scenario:
     """
     if isinstance(source, Scenario):
         return source
-    if isinstance(source, str) and (level := LEVEL.fullmatch(source)):
+    if (scenario := _scenario_of_level(source)) is not None:
         raise ParameterError(
-            f"`{source}` is a level, one episode of `{level[1]}`",
+            f"`{source!s}` is a level, one episode of `{scenario}`",
             name="scenario",
-            help=f"make `{level[1]}` and begin the level by `reset(options={{'level': ...}})`",
+            help=f"make `{scenario}` and begin the level by `reset(options={{'level': ...}})`",
         )
     text = text_of(source)
     if text is not None:
         return _native.compile(text, name_of(source), allow_outside=allow_outside)
     return _native.load(path_of(source), allow_outside=allow_outside)
+
+
+def _scenario_of_level(source: Source) -> str | None:
+    if not isinstance(source, str) or "#" not in source:
+        return None
+    try:
+        return str(_native.level(source)["scenario"])
+    except SetpieceError:
+        return None
 
 
 def text_of(source: Source) -> str | None:

@@ -198,7 +198,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
                 Out::new(ColourChoice::Auto, false).error(fault);
                 return FAULT;
             }
-            beside(&mut error);
+            add_beside_tip(&mut error);
             // Help and version also come this way; if they can't be printed, nothing can.
             let _ = error.print();
             error.exit_code() as u8
@@ -207,7 +207,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 /// Adds how two agents are compared to the report that one was given already.
-fn beside(error: &mut clap::Error) {
+fn add_beside_tip(error: &mut clap::Error) {
     let is_agent = |value: &ContextValue| matches!(value, ContextValue::String(name) if name.starts_with("--agent"));
     let is_twice = error.kind() == ErrorKind::ArgumentConflict
         && [ContextKind::InvalidArg, ContextKind::PriorArg]

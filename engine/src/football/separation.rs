@@ -68,8 +68,7 @@ pub fn separate(game: &mut Match, events: &mut Events) {
         let (x, y) =
             (f32x4::splat(xs[i / WIDTH][i % WIDTH]), f32x4::splat(ys[i / WIDTH][i % WIDTH]));
         let mut meets = 0u32;
-        // From the first row on, because nobody can predict where a shorter loop ends.
-        for row in 0..rows {
+        for row in i / WIDTH..rows {
             let (dx, dy) = (f32x4::new(xs[row]) - x, f32x4::new(ys[row]) - y);
             meets |= (dx * dx + dy * dy).simd_lt(near).to_bitmask() << (row * WIDTH);
         }

@@ -122,7 +122,7 @@ fn drawn(loaded: &Loaded) -> Result<StartPicture, String> {
     let mut dots: Vec<[String; 3]> = Vec::new();
     for episode in (0..STARTS).rev() {
         match environment.reset(Some(SEED), Some(episode)) {
-            Ok(_) => {}
+            Ok(()) => {}
             // The first start is the picture; of the others, those that there are.
             Err(_) if episode > 0 => continue,
             Err(why) => return Err(fault(why.into())),

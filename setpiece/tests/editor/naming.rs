@@ -278,3 +278,24 @@ fn every_name_of_the_repository_has_a_declaration() {
     }
     assert!(missing.is_empty(), "{} names:\n{}", missing.len(), missing.join("\n"));
 }
+
+/// A script in a file of its own has the names of the scenario that names it.
+#[test]
+fn a_name_is_renamed_in_the_script_files_that_use_it() {
+    let script = "fn reward(ctx, now, prev, events) { ctx.params.pace * 0.1 }\n";
+    let text = "scenario s extends academy {\n    param pace = 3 in 1..9\n    ball at centre\n    \
+        team left { CF at (0, 0) }\n    reward script \"r.rhai\"\n}\n";
+    let path = folder("script", &[("r.rhai", script), ("s.pitch", text)]).join("s.pitch");
+    let mut workspace = Workspace::default();
+    workspace.set(&path, text);
+    assert!(workspace.reports()[&path].is_empty(), "{:?}", workspace.reports());
+    let at = text.find("pace").unwrap();
+    let edits = workspace.rename(&path, at, "tempo").expect("a parameter");
+    let changed: BTreeSet<String> = edits
+        .iter()
+        .map(|edit| edit.place.path.file_name().unwrap().to_str().unwrap().to_owned())
+        .collect();
+    assert_eq!(changed, ["r.rhai", "s.pitch"].map(str::to_owned).into());
+    let of_script = edits.iter().find(|it| it.place.path.ends_with("r.rhai")).unwrap();
+    assert_eq!(&script[of_script.place.range.clone()], "pace");
+}

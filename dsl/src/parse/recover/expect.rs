@@ -210,7 +210,7 @@ impl Wrong<'_> {
                 Some("if c then a else b")
             }
             (_, "end", "limit") => Some("end limit 400 steps"),
-            (_, first, _) => self.context.form(first).or(self.context.usual()),
+            (_, first, _) => self.context.form(first),
         };
         form.map_or(Hint::None, Hint::Form)
     }

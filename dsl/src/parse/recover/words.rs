@@ -214,6 +214,7 @@ impl Context {
             }
             (Context::File, "curriculum") => "curriculum mine { stage first = academy_corner }",
             (Context::Suite, "each") => "each level in [0.2, 0.8] { … }",
+            (Context::Suite, _) => "academy_corner for 100 episodes",
             (Context::Check, "play") => "play academy_corner with bot for 50 episodes",
             (Context::Check, "expect") => "expect success_rate > 50%",
             (Context::Curriculum, "stage") => {
@@ -255,14 +256,6 @@ impl Context {
             (Context::Behavior, "if") => "if me has ball { do shoot } else { do press }",
             _ => return None,
         })
-    }
-
-    /// How the statement is written that most often stands here, if no keyword begins it.
-    pub(super) const fn usual(self) -> Option<&'static str> {
-        match self {
-            Context::Suite => Some("academy_corner for 100 episodes"),
-            _ => None,
-        }
     }
 
     /// The rule of the block that belongs to a keyword.

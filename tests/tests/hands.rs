@@ -105,7 +105,7 @@ fn a_kick_waits_until_the_turn_with_the_ball_is_played_out() {
     // their run it comes later.
     let (before, after) = (leaves(3), leaves(7));
     assert!(before.iter().all(|step| (5..=7).contains(step)) && before.len() == 12, "{before:?}");
-    assert!(after.iter().all(|step| *step >= 10) && after.len() >= 5, "{after:?}");
+    assert!(after.iter().all(|step| *step >= 10) && after.len() >= 3, "{after:?}");
 }
 
 const PASSED: &str = "ball at (0.7, 0.26)
@@ -188,7 +188,7 @@ fn a_defender_plants_their_feet_for_a_dribbler() {
 
 #[test]
 fn a_defender_stops_for_a_ball_that_rolls_up() {
-    let mut environment = met(0.6);
+    let mut environment = library("academy_3_vs_1_with_keeper");
     let stops = |episode: &u64| {
         let matches = played(&mut environment, *episode, |step| {
             if step == 1 { Action::Sprint } else { Action::Right }
@@ -200,16 +200,22 @@ fn a_defender_stops_for_a_ball_that_rolls_up() {
 }
 
 #[test]
-fn a_sprinter_gets_past_a_keeper_who_comes_out_and_is_often_stopped_by_them() {
+fn a_sprinters_ball_rolls_past_a_keeper_who_comes_out_and_both_run_after_it() {
     let mut environment = library("academy_run_to_score_with_keeper");
-    let passes = |episode: &u64| {
-        let matches = played_for(90, &mut environment, *episode, |step| {
+    let keeper = PlayerId(11);
+    let mut seen = [0; 2];
+    for episode in 0..40 {
+        let matches = played_for(90, &mut environment, episode, |step| {
             if step == 1 { Action::Sprint } else { Action::Right }
         });
-        matches.iter().any(|game| game.players[1].pos.x > 35.0 && game.owner == Some(PlayerId(1)))
-    };
-    let past = (0..40).filter(passes).count();
-    assert!((3..34).contains(&past), "{past} of 40");
+        let past = matches.iter().position(|game| {
+            game.ball.pos.x > game.player(keeper).pos.x + 1.0 && game.owner != Some(keeper)
+        });
+        let stopped = matches.iter().all(|game| game.score == [0, 0]);
+        seen[0] += usize::from(past.is_some());
+        seen[1] += usize::from(stopped);
+    }
+    assert!(seen.iter().all(|count| *count >= 10), "past, no goal: {seen:?} of 40");
 }
 
 const PASSER: &str = "ball at (-0.44, 0)

@@ -94,7 +94,9 @@ fn hold(game: &mut Match, view: &TeamView, id: PlayerId) {
 
 /// Decides for one player.
 fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
-    if game.player(id).body.lunge.is_some_and(|lunge| lunge.aim == Aim::Kick) {
+    let now = game.tick as i32;
+    let lunge = game.player(id).body.lunge;
+    if lunge.is_some_and(|lunge| lunge.aim == Aim::Kick && lunge.at >= now) {
         return;
     }
     let has_ball = view.owner == Some(id);

@@ -3,6 +3,7 @@
 use crate::football::{contact, forecast};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
+use crate::state::player::Aim;
 use crate::state::{Match, Squad};
 
 /// For `UNSEEN_TICKS` nobody has seen where a rival's touch sends the ball. Between two bounces off
@@ -15,10 +16,12 @@ const LEGS_M: f32 = 1.0;
 const BODY_M: f32 = 0.45;
 
 /// Lets the ball bounce off a player whose rival has just touched it. `near`: the players that it
-/// may hit. (GRF's.)
+/// may hit. Who takes the ball or kicks it minds their own motion, whether it meets the ball or
+/// not; who pokes is hit by a ball that was touched after their leg went out. (GRF's.)
 pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     let Some(last) = game.last_touch else { return };
-    let since = ticks_since(game.tick, game.player(last).body.touched_at);
+    let touched = game.player(last).body.touched_at;
+    let since = ticks_since(game.tick, touched);
     let ball = game.ball.pos;
     if since >= UNSEEN_TICKS
         || ball.z > LEGS_M
@@ -32,7 +35,10 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
             && player.is_on_feet()
             && player.pos.distance_squared(ball.truncate()) < BODY_M * BODY_M
             && ticks_since(game.tick, player.body.touched_at) >= UNSEEN_TICKS
-            && player.body.lunge.is_none()
+            && player
+                .body
+                .lunge
+                .is_none_or(|lunge| lunge.aim == Aim::Poke && lunge.from() < touched)
     });
     let Some(id) = hit else { return };
     let player = *game.player(id);

@@ -18,14 +18,14 @@ pub(super) const STOPS_MPS: f32 = 0.3;
 /// `FAST_MPS`. Measured.
 const WALKS_MPS: f32 = 5.1;
 const FAST_MPS: f32 = 7.5;
-const CARRIED_M: [f32; 2] = [0.36, 0.62];
+const CARRIED_M: [f32; 2] = [0.36, 0.7];
 /// A ball that rolls slower than this share of the speed that is wanted is pushed on from so far
 /// away, by who walks and by who sprints, metres. Measured.
 const SLOW: f32 = 0.5;
 const EARLY_M: [f32; 2] = [0.72, 0.56];
 /// From how far whoever comes up to a sprint pushes the ball on, metres: below so many m/s, so many
 /// ticks after their last touch. Measured.
-const SPEEDING_M: f32 = 0.8;
+const SPEEDING_M: f32 = 0.68;
 const SPEEDING_MPS: f32 = 6.8;
 const SPEEDING_TICKS: i32 = 45;
 /// For how many ticks a player who has pushed off the ball of a start follows it at that pace, and
@@ -54,6 +54,9 @@ const ABOUT: f32 = -0.5;
 const TURNING_TICKS: i32 = 40;
 /// From this cosine on, the ball already rolls the way the player runs.
 const ALONG: f32 = 0.94;
+const HOPS_FROM_MPS: f32 = 6.5;
+const HOP: f32 = 0.5;
+const HOP_MAX_MPS: f32 = 1.5;
 /// Deceleration of a stopping player (`STOP_MPS2`) and of a slow ball (`ROLL_MPS2`), m/s².
 const STOP_MPS2: f32 = 12.0;
 const ROLL_MPS2: f32 = 1.75;
@@ -128,11 +131,18 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
     }
     let care = Care { lines: minds_lines(game, id), lies: rolling < LIES_MPS };
     let velocity = self::ahead(&player, to_ball, ahead, speed, &care);
-    contact::push(game, events, id, carry::as_skilled(game, id, velocity, speed), 0.0);
+    let velocity = carry::as_skilled(game, id, velocity, speed);
+    contact::push(game, events, id, velocity, hop_mps(velocity.length()));
     if player.body.kick.is_none() {
         note_turn(game, id, ahead);
     }
     true
+}
+
+/// How fast a ball rises that is pushed on at this speed, m/s. Fitted to how far sprinters' balls
+/// run: below `HOPS_FROM_MPS` backspin takes what the hop saves.
+fn hop_mps(speed: f32) -> f32 {
+    ((speed - HOPS_FROM_MPS) * HOP).clamp(0.0, HOP_MAX_MPS)
 }
 
 /// Pushes the ball of a start off, for a player who has no agent yet: they follow it at that pace
@@ -143,7 +153,8 @@ pub(super) fn set_off(game: &mut Match, events: &mut Events, id: PlayerId) {
     let speed = player.body.dribble.length();
     let ahead = player.body.dribble.normalize_or(player.body.facing);
     let velocity = carry::straight_on(&player, to_ball, ahead, speed);
-    contact::push(game, events, id, carry::as_skilled(game, id, velocity, speed), 0.0);
+    let velocity = carry::as_skilled(game, id, velocity, speed);
+    contact::push(game, events, id, velocity, hop_mps(velocity.length()));
     let now = game.tick as i32;
     let player = &mut game.players[id.index()];
     player.vel = ahead * SETS_OFF_MPS;

@@ -17,11 +17,12 @@ use setpiece_scenario::vocabulary::{EventKind, Role};
 
 /// A way to reach for the ball.
 ///
-/// Measured of GRF's motions: how soon they touch, how long they last, and where. How far off the
-/// ball may be is fitted to how often a player who walks straight at a defender loses it.
+/// Measured of GRF's motions: how soon they touch, how long they last, and where the ball is then.
 struct ReachMotion {
     /// The lowest speed for this motion, m/s.
     from_mps: f32,
+    /// Up to which angle between the run and the way that the player wants, degrees.
+    to_degrees: f32,
     /// Ticks until the foot arrives, and until the player is free again.
     ticks: i32,
     lasts: i32,
@@ -37,12 +38,14 @@ struct ReachMotion {
 
 const fn motion(
     from_mps: f32,
+    to_degrees: f32,
     [ticks, lasts]: [i32; 2],
     [ahead_m, aside_m]: [f32; 2],
     off: [f32; 2],
 ) -> ReachMotion {
     ReachMotion {
         from_mps,
+        to_degrees,
         ticks,
         lasts,
         ahead_m,
@@ -53,35 +56,75 @@ const fn motion(
     }
 }
 
-/// Pokes, fastest first.
-const POKES: [ReachMotion; 5] = [
-    motion(SPRINTS_FROM_MPS, [12, 39], [0.77, 0.0], [0.47, 0.17]),
-    motion(DRIBBLES_FROM_MPS, [9, 26], [0.61, 0.0], [0.56, 0.26]),
-    motion(DRIBBLES_FROM_MPS, [24, 58], [-0.5, 0.7], [0.56, 0.26]),
-    motion(0.0, [11, 28], [0.9, 0.0], [0.59, 0.41]),
-    motion(0.0, [15, 35], [0.0, 1.05], [0.59, 0.41]),
+/// A motion for which the player stops.
+const fn stop(
+    from_mps: f32,
+    to_degrees: f32,
+    ticks: [i32; 2],
+    foot: [f32; 2],
+    off: [f32; 2],
+) -> ReachMotion {
+    ReachMotion { stops: true, ..motion(from_mps, to_degrees, ticks, foot, off) }
+}
+
+/// Angles up to which a motion leads on, turns a little, half, square, back, and about, degrees.
+const ON: f32 = 13.0;
+const BIT: f32 = 30.0;
+const HALF: f32 = 62.0;
+const SQUARE: f32 = 105.0;
+const BACK: f32 = 150.0;
+const ABOUT: f32 = 180.0;
+
+/// Pokes of who stands, or hardly moves, and one at a ball that comes from behind.
+const POKES: [ReachMotion; 3] = [
+    motion(DRIBBLES_FROM_MPS, ABOUT, [24, 58], [-0.7, 0.6], [0.3, 0.26]),
+    motion(0.0, ABOUT, [11, 28], [0.9, 0.0], [0.59, 0.41]),
+    motion(0.0, ABOUT, [15, 35], [0.0, 1.05], [0.59, 0.41]),
 ];
-/// Ways to take the ball along.
-const TAKES: [ReachMotion; 4] = [
-    motion(SPRINTS_FROM_MPS, [12, 24], [0.2, 0.0], [0.42, 0.15]),
-    motion(DRIBBLES_FROM_MPS, [20, 47], [0.45, 0.0], [0.3, 0.25]),
-    motion(DRIBBLES_FROM_MPS, [10, 29], [0.0, 0.0], [0.35, 0.3]),
-    motion(0.0, [13, 55], [0.45, 0.0], [0.45, 0.32]),
+/// Those of a keeper who comes out, fastest first. Fitted to how often one stops a sprinter.
+const KEEPER_POKES: [ReachMotion; 5] = [
+    motion(SPRINTS_FROM_MPS, ABOUT, [12, 39], [0.77, 0.0], [0.47, 0.17]),
+    motion(DRIBBLES_FROM_MPS, ABOUT, [9, 26], [0.61, 0.0], [0.56, 0.26]),
+    motion(DRIBBLES_FROM_MPS, ABOUT, [24, 58], [-0.5, 0.7], [0.56, 0.26]),
+    motion(0.0, ABOUT, [11, 28], [0.9, 0.0], [0.59, 0.41]),
+    motion(0.0, ABOUT, [15, 35], [0.0, 1.05], [0.59, 0.41]),
 ];
-/// Stops a ball that rolls towards the player, long before it arrives. (GRF's.)
-const TRAP: ReachMotion =
-    ReachMotion { stops: true, ..motion(DRIBBLES_FROM_MPS, [29, 54], [0.45, 0.0], [0.5, 0.35]) };
+/// Ways to take the ball along, fastest first.
+const TAKES: [ReachMotion; 20] = [
+    motion(SPRINTS_FROM_MPS, ON, [12, 25], [0.3, 0.0], [0.3, 0.15]),
+    motion(SPRINTS_FROM_MPS, BIT, [14, 40], [0.38, 0.0], [0.27, 0.14]),
+    motion(SPRINTS_FROM_MPS, SQUARE, [19, 53], [0.36, 0.1], [0.2, 0.2]),
+    stop(SPRINTS_FROM_MPS, ABOUT, [22, 59], [0.62, 0.0], [0.28, 0.18]),
+    motion(WALKS_FROM_MPS, ON, [15, 26], [0.0, 0.0], [0.36, 0.5]),
+    motion(WALKS_FROM_MPS, BIT, [16, 29], [0.0, 0.0], [0.36, 0.18]),
+    motion(WALKS_FROM_MPS, BIT, [10, 29], [-0.3, 0.0], [0.2, 0.2]),
+    motion(WALKS_FROM_MPS, HALF, [27, 50], [0.0, 0.0], [0.62, 0.33]),
+    motion(WALKS_FROM_MPS, SQUARE, [19, 53], [0.2, 0.0], [0.31, 0.3]),
+    stop(WALKS_FROM_MPS, BACK, [20, 47], [0.8, 0.0], [0.18, 0.23]),
+    motion(DRIBBLES_FROM_MPS, ON, [15, 26], [0.12, 0.0], [0.24, 0.49]),
+    motion(DRIBBLES_FROM_MPS, BIT, [16, 29], [0.08, 0.0], [0.33, 0.27]),
+    motion(DRIBBLES_FROM_MPS, BIT, [10, 29], [-0.16, 0.0], [0.26, 0.1]),
+    motion(DRIBBLES_FROM_MPS, HALF, [27, 50], [0.23, 0.0], [0.62, 0.36]),
+    motion(DRIBBLES_FROM_MPS, SQUARE, [19, 53], [0.2, 0.0], [0.15, 0.32]),
+    stop(DRIBBLES_FROM_MPS, BACK, [20, 47], [0.72, 0.0], [0.24, 0.3]),
+    motion(0.0, BIT, [8, 28], [0.0, 0.0], [0.3, 0.15]),
+    motion(0.0, HALF, [7, 36], [0.0, 0.0], [0.43, 0.45]),
+    motion(0.0, SQUARE, [8, 32], [0.0, 0.0], [0.5, 0.37]),
+    motion(0.0, ABOUT, [13, 55], [0.0, 0.0], [0.75, 0.5]),
+];
+/// Stops a ball that rolls towards the player, long before it arrives, to go back with it. (GRF's.)
+const TRAP: ReachMotion = stop(DRIBBLES_FROM_MPS, ABOUT, [29, 54], [0.17, 0.0], [0.19, 0.16]);
 /// A carrier's ball that they have again no sooner than this is stopped like one that nobody has,
 /// seconds. (GRF's.)
 const LOOSE_S: f32 = 0.4;
 /// Kicks at a ball that a rival still dribbles. (Measured of GRF's motions.)
 const KICKS: [ReachMotion; 3] = [
-    motion(WALKS_FROM_MPS, [41, 69], [0.25, 0.0], [0.35, 0.3]),
-    motion(DRIBBLES_FROM_MPS, [27, 61], [0.2, 0.0], [0.35, 0.3]),
-    motion(0.0, [35, 73], [0.6, 0.0], [0.35, 0.3]),
+    motion(WALKS_FROM_MPS, ABOUT, [41, 69], [0.25, 0.0], [0.35, 0.3]),
+    motion(DRIBBLES_FROM_MPS, ABOUT, [27, 61], [0.2, 0.0], [0.35, 0.3]),
+    motion(0.0, ABOUT, [35, 73], [0.6, 0.0], [0.35, 0.3]),
 ];
-/// Which share of their pace a player keeps until they have stopped for a ball.
-const STOPPING: f32 = 0.5;
+/// How a player brakes who stops for a ball, m/s².
+const STOPPING_MPS2: f32 = 13.0;
 /// A slower ball isn't trapped, m/s. (GRF's.)
 const TRAPPED_MPS: f32 = 2.0;
 /// A ball that meets a player faster than this can't be taken along, m/s. (GRF's.)
@@ -120,13 +163,12 @@ const KEEPER_MPS: f32 = 7.5;
 pub fn contest(game: &mut Match, events: &mut Events, legs: Squad, near: Squad) {
     let now = game.tick as i32;
     for id in game.order_of(legs) {
-        // A leg that comes too late, or misses the ball, is drawn back too.
-        let Some(lunge) = game.player(id).body.lunge.filter(|lunge| lunge.at <= now) else {
-            continue;
-        };
-        game.players[id.index()].body.lunge = None;
+        let Some(lunge) = game.player(id).body.lunge else { continue };
         if lunge.at == now && near.has(id) {
             meet(game, events, id, lunge);
+        }
+        if lunge.until() <= now {
+            game.players[id.index()].body.lunge = None;
         }
         if game.dead {
             return;
@@ -188,7 +230,6 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let pace = player.vel.length();
     let slow = (game.ball.vel.truncate() - player.vel).length_squared() < TAKES_MPS * TAKES_MPS;
     let takes = first && slow && (sooner || hidden <= HIDDEN[1]) && player.role != Role::GK;
-    let ways = if takes { &TAKES[..] } else { &[] };
     let rolls = game.ball.vel.truncate().length_squared() > TRAPPED_MPS * TRAPPED_MPS;
     // An agent's player takes the ball as the keys say: `first_touch`.
     let loose = other.body.meet_s > LOOSE_S && !possession::has_ball(game, rival);
@@ -202,24 +243,44 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
         game.players[id.index()].body.intent = Intent::Run(player.vel);
         return;
     }
-    if traps && lunges(game, id, &TRAP, Aim::Take, seen) {
+    let turn = turn_degrees(&player);
+    let takes = if takes { motions(&TAKES, pace, turn) } else { &[] };
+    if takes.iter().any(|way| lunges(game, id, way, Aim::Take, seen)) {
         return;
     }
-    let pokes = if sooner || hidden > HIDDEN[0] { &[] } else { &POKES[..] };
-    for (ways, aim) in [(ways, Aim::Take), (pokes, Aim::Poke)] {
-        let Some(gait) = ways.iter().find(|way| pace >= way.from_mps).map(|way| way.from_mps)
-        else {
-            continue;
-        };
-        for way in ways.iter().filter(|way| way.from_mps == gait) {
-            if lunges(game, id, way, aim, seen) {
-                return;
-            }
-        }
+    if traps && turn > BACK && lunges(game, id, &TRAP, Aim::Take, seen) {
+        return;
+    }
+    let pokes = if player.role == Role::GK { &KEEPER_POKES[..] } else { &POKES[..] };
+    let pokes = if sooner || hidden > HIDDEN[0] { &[] } else { motions(pokes, pace, ABOUT) };
+    if pokes.iter().any(|way| lunges(game, id, way, Aim::Poke, seen)) {
+        return;
     }
     if hidden <= SLIDES_TO && comes_late(game, id, &player, &other) {
         slide::begin(game, events, id, None);
     }
+}
+
+/// The angle between a player's run and the way that they want with the ball, degrees.
+fn turn_degrees(player: &Player) -> f32 {
+    let run = if player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS {
+        player.body.facing
+    } else {
+        player.vel.normalize_or_zero()
+    };
+    let cos = player.body.dribble.try_normalize().map_or(1.0, |wish| wish.dot(run));
+    libm::acosf(cos.clamp(-1.0, 1.0)).to_degrees()
+}
+
+/// The motions of a list for a pace and a turn.
+fn motions(ways: &'static [ReachMotion], pace: f32, turn: f32) -> &'static [ReachMotion] {
+    let Some(gait) = ways.iter().map(|way| way.from_mps).find(|from| pace >= *from) else {
+        return &[];
+    };
+    let fits = |way: &ReachMotion| way.from_mps == gait && turn <= way.to_degrees;
+    let Some(first) = ways.iter().position(fits) else { return &[] };
+    let same = |way: &&ReachMotion| fits(way) && way.to_degrees == ways[first].to_degrees;
+    &ways[first..first + ways[first..].iter().take_while(same).count()]
 }
 
 /// Whether the ball gets past a player before its carrier has it again. A team without agents
@@ -244,8 +305,9 @@ fn lunges(game: &mut Match, id: PlayerId, way: &ReachMotion, aim: Aim, seen: boo
         return false;
     }
     let now = game.tick as i32;
-    player.body.lunge =
-        Some(Lunge { at: now + way.ticks, place: ball.truncate(), aim, stops: way.stops });
+    let (at, place) = (now + way.ticks, ball.truncate());
+    let (out, back) = (way.ticks as u8, (way.lasts - way.ticks) as u8);
+    player.body.lunge = Some(Lunge { at, out, back, place, aim, stops: way.stops });
     player.body.ready_at = now + way.lasts;
     true
 }
@@ -271,12 +333,19 @@ fn reaches(player: &Player, ball: Vec2, way: &ReachMotion) -> bool {
     } else {
         player.body.facing
     };
-    let kept = if way.stops { STOPPING } else { 1.0 };
-    let to_ball = ball - player.pos - player.vel * (kept * way.ticks as f32 * 0.01);
+    let seconds = way.ticks as f32 * 0.01;
+    let runs = if way.stops { brakes(player.vel, seconds) } else { player.vel * seconds };
+    let to_ball = ball - player.pos - runs;
     let (along, across) =
         (to_ball.dot(run) - way.ahead_m, to_ball.perp_dot(run).abs() - way.aside_m);
     let (along, across) = (along / way.along_m, across / way.across_m);
     along * along + across * across <= 1.0
+}
+
+/// How far a player gets who brakes for this long, metres.
+fn brakes(velocity: Vec2, seconds: f32) -> Vec2 {
+    let until = seconds.min(velocity.length() / STOPPING_MPS2);
+    velocity * until - velocity.normalize_or_zero() * (0.5 * STOPPING_MPS2 * until * until)
 }
 
 /// Lets a foot arrive where the ball was expected.

@@ -26,7 +26,7 @@ const FOLLOWED_MPS: f32 = 3.6;
 const HOPS_MPS: f32 = 8.0;
 /// The share of speed that a player keeps who takes up a ball lying ahead. Fitted to the starts of
 /// the Academy.
-const TAKEN_UP: f32 = 0.75;
+const TAKEN_UP: f32 = 1.0;
 /// Ticks until a player who has taken up such a ball plays it again; fitted.
 const TAKING_TICKS: i32 = 33;
 

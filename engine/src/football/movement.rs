@@ -20,6 +20,9 @@ const BURST_WITH_BALL: f32 = 0.95;
 /// A player who wants to stand stops for a ball this near, metres, and lays it where they stop.
 const STOPPING_M: f32 = 1.1;
 
+/// How fast a player comes out of a motion for which they have stopped, m/s. Measured of GRF's.
+const STOPPED_MPS: f32 = 0.8;
+
 /// How near a player has come who waits at the ball of a start, metres: to play it elsewhere, and
 /// straight on; chosen.
 const AT_M: f32 = 0.75;
@@ -85,7 +88,11 @@ pub fn advance(game: &mut Match) -> Busy {
         let has_ball = owner == Some(id);
         let (want, pace) = match player.body.intent {
             _ if frozen.is_some_and(|taker| taker != id) => (Vec2::ZERO, NO_POINT),
-            _ if player.body.lunge.is_some_and(|lunge| lunge.stops) => (Vec2::ZERO, NO_POINT),
+            _ if player.body.lunge.is_some_and(|lunge| lunge.stops) => {
+                let lunge = player.body.lunge.filter(|lunge| lunge.at < now);
+                let sets_off = player.body.dribble.clamp_length_max(STOPPED_MPS);
+                (lunge.map_or(Vec2::ZERO, |_| sets_off), NO_POINT)
+            }
             Intent::Stand => (Vec2::ZERO, NO_POINT),
             Intent::Run(velocity) => (velocity, NO_POINT),
             Intent::Go(to, speed) => (to - player.pos, speed),

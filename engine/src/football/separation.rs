@@ -101,7 +101,7 @@ fn go_round(game: &mut Match, id: PlayerId, away: Vec2, distance: f32) {
 /// Lets two players collide. Players who run close drag each other along, and bodies that touch are
 /// pushed apart. The one who stands better yields less. (GRF's.)
 fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Option<PlayerId>) {
-    let (a, b) = (game.player(i), game.player(j));
+    let (a, b, now) = (game.player(i), game.player(j), game.tick as i32);
     let between = b.pos - a.pos;
     let distance = between.length();
     // Exactly on one spot: they part sideways, the first to their left.
@@ -119,7 +119,7 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     let mut stands = BACK * (back(a, -away) - back(b, away)) - PACE * pace.clamp(-1.0, 1.0)
         + a.skill(Stat::Balance)
         - b.skill(Stat::Balance);
-    stands += tackles(a) - tackles(b);
+    stands += tackles(a, now) - tackles(b, now);
     if game.play.chaser[i.team().index()] == Some(i)
         && game.play.chaser[j.team().index()] == Some(j)
     {
@@ -147,8 +147,8 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
 }
 
 /// How much better a player stands whose leg is out for the ball. (GRF's.)
-fn tackles(player: &Player) -> f32 {
-    let pokes = player.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke);
+fn tackles(player: &Player, now: i32) -> f32 {
+    let pokes = player.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke && lunge.at > now);
     let stat =
         if player.body.pose == Pose::Sliding { Stat::SlidingTackle } else { Stat::StandingTackle };
     if pokes || stat == Stat::SlidingTackle {

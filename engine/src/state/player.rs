@@ -238,17 +238,33 @@ pub enum Aim {
     Kick,
 }
 
-/// A leg on its way to the ball.
+/// A leg on its way to the ball, and back.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Lunge {
     /// The tick at which the foot is there.
     pub at: i32,
+    /// How many ticks before that the leg went out.
+    pub out: u8,
+    /// How many ticks after that the player is free again.
+    pub back: u8,
     /// Where the ball will be then, world metres.
     pub place: Vec2,
     /// What the foot does there.
     pub aim: Aim,
     /// Whether the player stops for it.
     pub stops: bool,
+}
+
+impl Lunge {
+    /// The tick in which the leg went out.
+    pub fn from(&self) -> i32 {
+        self.at - i32::from(self.out)
+    }
+
+    /// The tick in which the player is free again.
+    pub fn until(&self) -> i32 {
+        self.at + i32::from(self.back)
+    }
 }
 
 /// The bot's plans for a player.

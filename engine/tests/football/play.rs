@@ -154,7 +154,7 @@ fn a_pass_hands_control_to_its_receiver_and_a_fixed_slot_keeps_its_player() {
             start.agents[0].fixed = Some(setpiece_engine::state::PlayerId(1));
         }
         let mut bench = Bench::of(&start);
-        for _ in 0..10 {
+        for _ in 0..4 {
             bench.step(Action::Idle);
         }
         assert_eq!(bench.game.agents[0].player.map(|id| id.0), Some(1));
@@ -254,8 +254,8 @@ fn a_defender_reaches_for_the_ball_that_a_sprinter_pushes_ahead() {
 fn a_leg_far_from_the_ball_is_drawn_back_in_its_time() {
     let mut bench = Bench::new(Layout::Eleven, 3);
     let far = PlayerId(0);
-    let lunge =
-        Lunge { at: bench.game.tick as i32 + 5, place: Vec2::ZERO, aim: Aim::Poke, stops: false };
+    let (at, place) = (bench.game.tick as i32 + 5, Vec2::ZERO);
+    let lunge = Lunge { at, out: 5, back: 3, place, aim: Aim::Poke, stops: false };
     bench.game.players[far.index()].body.lunge = Some(lunge);
     bench.step(Action::BuiltinAi);
     assert_eq!(bench.game.player(far).body.lunge, None);

@@ -304,8 +304,9 @@ fn meeting(mps: f32, lunges: bool) -> ([Pose; 2], bool) {
     bench.game.ball.pos = (spot + Vec2::new(0.3, 0.0)).extend(0.11);
     (bench.game.owner, bench.game.last_touch, bench.game.possession) =
         (Some(LEFT_MAN), Some(LEFT_MAN), Some(Team::Left));
-    bench.game.players[right].body.lunge =
-        lunges.then_some(Lunge { at: now + 10, place: spot, aim: Aim::Poke, stops: false });
+    let (at, aim) = (now + 10, Aim::Poke);
+    let lunge = Lunge { at, out: 1, back: 18, place: spot, aim, stops: false };
+    bench.game.players[right].body.lunge = lunges.then_some(lunge);
     stumble::meet(&mut bench.game, &mut bench.events, [LEFT_MAN, RIGHT_MAN], 0.72);
     ([left, right].map(|i| bench.game.players[i].body.pose), bench.seen(EventKind::Foul).is_some())
 }

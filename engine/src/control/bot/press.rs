@@ -1,7 +1,7 @@
 //! Going for the ball, free or an opponent's.
 
 use crate::control::bot::formation::mindset;
-use crate::control::bot::{TeamView, off_ball, on_ball};
+use crate::control::bot::{TeamView, dribbling, off_ball, on_ball};
 use crate::football::pace::SPRINT_MPS;
 use crate::state::player::Intent;
 use crate::state::{Match, Player, PlayerId};
@@ -41,6 +41,8 @@ const PAST_M: f32 = 5.0;
 const SOONER: f32 = 0.85;
 /// From which chance of the ball on whoever is first of their team goes on for it. (GRF's.)
 const KEEPS_ON: f32 = 0.8;
+/// Who reaches the ball this soon knows what they want with it, seconds. (GRF's.)
+const SOON_S: f32 = 1.0;
 /// How far from a carrier's middle a player goes round them, metres.
 const ROUND_M: f32 = 0.9;
 
@@ -110,8 +112,9 @@ fn chance(game: &Match, id: PlayerId, rival: PlayerId) -> f32 {
 /// Goes for a ball that is the team's to have.
 pub fn fetch(game: &mut Match, view: &TeamView, id: PlayerId) {
     let player = *game.player(id);
-    let way =
-        on_ball::set_off(game, id).unwrap_or((player.body.meet - player.pos).clamp_length_max(2.0));
+    let way = on_ball::set_off(game, id)
+        .or_else(|| away(game, view, id))
+        .unwrap_or_else(|| (player.body.meet - player.pos).clamp_length_max(2.0));
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);
     body.dribble = way;
@@ -168,10 +171,18 @@ pub fn is_met(game: &Match, view: &TeamView, id: PlayerId) -> bool {
 
 /// Meets a ball that comes with an opponent.
 pub fn meet(game: &mut Match, view: &TeamView, id: PlayerId) {
+    let way = away(game, view, id).unwrap_or(Vec2::new(2.0 * view.side, 0.0));
     let body = &mut game.players[id.index()].body;
     body.kick = None;
-    body.dribble = Vec2::new(2.0 * view.side, 0.0);
+    body.dribble = way;
     body.intent = Intent::Ball(SPRINT_MPS);
+}
+
+/// Where a player wants to run with an opponent's ball that they reach first. (GRF's.)
+fn away(game: &Match, view: &TeamView, id: PlayerId) -> Option<Vec2> {
+    let rival = view.rival(game).filter(|_| !view.best)?;
+    let soon = game.player(id).body.meet_s < SOON_S && is_sooner(game, id, rival);
+    soon.then(|| dribbling::way(game, view, id, 1.0))
 }
 
 /// From how far a player hunts a carrier, metres. (GRF's.)

@@ -4,6 +4,7 @@
 //! each question is a file. `setpiece lsp` speaks for it over the Language Server Protocol.
 
 mod actions;
+mod alone;
 mod analysis;
 mod closing;
 mod complete;
@@ -53,7 +54,7 @@ pub use links::FileLink;
 pub use names::{NamePlaces, RenameError};
 pub use outline::{Symbol, SymbolKind};
 pub use place::FilePlace;
-pub use preview::{PlacedThing, Preview, StartPicture};
+pub use preview::{AskedOfStart, PlacedThing, Preview, StartPicture};
 pub use probed::{StartFindings, StartNote};
 pub use report::TextReport;
 pub use signature::Signature;

@@ -500,7 +500,9 @@ fn the_preview_shows_the_starts_that_there_are() {
     assert!(preview.picture.is_ok(), "{:?}", preview.picture);
     workspace.set(path, &text.replace("0.9998", "0.99999999"));
     let preview = workspace.preview(path, text.len()).expect("a scenario");
-    assert!(preview.picture.is_err(), "no start at all");
+    let start = preview.picture.expect("the start as it is written");
+    assert!(start.refused.is_some_and(|why| why.contains("`x > 0.99999999` failed")));
+    assert!(!start.svg.contains("fill-opacity=\"0.45\""), "no other start");
 }
 
 /// Random edits: no crash, and the answers of a server that has seen only the last text.

@@ -528,6 +528,7 @@ impl<'w> Lower<'_, 'w> {
             (ty, Ty::Region, Repr::Region(region)) if ty.is_place() => {
                 let place = self.place_of(&x, a.span);
                 let region = region.clone();
+                self.note_asked_about(&region, b.span);
                 Value::one(Ty::Bool, self.inside(place, &region))
             }
             (Ty::Player, Ty::Team | Ty::Set, _) => {

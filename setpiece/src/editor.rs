@@ -22,6 +22,7 @@ mod keywords;
 mod layout;
 mod lenses;
 mod links;
+mod meant;
 mod names;
 mod near;
 mod outline;
@@ -56,7 +57,7 @@ pub use outline::{Symbol, SymbolKind};
 pub use place::FilePlace;
 pub use preview::{AskedOfStart, PlacedThing, Preview, StartPicture};
 pub use probed::{StartFindings, StartNote};
-pub use report::TextReport;
+pub use report::{TextReport, TextRewrite};
 pub use signature::Signature;
 pub use tokens::{Token, TokenKind};
 

@@ -8,6 +8,8 @@
 
 #[path = "editor/completion.rs"]
 mod completion;
+#[path = "editor/fixes.rs"]
+mod fixes;
 #[path = "editor/grf.rs"]
 mod grf;
 #[path = "editor/layout.rs"]
@@ -279,6 +281,34 @@ fn fixes_mend_what_they_are_about() {
         ("reward r { give -1 if ball in us.box }", "{ give -1 when ball in us.box }"),
         ("reward r { give -1 if goal by them }", "{ give -1 when goal by them }"),
         ("team right { CF at (0.09m, 0) }", ""),
+        ("reward r { give 1 on goal completed by us }", "give 1 on goal by us }"),
+        ("reward r { give 1 on goal_by_us }", "give 1 on goal by us }"),
+        ("reward r { give 1 when me.has_ball }", "give 1 when me has ball }"),
+        ("reward r { give 1 on ball_dead }", "give 1 when ball_dead }"),
+        ("rules { offside = on }", "rules { offside: on }"),
+        ("team right { GK (-1, 0) }", "team right { GK at (-1, 0) }"),
+        ("team right { CM striker at (0.5, 0) }", "team right { striker: CM at (0.5, 0) }"),
+        ("var a = 3", "    let a = 3\n"),
+        ("end limit 0.25s", "end limit 3 steps"),
+        ("end deep when ball.x > 5m", "end deep when ball.metres.x > 5m"),
+        ("reward r { give 1 on goal by us as 'x' }", "by us as \"x\" }"),
+        ("end a when ball == right.box", "end a when ball in right.box"),
+        ("end a when 0.1 < ball.x < 0.5", "when 0.1 < ball.x and ball.x < 0.5"),
+        ("team right { CF at right.box }", "team right { CF in right.box }"),
+        ("end caught when offside by left", "{\n    rules { offside: on }\n    ball at"),
+        (
+            "rules { cards: on, offside: off }\n    end caught when offside by left",
+            "rules { cards: on, offside: on }\n",
+        ),
+        (
+            "rules { cards: on }\n    end caught when offside by left",
+            "rules { offside: on, cards: on }\n",
+        ),
+        ("reward r { give normal(0, 1, 2) * 0 + 1 }", ""),
+        ("end a when !ball_dead", "end a when not ball_dead"),
+        ("gravity: 9.81", "    world { gravity: 9.81 }\n"),
+        ("let a = 1  let b = a ** 2", ""),
+        ("reward r { give ball.x ** 2 }", "give pow(ball.x, 2) }"),
         // What is warned of once the text makes sense is no reason to leave it broken.
         ("let spare = 3\n    reward r { give 1 on gaol by us }", "give 1 on goal by us"),
     ] {

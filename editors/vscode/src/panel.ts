@@ -45,9 +45,9 @@ window.addEventListener("message", ({ data }: MessageEvent<PageMessage>) => {
     picture.src = data.picture;
     picture.hidden = false;
   }
-  asked.replaceChildren(...(data.asked ?? []).map((words) => {
+  asked.replaceChildren(...(data.asked ?? []).map((spoken) => {
     const line = document.createElement("li");
-    line.textContent = words;
+    line.textContent = spoken;
     return line;
   }));
   field = data.field;

@@ -6,6 +6,7 @@
 mod actions;
 mod alone;
 mod analysis;
+mod areas;
 mod closing;
 mod complete;
 mod completion;
@@ -31,6 +32,7 @@ mod preview;
 mod probed;
 mod problems;
 mod refused;
+mod removable;
 mod report;
 mod script;
 mod select;

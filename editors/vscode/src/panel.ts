@@ -45,9 +45,9 @@ window.addEventListener("message", ({ data }: MessageEvent<PageMessage>) => {
     picture.src = data.picture;
     picture.hidden = false;
   }
-  asked.replaceChildren(...(data.asked ?? []).map((spoken) => {
+  asked.replaceChildren(...(data.asked ?? []).map((requirement) => {
     const line = document.createElement("li");
-    line.textContent = spoken;
+    line.textContent = requirement;
     return line;
   }));
   field = data.field;

@@ -201,6 +201,8 @@ fn a_word_means_what_may_be_written_there() {
         ("scenario a {\n    end limit 200 st‸eps\n}", "step", 1),
         ("reward r {\n    give 1 on pass b‸y left\n}", "who", 1),
         ("reward r {\n    give 1 wh‸en me has ball\n}", "paid in steps", 1),
+        ("reward r {\n    give 1 on goal wh‸en me has ball\n}", "for these events", 1),
+        ("reward r {\n    give 1 o‸n goal when me has ball\n}", "with one of these", 1),
         ("scenario a {\n    ball le‸ft of centre by 2m\n}", "to the left of somebody", 1),
         ("scenario a {\n    ball left o‸f centre by 2m\n}", "from which player", 1),
         ("scenario a {\n    ball between centre and left.goal a‸t 20%\n}", "how far along", 1),

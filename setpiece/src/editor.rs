@@ -3,6 +3,7 @@
 //! Questions and answers are plain data, without a protocol: [`Workspace`] has the open texts, and
 //! each question is a file. `setpiece lsp` speaks for it over the Language Server Protocol.
 
+mod above;
 mod actions;
 mod alone;
 mod analysis;

@@ -306,6 +306,11 @@ fn fixes_mend_what_they_are_about() {
         ),
         ("reward r { give normal(0, 1, 2) * 0 + 1 }", ""),
         ("end a when !ball_dead", "end a when not ball_dead"),
+        (
+            "reward r { give uniform(0, 1) }",
+            "{\n    let drawn = uniform(0, 1)\n    ball at (0.5, 0)",
+        ),
+        ("reward r { give uniform(0, 1) }", "reward r { give drawn }"),
         ("gravity: 9.81", "    world { gravity: 9.81 }\n"),
         ("let a = 1  let b = a ** 2", ""),
         ("reward r { give ball.x ** 2 }", "give pow(ball.x, 2) }"),
@@ -328,7 +333,10 @@ fn fixes_mend_what_they_are_about() {
         }
         let fix = fixes.first().unwrap_or_else(|| panic!("{line}: no fix for {report:?}"));
         let mut after = text.clone();
-        for edit in &fix.edits {
+        // From the back, so that the first place stays right.
+        let mut edits = fix.edits.clone();
+        edits.sort_by_key(|edit| std::cmp::Reverse(edit.place.range.start));
+        for edit in &edits {
             after.replace_range(edit.place.range.clone(), &edit.text);
         }
         assert!(after.contains(fixed), "{line}: {}\n{after}", fix.title);

@@ -3,12 +3,13 @@
 //! Most helps bring their changes as data ([`TextReport::rewrites`]). Where they don't, what stands
 //! between their backticks is tried.
 
+use super::Analysis;
+use super::above::{above, drawn};
 use super::closing::closings;
 use super::edits::Edit;
 use super::fixes::{Try, names_unit};
 use super::report::TextReport;
-use super::text::{brackets, code, line_around};
-use super::{Analysis, Symbol, SymbolKind};
+use super::text::{brackets, line_around};
 use crate::dsl::problem::Code;
 use crate::scenario::pitch::STEPS_PER_S;
 use std::ops::Range;
@@ -29,16 +30,7 @@ pub(super) fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Ve
     // An example isn't what the author meant; of one with a unit, the unit is.
     let is_example =
         ["for example", "as in `"].iter().any(|it| help.contains(it)) || names_unit(report);
-    // What could be written is no answer to what should be.
-    let is_asked = ["write", "did you mean"].iter().any(|it| help.starts_with(it));
-    let is_mentioned = ["keep", "begin"].iter().any(|it| help.starts_with(it));
-    let lists = help.contains("use one of")
-        || help.starts_with("it has")
-        || is_mentioned
-        || (!is_asked && quoted(help).count() > 2);
-    // How a function is written says nothing of its values.
-    let lists = lists || (help.starts_with('`') && help.ends_with(")`"));
-    if lists {
+    if only_lists(help) {
         return Vec::new();
     }
     if matches!(report.code, Code::UnclosedBracket | Code::UnclosedString) {
@@ -57,6 +49,9 @@ pub(super) fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Ve
     tries.extend(nearest_of(help, marked).map(|text| write(range.clone(), text)));
     if let Some(above) = above(analysis, path, report, help) {
         return vec![above];
+    }
+    if help.starts_with("draw it with a `let`") {
+        return drawn(analysis, path, &range).into_iter().collect();
     }
     for (text, goes_on) in quoted(help) {
         // `2..11 CB …` is the beginning of what is marked.
@@ -96,32 +91,49 @@ pub(super) fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Ve
             }
         }
     }
-    let leaves = ["leave it out", "leave one", "take the"].iter().any(|it| help.contains(it));
-    if leaves {
-        let line = line_around(&analysis.text, range.start);
-        let leave = |range: Range<usize>, what: &str| Try {
-            title: format!("leave out {what}"),
-            edits: vec![Edit::replace(path, range, "")],
-        };
-        tries.push(leave(range.clone(), &format!("`{}`", one_line(marked))));
-        // With what joins it: the comma before it, or of `to me` both words.
-        if let Some(comma) = before.trim_end().strip_suffix(',') {
-            tries.push(leave(comma.len()..range.end, &format!("`{}`", one_line(marked))));
-        }
-        let word = before.trim_end().rsplit(char::is_whitespace).next().unwrap_or_default();
-        if !word.is_empty() && word.chars().all(char::is_alphabetic) {
-            let from = before.trim_end().len() - word.len();
-            let from = before.get(..from).unwrap_or_default().trim_end().len();
-            tries.push(leave(from..range.end, &format!("`{word} {}`", one_line(marked))));
-        }
-        tries.push(leave(line, "the line"));
+    if ["leave it out", "leave one", "take the"].iter().any(|it| help.contains(it)) {
+        tries.extend(left_out(analysis, path, &range));
     }
     if let [only] = tries.as_mut_slice()
         && !is_example
-        && !help.starts_with("did you mean")
+        && !["did you mean", "write a value"].iter().any(|it| help.starts_with(it))
     {
         only.title.clone_from(help);
     }
+    tries
+}
+
+/// Whether a help says what there is, not what is meant.
+fn only_lists(help: &str) -> bool {
+    let begins = |words: &[&str]| words.iter().any(|it| help.starts_with(it));
+    let is_asked = begins(&["write", "did you mean"]);
+    // How a function is written says nothing of its values.
+    let is_signature = help.starts_with('`') && help.ends_with(")`");
+    help.contains("use one of")
+        || begins(&["it has", "keep", "begin"])
+        || (!is_asked && quoted(help).count() > 2)
+        || is_signature
+}
+
+/// The marked text left out: alone, with what joins it, and with its line.
+fn left_out(analysis: &Analysis, path: &Path, range: &Range<usize>) -> Vec<Try> {
+    let leave = |range: Range<usize>, what: &str| Try {
+        title: format!("leave out {what}"),
+        edits: vec![Edit::replace(path, range, "")],
+    };
+    let marked = one_line(analysis.text.get(range.clone()).unwrap_or_default());
+    let before = analysis.text.get(..range.start).unwrap_or_default().trim_end();
+    let mut tries = vec![leave(range.clone(), &format!("`{marked}`"))];
+    if let Some(comma) = before.strip_suffix(',') {
+        tries.push(leave(comma.len()..range.end, &format!("`{marked}`")));
+    }
+    // Of `to me`, both words.
+    let word = before.rsplit(char::is_whitespace).next().unwrap_or_default();
+    if !word.is_empty() && word.chars().all(char::is_alphabetic) {
+        let from = before.strip_suffix(word).unwrap_or(before).trim_end().len();
+        tries.push(leave(from..range.end, &format!("`{word} {marked}`")));
+    }
+    tries.push(leave(line_around(&analysis.text, range.start), "the line"));
     tries
 }
 
@@ -163,61 +175,6 @@ fn nearest_of(help: &str, marked: &str) -> Option<String> {
     };
     let (value, low_value) = (value(marked)?, value(low)?);
     Some(if value < low_value { low } else { high }.to_owned())
-}
-
-/// A rule in the `rules` of a scenario that it has already: its value, or one more.
-///
-/// `statement`: `rules { RULE: VALUE }`.
-fn rule_written(
-    analysis: &Analysis,
-    path: &Path,
-    scenario: &Symbol,
-    statement: &str,
-) -> Option<Edit> {
-    let rule = statement.strip_prefix("rules {")?.strip_suffix('}')?.trim();
-    let (name, value) = rule.split_once(':')?;
-    let text = analysis.text.get(scenario.whole.clone())?;
-    let begin = text.find("rules {")? + "rules {".len();
-    let inside = text.get(begin..)?.split('}').next()?;
-    let begin = scenario.whole.start + begin;
-    let Some(known) = inside.find(&format!("{name}:")) else {
-        return Some(Edit::replace(path, begin..begin, format!(" {rule},")));
-    };
-    let from = known + name.len() + 1;
-    let old = inside.get(from..)?.split([',', '\n']).next()?.trim_end();
-    Some(Edit::replace(path, begin + from..begin + from + old.len(), value))
-}
-
-/// A statement that a help asks for beside the marked one: at the top of the scenario, reward or
-/// behaviour around it.
-fn above(analysis: &Analysis, path: &Path, report: &TextReport, help: &str) -> Option<Try> {
-    let rest = help.split_once("never happens: write `").map(|(_, rest)| rest);
-    let is_rule = rest.is_some();
-    let is_top = ["declare it at the top: `", "take the other one out, `"]
-        .iter()
-        .find_map(|words| help.strip_prefix(words));
-    let is_rule = is_rule || help.starts_with("take the other");
-    let rest = rest.or(is_top)?;
-    let statement = rest.split('`').next()?;
-    let kinds: &[SymbolKind] =
-        if is_rule { &[SymbolKind::Scenario] } else { &[SymbolKind::Reward, SymbolKind::Behavior] };
-    let around = analysis.around(report.place.range.start, kinds)?;
-    if is_rule && let Some(edit) = rule_written(analysis, path, &around, statement) {
-        return Some(Try { title: format!("write `{statement}`"), edits: vec![edit] });
-    }
-    let head = analysis.text.get(around.range.end..around.whole.end)?;
-    let (brace, _) = code(head).find(|(_, sign)| *sign == '{')?;
-    let at = around.range.end + brace + 1;
-    let line = line_around(&analysis.text, around.whole.start);
-    let line = analysis.text.get(line)?;
-    let indent = line.get(..line.len() - line.trim_start().len())?;
-    let is_block = analysis.text.get(at..)?.trim_start_matches([' ', '\r']).starts_with('\n');
-    let text =
-        if is_block { format!("\n{indent}    {statement}") } else { format!(" {statement} ") };
-    Some(Try {
-        title: format!("write `{statement}` above"),
-        edits: vec![Edit::replace(path, at..at, text)],
-    })
 }
 
 /// What a help says to write behind what stands before the place already: of `give 1 when`, it is

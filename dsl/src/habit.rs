@@ -1,8 +1,11 @@
 //! Habits of other languages and near misses of form: what is seen, and what to write instead.
 
+mod rewrite;
 mod table;
 
 use pest::Parser;
+pub(crate) use rewrite::{HabitPiece, HabitRewrite};
+use rewrite::{MatchedPart, PartKind, rewrites};
 use setpiece_grammar::{PitchParser, Rule};
 use setpiece_scenario::vocabulary::{EventKind, Role};
 use std::borrow::Cow;
@@ -59,6 +62,28 @@ pub(crate) struct FoundHabit {
     pub(crate) help: String,
     /// Whether it goes on with what stands before the place.
     pub(crate) begins: Begins,
+    /// How its help is followed, if that is known.
+    pub(crate) rewrites: Vec<HabitRewrite>,
+}
+
+/// What a pattern found in some tokens.
+#[derive(Clone, Debug, Default)]
+struct Matched<'t> {
+    /// What it left open.
+    open: Vec<Cow<'t, str>>,
+    /// Every part; the tokens are counted from the end.
+    parts: Vec<MatchedPart>,
+}
+
+impl Matched<'_> {
+    fn len(&self) -> (usize, usize) {
+        (self.open.len(), self.parts.len())
+    }
+
+    fn truncate(&mut self, (open, parts): (usize, usize)) {
+        self.open.truncate(open);
+        self.parts.truncate(parts);
+    }
 }
 
 /// Where what a habit writes begins.
@@ -99,7 +124,12 @@ pub(crate) fn of_text(
             before.get(before.len().saturating_sub(WINDOW)..)?,
             behind.get(..behind.len().min(WINDOW))?,
         );
-        Some((at, habit.at(near.0, near.1, at == first)?))
+        let mut found = habit.at(near.0, near.1, at == first)?;
+        let skipped = before.len() - near.0.len();
+        for rewrite in &mut found.rewrites {
+            rewrite.move_by(skipped);
+        }
+        Some((at, found))
     })
 }
 
@@ -107,56 +137,84 @@ impl Habit {
     /// Whether it is met between two parts of a statement.
     fn at(&self, before: &[&str], behind: &[&str], begins: bool) -> Option<FoundHabit> {
         let (left, right) = self.seen.split_once('|').unwrap_or(("", self.seen));
-        let (mut found, mut ahead) = (Vec::new(), Vec::new());
+        let (mut found, mut ahead) = (Matched::default(), Matched::default());
         let pattern: Vec<&str> = right.split_whitespace().chain(["…"]).collect();
         if !matches(&pattern, behind, &mut found) {
             return None;
         }
         let left = left.trim();
-        if left == "^" {
-            return begins.then(|| self.found(Begins::New, &found));
-        }
-        let pattern: Vec<&str> = ["…"].into_iter().chain(left.split_whitespace()).collect();
-        if !matches(&pattern, before, &mut ahead) {
-            return None;
-        }
-        ahead.append(&mut found);
-        Some(self.found(if left.is_empty() { Begins::Either } else { Begins::Before }, &ahead))
-    }
-
-    fn found(&self, begins: Begins, open: &[Cow<'_, str>]) -> FoundHabit {
-        let fill = |help: String, (index, text): (usize, &Cow<'_, str>)| {
-            help.replace(&format!("{{{}}}", index + 1), text.trim_matches('"'))
+        let begin = if left == "^" {
+            if !begins {
+                return None;
+            }
+            Begins::New
+        } else {
+            let pattern: Vec<&str> = ["…"].into_iter().chain(left.split_whitespace()).collect();
+            if !matches(&pattern, before, &mut ahead) {
+                return None;
+            }
+            if left.is_empty() { Begins::Either } else { Begins::Before }
         };
-        FoundHabit { help: open.iter().enumerate().fold(self.write.to_owned(), fill), begins }
+        // What stands before and behind doesn't belong to it.
+        let (left, right) = (ahead.parts.get(1..).unwrap_or_default(), found.parts.split_last());
+        let of_right = right.map_or(&[][..], |(_, parts)| parts);
+        let parts: Vec<MatchedPart> = left
+            .iter()
+            .map(|part| part.counted(before.len(), 0))
+            .chain(of_right.iter().map(|part| part.counted(behind.len(), before.len())))
+            .collect();
+        ahead.open.append(&mut found.open);
+        let tokens: Vec<&str> = before.iter().chain(behind).copied().collect();
+        Some(FoundHabit {
+            help: filled(self.write, &ahead.open),
+            begins: begin,
+            rewrites: rewrites(self.write, &ahead.open, &parts, (&tokens, before.len())),
+        })
     }
 }
 
-/// Whether a pattern is all of some tokens; notes what it left open.
-fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<Cow<'t, str>>) -> bool {
+/// What a habit's help says, with what was left open.
+fn filled(write: &str, open: &[Cow<'_, str>]) -> String {
+    let fill = |help: String, (index, text): (usize, &Cow<'_, str>)| {
+        help.replace(&format!("{{{}}}", index + 1), text.trim_matches('"'))
+    };
+    open.iter().enumerate().fold(write.to_owned(), fill)
+}
+
+/// Whether a pattern is all of some tokens; notes what it found.
+fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Matched<'t>) -> bool {
     let Some((wanted, pattern)) = pattern.split_first() else { return tokens.is_empty() };
+    let left = tokens.len();
+    let known = found.len();
     if *wanted == "…" {
-        let known = found.len();
-        return pattern.is_empty()
-            || (0..=tokens.len()).any(|skipped| {
-                found.truncate(known);
-                tokens.get(skipped..).is_some_and(|rest| matches(pattern, rest, found))
-            });
+        if pattern.is_empty() {
+            found.parts.push(MatchedPart::new(PartKind::Gap, left, left));
+            return true;
+        }
+        return (0..=left).any(|skipped| {
+            found.truncate(known);
+            found.parts.push(MatchedPart::new(PartKind::Gap, left, skipped));
+            tokens.get(skipped..).is_some_and(|rest| matches(pattern, rest, found))
+        });
     }
     // A lone question mark is that sign.
     if let Some(optional) = wanted.strip_suffix('?').filter(|optional| !optional.is_empty()) {
-        let known = found.len();
         let stands = tokens.split_first().filter(|(token, _)| **token == optional);
-        if stands.is_some_and(|(_, rest)| matches(pattern, rest, found)) {
+        if stands.is_some_and(|(_, rest)| {
+            found.parts.push(MatchedPart::new(PartKind::Word, left, 1));
+            matches(pattern, rest, found)
+        }) {
             return true;
         }
         found.truncate(known);
         return matches(pattern, tokens, found);
     }
+    let open = PartKind::Open(found.open.len());
     if *wanted == "±9"
         && let ["-", number, tokens @ ..] = tokens
     {
-        found.push(format!("-{number}").into());
+        found.open.push(format!("-{number}").into());
+        found.parts.push(MatchedPart::new(open, left, 2));
         return is_number(number) && matches(pattern, tokens, found);
     }
     let Some((token, tokens)) = tokens.split_first() else {
@@ -176,18 +234,24 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Vec<Cow<'t, str
         "EVENT" => EventKind::from_name(token).is_some(),
         literal if literal.starts_with(char::is_alphabetic) && literal.ends_with('*') => {
             let rest = token.strip_prefix(literal.trim_end_matches('*'));
-            found.extend(rest.map(Cow::from));
+            found.open.extend(rest.map(Cow::from));
+            found.parts.push(MatchedPart::new(open, left, 1));
             return rest.is_some() && matches(pattern, tokens, found);
         }
         literals if literals.contains('¦') => literals.split('¦').any(|literal| literal == *token),
-        "␣(" => return *token == BRACKET_APART && matches(pattern, tokens, found),
         literal => {
-            return literal.trim_start_matches('\\') == token.trim_start()
-                && matches(pattern, tokens, found);
+            let is_it = if literal == "␣(" {
+                *token == BRACKET_APART
+            } else {
+                literal.trim_start_matches('\\') == token.trim_start()
+            };
+            found.parts.push(MatchedPart::new(PartKind::Word, left, 1));
+            return is_it && matches(pattern, tokens, found);
         }
     };
     if meant {
-        found.push((*token).into());
+        found.open.push((*token).into());
+        found.parts.push(MatchedPart::new(open, left, 1));
     }
     meant && matches(pattern, tokens, found)
 }
@@ -215,6 +279,47 @@ mod tests {
         );
         assert_eq!(text(HabitPlace::Reward, "x += 1", 1).as_deref(), Some("write `x = x + …`"));
         assert_eq!(of_name("e_PlayerRole_CM").as_deref(), Some("write `CM`"));
+    }
+
+    /// The statement with the first way to follow its help.
+    fn mended(place: HabitPlace, tokens: &str, at: usize) -> Option<String> {
+        let tokens: Vec<&str> = tokens.split_whitespace().collect();
+        let (_, found) = of_text(place, &tokens, at, 0)?;
+        let (range, pieces) = found.rewrites.into_iter().next()?.places.into_iter().next()?;
+        let mut words = tokens[..range.start].to_vec();
+        let mut end = range.end;
+        for piece in &pieces {
+            match piece {
+                HabitPiece::Text(text) => words.extend(text.split_whitespace()),
+                HabitPiece::Kept(kept) => words.extend(&tokens[kept.clone()]),
+                HabitPiece::Rest(from) => {
+                    words.extend(&tokens[*from..]);
+                    end = tokens.len();
+                }
+            }
+        }
+        words.extend(&tokens[end..]);
+        Some(words.join(" "))
+    }
+
+    #[test]
+    fn what_is_written_takes_the_place_of_what_was_seen() {
+        for (place, tokens, at, expected) in [
+            (HabitPlace::Fields, "offside = off , cards : on", 1, "offside: off , cards : on"),
+            (HabitPlace::Reward, "give 1 if us has ball", 2, "give 1 when us has ball"),
+            (HabitPlace::Team, "CM at ( 0 , 0 ) maybe 40 %", 7, "maybe 40% CM at ( 0 , 0 )"),
+            (HabitPlace::Team, "AddPlayer ( 0 , 0 , CM , lazy ) GK", 0, "CM at own (0, 0) GK"),
+            (HabitPlace::Scenario, "end when goal success", 3, "end success when goal"),
+            (HabitPlace::Reward, "give 1 each step", 2, "give 1"),
+        ] {
+            assert_eq!(mended(place, tokens, at).as_deref(), Some(expected), "{tokens}");
+        }
+        // What is mentioned, and what the author has to say, is not written.
+        for (place, tokens, at) in
+            [(HabitPlace::Team, "maybe CM", 0), (HabitPlace::Anywhere, "let größe = 1", 1)]
+        {
+            assert_eq!(mended(place, tokens, at), None, "{tokens}");
+        }
     }
 
     #[test]

@@ -27,8 +27,8 @@ pub struct Origins {
     pub observation: Option<Span>,
     /// Its requirements, in order: the written ones, then the implied.
     pub requires: Vec<RequireOrigin>,
-    /// Its regions: the named ones, then those that something is drawn in. Only if they are asked
-    /// for.
+    /// Its regions: the named ones, those that something is drawn in, and those that requirements
+    /// ask about. Only if they are asked for.
     pub regions: Vec<RegionOrigin>,
 }
 

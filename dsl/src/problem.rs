@@ -12,7 +12,7 @@ mod similar;
 mod triage;
 
 pub use code::{Code, Severity, Stage};
-pub use said::{Label, Words};
+pub use said::{Label, Rewrite, Words};
 pub use script::{ScriptApi, ScriptProblem, ScriptSight};
 pub(crate) use similar::Guess;
 pub use similar::nearest;
@@ -30,12 +30,14 @@ pub struct Problem {
     span: Span,
     /// Where the scenario itself declares what the fact follows from, if its place is inherited.
     declared: Option<Span>,
+    /// How its help is followed where it was found, beside what the fact knows.
+    rewrites: Vec<Rewrite>,
 }
 
 impl Problem {
     /// A fact and where it was found.
     pub(crate) fn new(span: Span, fact: impl Into<Fact>) -> Problem {
-        Problem { fact: fact.into(), span, declared: None }
+        Problem { fact: fact.into(), span, declared: None, rewrites: Vec::new() }
     }
 
     /// What a dry run found, and where.
@@ -47,6 +49,19 @@ impl Problem {
     #[must_use]
     pub(crate) fn declared_at(mut self, span: Span) -> Problem {
         self.declared = Some(span);
+        self
+    }
+
+    /// Adds that its help is followed by a text in the place of another one.
+    #[must_use]
+    pub(crate) fn rewriting(self, span: Span, text: impl Into<String>) -> Problem {
+        self.with_rewrite(Rewrite::one(span, text))
+    }
+
+    /// Adds a way to follow its help.
+    #[must_use]
+    pub(crate) fn with_rewrite(mut self, rewrite: Rewrite) -> Problem {
+        self.rewrites.push(rewrite);
         self
     }
 
@@ -76,7 +91,12 @@ impl Problem {
         let mut labels = vec![Label { span: self.span, text: said.label }];
         labels.extend(said.also);
         labels.extend(self.declared.map(|span| Label { span, text: "declared here".to_owned() }));
-        Words { message: said.message, labels, help: said.help }
+        let written = said
+            .writes
+            .into_iter()
+            .map(|(span, text)| Rewrite::one(span.unwrap_or(self.span), text));
+        let rewrites = self.rewrites.iter().cloned().chain(written).collect();
+        Words { message: said.message, labels, help: said.help, rewrites }
     }
 
     /// Whether no scenario comes out because of it.

@@ -99,10 +99,25 @@ impl HeldThing {
         if !statement.is_jittered && strays.iter().any(|stray| stray.abs() > NEAR_M) {
             return Err("another statement gives this place: edit the text".to_owned());
         }
+        if let Some(other) = self.other_team(loaded) {
+            return Err(format!(
+                "{other} has the same formation, whose player would move, too: edit the text"
+            ));
+        }
         // Who is jittered is moved by as much as they were dragged: the same draw puts them there.
         let strays = if statement.is_jittered { strays } else { [0.0; 2] };
         let most = [0, 1].map(|axis| half[axis] / scale[axis].abs());
         Ok(written.with([0, 1].map(|axis| (to[axis] - strays[axis]) / scale[axis]), most))
+    }
+
+    /// The other team, if one of its players has the same statement.
+    fn other_team(&self, loaded: &Loaded) -> Option<String> {
+        let (index, own) = self.slot(loaded)?;
+        let spans = &loaded.origins.players;
+        let written = spans.get(index)?;
+        let slots = spans.iter().zip(&loaded.scenario.players);
+        let mut others = slots.filter(|(span, slot)| *span == written && slot.team != own.team);
+        others.next().map(|(_, slot)| format!("the {} team", slot.team.name()))
     }
 
     fn slot<'a>(&self, loaded: &'a Loaded) -> Option<(usize, &'a PlayerSlot)> {

@@ -3,8 +3,11 @@
 //! Questions and answers are plain data, without a protocol: [`Workspace`] has the open texts, and
 //! each question is a file. `setpiece lsp` speaks for it over the Language Server Protocol.
 
+mod above;
 mod actions;
+mod alone;
 mod analysis;
+mod areas;
 mod closing;
 mod complete;
 mod completion;
@@ -21,6 +24,7 @@ mod keywords;
 mod layout;
 mod lenses;
 mod links;
+mod meant;
 mod names;
 mod near;
 mod outline;
@@ -29,6 +33,7 @@ mod preview;
 mod probed;
 mod problems;
 mod refused;
+mod removable;
 mod report;
 mod script;
 mod select;
@@ -53,9 +58,9 @@ pub use links::FileLink;
 pub use names::{NamePlaces, RenameError};
 pub use outline::{Symbol, SymbolKind};
 pub use place::FilePlace;
-pub use preview::{PlacedThing, Preview, StartPicture};
+pub use preview::{AskedOfStart, PlacedThing, Preview, StartPicture};
 pub use probed::{StartFindings, StartNote};
-pub use report::TextReport;
+pub use report::{TextReport, TextRewrite};
 pub use signature::Signature;
 pub use tokens::{Token, TokenKind};
 

@@ -8,6 +8,8 @@
 
 #[path = "editor/completion.rs"]
 mod completion;
+#[path = "editor/fixes.rs"]
+mod fixes;
 #[path = "editor/grf.rs"]
 mod grf;
 #[path = "editor/layout.rs"]
@@ -279,6 +281,39 @@ fn fixes_mend_what_they_are_about() {
         ("reward r { give -1 if ball in us.box }", "{ give -1 when ball in us.box }"),
         ("reward r { give -1 if goal by them }", "{ give -1 when goal by them }"),
         ("team right { CF at (0.09m, 0) }", ""),
+        ("reward r { give 1 on goal completed by us }", "give 1 on goal by us }"),
+        ("reward r { give 1 on goal_by_us }", "give 1 on goal by us }"),
+        ("reward r { give 1 when me.has_ball }", "give 1 when me has ball }"),
+        ("reward r { give 1 on ball_dead }", "give 1 when ball_dead }"),
+        ("rules { offside = on }", "rules { offside: on }"),
+        ("team right { GK (-1, 0) }", "team right { GK at (-1, 0) }"),
+        ("team right { CM striker at (0.5, 0) }", "team right { striker: CM at (0.5, 0) }"),
+        ("var a = 3", "    let a = 3\n"),
+        ("end limit 0.25s", "end limit 3 steps"),
+        ("end deep when ball.x > 5m", "end deep when ball.metres.x > 5m"),
+        ("reward r { give 1 on goal by us as 'x' }", "by us as \"x\" }"),
+        ("end a when ball == right.box", "end a when ball in right.box"),
+        ("end a when 0.1 < ball.x < 0.5", "when 0.1 < ball.x and ball.x < 0.5"),
+        ("team right { CF at right.box }", "team right { CF in right.box }"),
+        ("end caught when offside by left", "{\n    rules { offside: on }\n    ball at"),
+        (
+            "rules { cards: on, offside: off }\n    end caught when offside by left",
+            "rules { cards: on, offside: on }\n",
+        ),
+        (
+            "rules { cards: on }\n    end caught when offside by left",
+            "rules { offside: on, cards: on }\n",
+        ),
+        ("reward r { give normal(0, 1, 2) * 0 + 1 }", ""),
+        ("end a when !ball_dead", "end a when not ball_dead"),
+        (
+            "reward r { give uniform(0, 1) }",
+            "{\n    let drawn = uniform(0, 1)\n    ball at (0.5, 0)",
+        ),
+        ("reward r { give uniform(0, 1) }", "reward r { give drawn }"),
+        ("gravity: 9.81", "    world { gravity: 9.81 }\n"),
+        ("let a = 1  let b = a ** 2", ""),
+        ("reward r { give ball.x ** 2 }", "give pow(ball.x, 2) }"),
         // What is warned of once the text makes sense is no reason to leave it broken.
         ("let spare = 3\n    reward r { give 1 on gaol by us }", "give 1 on goal by us"),
     ] {
@@ -298,7 +333,10 @@ fn fixes_mend_what_they_are_about() {
         }
         let fix = fixes.first().unwrap_or_else(|| panic!("{line}: no fix for {report:?}"));
         let mut after = text.clone();
-        for edit in &fix.edits {
+        // From the back, so that the first place stays right.
+        let mut edits = fix.edits.clone();
+        edits.sort_by_key(|edit| std::cmp::Reverse(edit.place.range.start));
+        for edit in &edits {
             after.replace_range(edit.place.range.clone(), &edit.text);
         }
         assert!(after.contains(fixed), "{line}: {}\n{after}", fix.title);
@@ -500,7 +538,9 @@ fn the_preview_shows_the_starts_that_there_are() {
     assert!(preview.picture.is_ok(), "{:?}", preview.picture);
     workspace.set(path, &text.replace("0.9998", "0.99999999"));
     let preview = workspace.preview(path, text.len()).expect("a scenario");
-    assert!(preview.picture.is_err(), "no start at all");
+    let start = preview.picture.expect("the start as it is written");
+    assert!(start.refused.is_some_and(|why| why.contains("`x > 0.99999999` failed")));
+    assert!(!start.svg.contains("fill-opacity=\"0.45\""), "no other start");
 }
 
 /// Random edits: no crash, and the answers of a server that has seen only the last text.

@@ -4,8 +4,9 @@
 use super::value::{LiteralFrame, Scope};
 use super::{Lower, World};
 use crate::ast::{Expr, ExprKind, Field, FieldValue};
-use crate::problem::Problem;
 use crate::problem::facts::Players;
+use crate::problem::{Problem, Rewrite};
+use crate::source::Span;
 
 /// Reports those of a lowered scenario: what it has read is known.
 pub(crate) fn check_scenario(world: &World<'_>) {
@@ -22,6 +23,18 @@ pub(crate) fn check_scenario(world: &World<'_>) {
         if is_read || param.bound.is_some() || !flat.is_own(new.key.span) {
             continue;
         }
+        // The option goes, and its value is handed in.
+        let option = new.key.span.to(value.span);
+        let argument = format!("{name}: {}", world.text(value.span));
+        let (given, written) = match parent.args.last() {
+            Some(last) => (last.span, format!(", {argument}")),
+            None => (parent.name.span, format!("({argument})")),
+        };
+        let behind = Span { start: given.end, ..given };
+        let handed = Rewrite {
+            says: format!("extends {}({argument})", parent.bare()),
+            places: vec![vec![(behind, written), (option, String::new())]],
+        };
         let (name, parent) = (name.clone(), parent.bare().to_owned());
         let fact = Players::DeadParameter {
             name,
@@ -29,7 +42,7 @@ pub(crate) fn check_scenario(world: &World<'_>) {
             value: world.text(value.span),
             wrote: old.key.span,
         };
-        world.report(Problem::new(new.key.span, fact));
+        world.report(Problem::new(new.key.span, fact).with_rewrite(handed));
     }
 }
 

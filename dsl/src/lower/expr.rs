@@ -230,7 +230,7 @@ impl<'w> Lower<'_, 'w> {
     pub(crate) fn condition_or(
         &mut self,
         expr: &'w Expr,
-        better: impl FnOnce(&Self, Ty) -> Option<String>,
+        better: impl FnOnce(&Self, Ty) -> Option<(String, Option<Span>)>,
     ) -> Reg {
         let value = self.expr(expr);
         self.condition_of(&value, expr, better)
@@ -241,12 +241,13 @@ impl<'w> Lower<'_, 'w> {
         &mut self,
         value: &Value<'w>,
         expr: &'w Expr,
-        better: impl FnOnce(&Self, Ty) -> Option<String>,
+        better: impl FnOnce(&Self, Ty) -> Option<(String, Option<Span>)>,
     ) -> Reg {
         if !value.is_error() && value.ty != Ty::Bool {
             let condition = better(self, value.ty);
-            let instead =
-                condition.map_or(Instead::Condition, |condition| Instead::Repeated { condition });
+            let instead = condition.map_or(Instead::Condition, |(condition, whole)| {
+                Instead::Repeated { condition, whole }
+            });
             self.report(self.mismatch_with(value.ty, Ty::Bool, expr.span, instead));
             return self.code.unknown();
         }

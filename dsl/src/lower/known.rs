@@ -34,6 +34,10 @@ pub(crate) struct StartState<'w> {
     pub(crate) pitch: [Option<Reg>; PitchFigure::ALL.len()],
     /// The regions in which something is drawn.
     pub(crate) drawn_in: Vec<RegionOrigin>,
+    /// Whether a requirement is being lowered.
+    pub(crate) is_requiring: bool,
+    /// The regions that requirements ask about.
+    pub(crate) asked_about: Vec<RegionOrigin>,
     /// The `let`s that are lowered; none where one is being lowered.
     pub(crate) lets: BTreeMap<&'w str, Option<Value<'w>>>,
     /// The team that kicks off first, if somebody asked.

@@ -248,7 +248,7 @@ impl<'w> Lower<'_, 'w> {
                 let value = self.expr(point);
                 if value.ty == Ty::Region {
                     let text = self.world.text(point.span);
-                    let instead = Instead::In { text };
+                    let instead = Instead::In { text, place: place.span };
                     self.report(self.mismatch_with(value.ty, Ty::Point, point.span, instead));
                     return self.nowhere();
                 }
@@ -264,7 +264,7 @@ impl<'w> Lower<'_, 'w> {
                 let value = self.expr(region);
                 if value.ty.is_place() {
                     let text = self.world.text(region.span);
-                    let instead = Instead::At { text };
+                    let instead = Instead::At { text, place: place.span };
                     self.report(self.mismatch_with(value.ty, Ty::Region, region.span, instead));
                     return self.nowhere();
                 }

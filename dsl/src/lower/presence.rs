@@ -70,7 +70,8 @@ impl<'w> Lower<'_, 'w> {
                 if let Some(when) = player.when {
                     let share = |lower: &Self, ty| {
                         let share = lower.world.text(when.span);
-                        (ty == Ty::Percent).then(|| format!("maybe {share} {} …", player.role))
+                        (ty == Ty::Percent)
+                            .then(|| (format!("maybe {share} {} …", player.role), None))
                     };
                     let reg = lower.drawing(&format!("{stream} when"), |lower| {
                         lower.condition_or(when, share)

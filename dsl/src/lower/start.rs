@@ -100,8 +100,13 @@ pub(crate) fn lower_start<'c, 'w>(
     });
     let named = if with_regions { lower.named_regions() } else { Vec::new() };
     let state = lower.start_mut().map(std::mem::take).unwrap_or_default();
-    let drawn_in = state.drawn_in.into_iter().filter(|_| with_regions);
-    let regions: Vec<RegionOrigin> = named.into_iter().chain(drawn_in).collect();
+    // What depends on one player of several has as many shapes as players.
+    let is_one = |region: &RegionOrigin| {
+        region.shape.numbers().iter().all(|number| lower.code.is_visible(*number))
+    };
+    let asked_about = state.asked_about.into_iter().filter(is_one);
+    let others = state.drawn_in.into_iter().chain(asked_about).filter(|_| with_regions);
+    let regions: Vec<RegionOrigin> = named.into_iter().chain(others).collect();
     let (mut implied, of_implied): (Vec<_>, Vec<_>) = state.implied.into_iter().unzip();
     let of_requires = written.chain(of_implied).collect();
     requires.append(&mut implied);
@@ -466,7 +471,13 @@ impl<'w> Lower<'_, 'w> {
             let ScenarioStmtKind::Require { condition, probability, label } = &stmt.kind else {
                 continue;
             };
+            if let Some(start) = self.start_mut() {
+                start.is_requiring = true;
+            }
             let met = self.drawing("require", |lower| lower.condition(condition));
+            if let Some(start) = self.start_mut() {
+                start.is_requiring = false;
+            }
             let probability = probability.as_ref().map(|expr| {
                 let reg = self.want_reg(expr, Ty::Percent);
                 self.check_range(reg, (0.0, 1.0), "the probability", expr.span, "`0%..100%`");

@@ -107,7 +107,7 @@ impl Reader<'_> {
     fn comparison(&mut self, nodes: &mut CstNodes<'_>, within: Span) -> Expr {
         let first = self.union(nodes, within);
         let mut last = first.span;
-        let mut comparison = None;
+        let (mut comparison, mut middle) = (None, 0);
         while let Some(rule) = nodes.peek().filter(|rule| is_comparison(*rule)) {
             let Some(op) = nodes.next() else { break };
             let op_span = self.span(&op);
@@ -118,12 +118,20 @@ impl Reader<'_> {
                     end = end.to(self.span(&rest));
                 }
                 let all = first.span.to(end);
-                self.push(Problem::new(
-                    op_span,
-                    Syntax::ComparisonChain { first: first.span.to(last) },
-                ));
+                let fact = Syntax::ComparisonChain { first: first.span.to(last) };
+                let middle = Span { start: middle, end: op_span.start, ..op_span };
+                let again = format!(
+                    "and {} ",
+                    self.original()
+                        .get(middle.start as usize..middle.end as usize)
+                        .unwrap_or_default()
+                        .trim()
+                );
+                let before_it = Span { end: op_span.start, ..op_span };
+                self.push(Problem::new(op_span, fact).rewriting(before_it, again));
                 return broken(all);
             }
+            middle = op_span.end;
             let built = self.comparison_tail(rule, &op, &first, nodes, within);
             last = built.span;
             comparison = Some(built);

@@ -21,6 +21,25 @@ pub struct Words {
     pub labels: Vec<Label>,
     /// What to write instead.
     pub help: Option<String>,
+    /// The same as changes of the text, as far as it is known where they go; the likeliest first.
+    pub rewrites: Vec<Rewrite>,
+}
+
+/// A way to follow a help.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rewrite {
+    /// What is written; empty if something is left out.
+    pub says: String,
+    /// Where it may go, the likeliest first: texts in the place of others.
+    pub places: Vec<Vec<(Span, String)>>,
+}
+
+impl Rewrite {
+    /// A text in the place of another one.
+    pub(crate) fn one(span: Span, text: impl Into<String>) -> Rewrite {
+        let text = text.into();
+        Rewrite { says: text.trim().to_owned(), places: vec![vec![(span, text)]] }
+    }
 }
 
 /// The words of a fact, which doesn't know where it was found.
@@ -34,6 +53,8 @@ pub(super) struct Said {
     pub(super) help: Option<String>,
     /// Names that the help suggests.
     pub(super) names: Vec<String>,
+    /// Texts that stand for others once the help is followed; for the marked one if none is named.
+    pub(super) writes: Vec<(Option<Span>, String)>,
 }
 
 /// Says what is wrong, and what the marked text is.
@@ -44,6 +65,7 @@ pub(super) fn say(message: impl Into<String>, label: impl Into<String>) -> Said 
         also: Vec::new(),
         help: None,
         names: Vec::new(),
+        writes: Vec::new(),
     }
 }
 
@@ -58,6 +80,26 @@ impl Said {
     pub(super) fn help(mut self, help: impl Into<String>) -> Said {
         self.help = Some(help.into());
         self
+    }
+
+    /// Says to write something in the place of the marked text.
+    pub(super) fn write(self, text: impl Into<String>) -> Said {
+        let text = text.into();
+        self.help(format!("write `{text}`")).writing(None, text)
+    }
+
+    /// Notes how the help is followed: by a text in the place of another one, or of the marked one.
+    pub(super) fn writing(mut self, span: Option<Span>, text: impl Into<String>) -> Said {
+        self.writes.push((span, text.into()));
+        self
+    }
+
+    /// The same, if there is such a text.
+    pub(super) fn writing_if(self, found: Option<(Span, &String)>) -> Said {
+        match found {
+            Some((span, text)) => self.writing(Some(span), text),
+            None => self,
+        }
     }
 
     /// Notes a name that the help suggests.

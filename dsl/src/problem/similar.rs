@@ -87,6 +87,11 @@ impl Guess {
         Guess { meant: habit::of_name(found).map(Meant::Habit).or_else(name), known: Vec::new() }
     }
 
+    /// Knows what was meant.
+    pub(crate) fn sure(meant: String) -> Guess {
+        Guess { meant: Some(Meant::Name(meant)), known: Vec::new() }
+    }
+
     /// The same; lists all that there is if nothing is similar and no other language has the word.
     pub(crate) fn or_all(found: &str, known: &[&str]) -> Guess {
         match Guess::of(found, known.iter().copied()) {

@@ -33,6 +33,7 @@ img.stale { opacity: 0.4; }
 #things button:focus-visible { outline: 2px solid var(--vscode-focusBorder, #ffffff); }
 #ghost { border: 2px dashed #ffffff; background: #ffffff55; }
 p { white-space: pre-wrap; color: var(--vscode-descriptionForeground); }
+ul { list-style: none; margin: 0; padding: 0; }
 [hidden] { display: none !important; }
 </style>
 </head>
@@ -44,6 +45,7 @@ p { white-space: pre-wrap; color: var(--vscode-descriptionForeground); }
 <div id="ghost" hidden></div>
 </div>
 <p id="words" role="status"></p>
+<ul id="asked" aria-label="What a start must meet"></ul>
 <script nonce="${nonce}">
 ${PANEL}</script>
 </body>

@@ -21,6 +21,7 @@ const WAYS: Readonly<Record<string, Place>> = {
 
 const host = acquireVsCodeApi();
 const [title, words] = [part("title", HTMLElement), part("words", HTMLElement)];
+const asked = part("asked", HTMLElement);
 const picture = part("picture", HTMLImageElement);
 const [plane, things, ghost] = [
   part("field", HTMLElement), part("things", HTMLElement), part("ghost", HTMLElement),
@@ -44,6 +45,11 @@ window.addEventListener("message", ({ data }: MessageEvent<PageMessage>) => {
     picture.src = data.picture;
     picture.hidden = false;
   }
+  asked.replaceChildren(...(data.asked ?? []).map((requirement) => {
+    const line = document.createElement("li");
+    line.textContent = requirement;
+    return line;
+  }));
   field = data.field;
   list();
 });

@@ -2,6 +2,15 @@
 
 import type { Field, Thing } from "./field";
 
+/** Something that a start must meet. */
+export interface Asked {
+  readonly label: string;
+  /** The share of starts that it is the first to refuse. */
+  readonly share: number;
+  /** Whether the start of the picture fails it. */
+  readonly fails: boolean;
+}
+
 /** The answer to `setpiece/preview`. */
 export interface PreviewAnswer {
   /** The scenario at the place that was asked about. */
@@ -14,7 +23,9 @@ export interface PreviewAnswer {
   readonly view?: Field["view"] | null;
   /** Who can be moved. */
   readonly things?: readonly Thing[] | null;
-  /** Why nothing is drawn. */
+  /** What a start must meet. */
+  readonly requires?: readonly Asked[] | null;
+  /** Why nothing is drawn, or why no episode has this start. */
   readonly message?: string | null;
 }
 
@@ -25,6 +36,8 @@ export interface Shown {
   readonly picture?: string;
   /** Who can be moved in it. */
   readonly field?: Field;
+  /** What a start must meet, in words; absent if nothing is drawn. */
+  readonly asked?: readonly string[];
   /** Words beneath it; may be empty. */
   readonly words: string;
 }
@@ -42,7 +55,14 @@ export function shownOf(answer: PreviewAnswer | null | undefined, drawing: numbe
   const words = answer?.message ?? "";
   if (!answer?.svg) return { title, words: words || "No scenario stands here." };
   const encoded = Buffer.from(answer.svg, "utf8").toString("base64");
-  const shown = { title, picture: `data:image/svg+xml;base64,${encoded}`, words };
+  const asked = (answer.requires ?? []).map(spokenOf);
+  const shown = { title, picture: `data:image/svg+xml;base64,${encoded}`, asked, words };
   const { view, things } = answer;
   return view && things ? { ...shown, field: { drawing, view, things } } : shown;
+}
+
+/** What is said of something that a start must meet. */
+function spokenOf({ label, share, fails }: Asked): string {
+  const refuses = `is the first to refuse ${(100 * share).toFixed(0)} % of starts`;
+  return `${fails ? "✗" : "✓"} ${label}${share > 0 ? `: ${refuses}` : ""}`;
 }

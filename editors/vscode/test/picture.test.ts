@@ -15,6 +15,19 @@ test("a drawing is shown as an image, which can run nothing", () => {
   assert.equal(Buffer.from(data ?? "", "base64").toString("utf8"), svg);
 });
 
+test("what a start must meet is listed, and a start that fails it is drawn", () => {
+  const requires = [
+    { label: "ball.x > 0.3", share: 0.125, fails: true },
+    { label: "far", share: 0, fails: false },
+  ];
+  const shown = shownOf({ scenario: "drill", svg: "<svg/>", requires, message: "no start" }, 1);
+  assert.deepEqual(shown.asked, [
+    "✗ ball.x > 0.3: is the first to refuse 13 % of starts", "✓ far",
+  ]);
+  assert.equal(shown.words, "no start");
+  assert.ok(shown.picture);
+});
+
 test("without a drawing there are words, and the last picture stays", () => {
   const failed = shownOf({ scenario: "drill", message: "1 error" }, 2);
   assert.deepEqual(failed, { title: "drill", words: "1 error" });

@@ -1,11 +1,14 @@
 //! `setpiece lsp`: answers an editor over the Language Server Protocol, on standard input and
 //! output.
 
+mod wire;
+
 use super::common::{FAULT, FINE};
 use crate::lsp::{LanguageServer, LateFindings, QUIET, capabilities};
 use lsp_server::{Connection, ErrorCode, Message, Response};
 use std::thread::{JoinHandle, spawn};
 use std::time::{Duration, Instant};
+use wire::Wire;
 
 /// How often work beside the conversation is looked at.
 const LOOK: Duration = Duration::from_millis(10);
@@ -16,10 +19,10 @@ const NEVER: Duration = Duration::from_secs(86_400);
 ///
 /// `allow_outside`: whether imports and scripts may be outside a text's folder.
 pub(super) fn serve(allow_outside: bool) -> u8 {
-    let (connection, threads) = Connection::stdio();
+    let (connection, wire) = Wire::stdio();
     let fine = talk(&connection, allow_outside).is_some();
     drop(connection);
-    if threads.join().is_ok() && fine { FINE } else { FAULT }
+    if wire.join() && fine { FINE } else { FAULT }
 }
 
 /// The conversation; `None` if the editor breaks it off.

@@ -27,27 +27,16 @@ impl Written {
         if !rest.takes("at") {
             return None;
         }
-        let is_own = rest.takes("own");
-        if !rest.takes("(") {
-            return None;
-        }
-        let (first, first_metres) = rest.number()?;
-        if !rest.takes(",") {
-            return None;
-        }
-        let (second, second_metres) = rest.number()?;
-        let is_plain = rest.takes(")") && first_metres == second_metres;
+        let written = rest.point()?;
         rest.skip();
         // `(1m, 2m) + (3m, 0m)` is computed.
-        let is_whole = is_plain && rest.at == place.end;
-        is_whole.then_some(Written { numbers: [first, second], is_metres: first_metres, is_own })
+        (rest.at == place.end).then_some(written)
     }
 
     /// What they say, metres.
     pub(super) fn metres(&self, text: &str) -> Option<[f64; 2]> {
         let number = |axis: usize| {
-            let number = text.get(self.numbers[axis].clone())?;
-            let value: f64 = number.trim_end_matches('m').parse().ok()?;
+            let value = value_of(text.get(self.numbers[axis].clone())?)?;
             Some(if self.is_metres { value } else { value * NORMALISED_M[axis] })
         };
         Some([number(0)?, number(1)?])
@@ -69,6 +58,12 @@ impl Written {
         };
         [number(x, 0), number(y, 1)]
     }
+}
+
+/// What a number says, without its unit.
+fn value_of(number: &str) -> Option<f64> {
+    let is_blank = |sign: char| sign == '_' || sign.is_whitespace();
+    number.trim_end_matches('m').replace(is_blank, "").parse().ok()
 }
 
 /// A number with at most so many decimals, no further from 0 than `most`.
@@ -121,18 +116,59 @@ impl Cursor<'_> {
         stands
     }
 
+    /// Goes past a point of two numbers, which may stand in brackets of its own.
+    fn point(&mut self) -> Option<Written> {
+        let is_own = self.takes("own");
+        let begin = self.at;
+        if let Some(pair) = self.pair(is_own) {
+            return Some(pair);
+        }
+        self.at = begin;
+        if is_own || !self.takes("(") {
+            return None;
+        }
+        self.point().filter(|_| self.takes(")"))
+    }
+
+    /// Goes past two numbers in brackets.
+    fn pair(&mut self, is_own: bool) -> Option<Written> {
+        if !self.takes("(") {
+            return None;
+        }
+        let (first, is_metres) = self.coordinate()?;
+        if !self.takes(",") {
+            return None;
+        }
+        let (second, second_is_metres) = self.coordinate()?;
+        let is_plain = self.takes(")") && is_metres == second_is_metres;
+        is_plain.then_some(Written { numbers: [first, second], is_metres, is_own })
+    }
+
+    /// Goes past a number, which may stand in brackets of its own.
+    fn coordinate(&mut self) -> Option<(Range<usize>, bool)> {
+        if self.takes("(") { self.coordinate().filter(|_| self.takes(")")) } else { self.number() }
+    }
+
     /// Goes past a number; returns where it stands and whether it is in metres.
     fn number(&mut self) -> Option<(Range<usize>, bool)> {
         self.skip();
-        let (begin, rest) = (self.at, &self.text[self.at..]);
-        let length = rest
-            .char_indices()
-            .find(|&(place, sign)| {
-                !(sign.is_ascii_digit() || sign == '.' || sign == '-' && place == 0)
-            })
-            .map_or(rest.len(), |(place, _)| place);
-        rest.get(..length)?.parse::<f64>().ok()?;
-        self.at += length;
+        let begin = self.at;
+        if self.takes("-") {
+            let rest = &self.text[self.at..];
+            self.at += rest.len() - rest.trim_start().len();
+        }
+        let digits = |rest: &str| {
+            let is_digit = |sign: char| sign.is_ascii_digit() || sign == '_' || sign == '.';
+            rest.find(|sign| !is_digit(sign)).unwrap_or(rest.len())
+        };
+        self.at += digits(&self.text[self.at..]);
+        // Of `2e-1`, what follows the `e`.
+        if let Some(rest) = self.text[self.at..].strip_prefix('e') {
+            let sign = usize::from(rest.starts_with(['-', '+']));
+            let exponent = digits(&rest[sign..]);
+            self.at += if exponent > 0 { 1 + sign + exponent } else { 0 };
+        }
+        value_of(&self.text[begin..self.at])?;
         let rest = &self.text[self.at..];
         let is_metres = rest.starts_with('m');
         self.at += usize::from(is_metres);
@@ -179,6 +215,9 @@ mod tests {
             "at /* a */ (0, // x\n0) // y"
         );
         assert_eq!(to("CM at (5m, 5m)", [-0.04, -0.0]).unwrap(), "CM at (0m, 0m)");
+        assert_eq!(to("CM at (2e-1, 1_0.5e+0)", place).unwrap(), "CM at (0.368, -0.123)");
+        assert_eq!(to("CM at ((- 1m, (2m)))", place).unwrap(), "CM at ((20m, (-10.3m)))");
+        assert_eq!(to("CM at (own ((1), 2))", place).unwrap(), "CM at (own ((0.368), -0.123))");
     }
 
     #[test]
@@ -191,6 +230,8 @@ mod tests {
 
     #[test]
     fn the_numbers_are_read_in_their_own_unit() {
+        let exact = "at (- 2.5e1m, 1_0m)";
+        assert_eq!(Written::of(exact, 0..exact.len()).unwrap().metres(exact), Some([-25.0, 10.0]));
         let text = "at (-2.5m, 4m) at (0.5, -1)";
         let metres = |range| Written::of(text, range).unwrap().metres(text);
         assert_eq!(metres(0..14), Some([-2.5, 4.0]));
@@ -208,6 +249,10 @@ mod tests {
             "CM at (0.5 + 0.1, 0)",
             "CM at (1m, 2)",
             "CM at (8m / s, 2m)",
+            "CM at ((0.5, 0.1) + v)",
+            "CM at (-(0.5), 0.1)",
+            "CM at (2e, 0.1)",
+            "CM at (--0.5, 0.1)",
             "CM at",
             "",
         ] {

@@ -4,7 +4,8 @@ use super::completion::{Completion, CompletionKind, PARAMETER, keys, keywords, w
 use super::cursor::{CursorPlace, context, inline_script};
 use super::keywords::KeywordBlock;
 use super::outline::flat;
-use super::place::{is_scenario, is_script};
+use super::place::is_script;
+use super::removable::removed;
 use super::text::word_at;
 use super::within::further;
 use super::words::{self, WordKind};
@@ -17,7 +18,7 @@ use crate::scenario::vocabulary::{
     AGENTS, EventField, Landmark, Owner, PROPERTIES, PitchRegion, Role,
 };
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 impl Workspace {
     /// What may stand at a byte of a text, in no order; the editor chooses by what is typed.
@@ -36,7 +37,16 @@ impl Workspace {
         }
         match context(before, typed) {
             CursorPlace::Nothing => Vec::new(),
-            CursorPlace::Import => self.files(path),
+            CursorPlace::Import => {
+                // What is written of the path already stays.
+                let written = before.rsplit('"').next().unwrap_or_default();
+                let mut files = self.files(path);
+                files.retain(|it| it.text.starts_with(written));
+                for file in &mut files {
+                    file.text.drain(..written.len());
+                }
+                files
+            }
             CursorPlace::Member(of) => members(of),
             CursorPlace::Unit => words_of(&[WordKind::Unit]).collect(),
             CursorPlace::TopLevel => keywords(KeywordBlock::File),
@@ -52,7 +62,10 @@ impl Workspace {
             }
             CursorPlace::After(what) => analysis.after(what),
             CursorPlace::Measure => words_of(&[WordKind::Measure]).collect(),
-            CursorPlace::Inside => analysis.inside(before),
+            CursorPlace::Inside => match removed(before) {
+                Some((what, statement)) => analysis.removable(what, statement),
+                None => analysis.inside(before),
+            },
         }
     }
 }
@@ -97,18 +110,17 @@ fn members(base: &str) -> Vec<Completion> {
 }
 
 impl Workspace {
-    /// The files that can be imported: beside the text, and of the library.
+    /// The files that can be imported: in the text's folder and those in it, and of the library.
     fn files(&self, path: &Path) -> Vec<Completion> {
-        let folder = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
-        let on_disk = folder.into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
-        let open = self.paths().filter(|it| it.parent() == path.parent()).map(Path::to_owned);
-        let mut beside: Vec<String> = on_disk
-            .chain(open)
-            .filter(|it| it != path && is_scenario(it))
-            .filter_map(|it| Some(it.file_name()?.to_str()?.to_owned()))
-            .collect();
-        beside.sort();
-        beside.dedup();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let relative = |file: PathBuf| {
+            let parts = file.strip_prefix(folder).ok()?.iter().map(|part| part.to_str());
+            Some(parts.collect::<Option<Vec<_>>>()?.join("/"))
+        };
+        let files = self.files_in(folder).into_iter().filter(|it| it != path);
+        let mut beside: Vec<String> = files.filter_map(relative).collect();
+        // Those of the folder itself first.
+        beside.sort_by_key(|name| (name.matches('/').count(), name.clone()));
         let file = |text: String, detail: &str| Completion {
             text,
             detail: detail.to_owned(),
@@ -116,7 +128,10 @@ impl Workspace {
             snippet: String::new(),
             kind: CompletionKind::File,
         };
-        let beside = beside.into_iter().map(|name| file(name, "beside this file"));
+        let beside = beside.into_iter().map(|name| {
+            let is_deeper = name.contains('/');
+            file(name, if is_deeper { "in a folder beside this file" } else { "beside this file" })
+        });
         let library = FileLoader::library_texts().map(|(name, _)| file(name, "of the library"));
         beside.chain(library).collect()
     }
@@ -206,7 +221,7 @@ impl Analysis {
     }
 
     /// The items of the text and of the files that it sees.
-    fn items(&self) -> impl Iterator<Item = Item> {
+    pub(super) fn items(&self) -> impl Iterator<Item = Item> {
         let others = self.sources.iter().skip(1);
         let parsed = others.flat_map(|(_, source)| parse(source, FileId(0), &mut Vec::new()).items);
         self.tree.items.clone().into_iter().chain(parsed)

@@ -1,15 +1,15 @@
 //! Helps of reports that apply themselves.
 //!
-//! A help says what to write. Everything that it may mean as an edit is tried on a copy of the
-//! texts: what makes the report go away, and nothing else wrong, is offered.
+//! A help says what to write. Everything that it may be as an edit is tried on a copy of the texts:
+//! what makes the report go away, and nothing else wrong, is offered.
 
 use super::actions::{Action, ActionKind};
-use super::closing::closings;
 use super::edits::Edit;
+use super::meant::{meant, one_line};
 use super::outline::{Symbol, SymbolKind, of_file};
 use super::place::is_scenario;
-use super::report::TextReport;
-use super::text::{brackets, line_around};
+use super::report::{TextReport, TextRewrite};
+use super::text::line_around;
 use super::{Analysis, Workspace};
 use crate::dsl::ast::{Item, ItemKind};
 use crate::dsl::parse::parse;
@@ -55,7 +55,8 @@ impl Workspace {
                     let fixes = after.clone().fixes_of(path, &analysis, report);
                     // Which of several units or forms is meant only the author knows.
                     let has_forms = report.help.as_ref().is_some_and(|it| it.contains(", or "));
-                    let is_open = has_forms || (names_unit(report) && fixes.len() > 1);
+                    let is_range = report.help.as_ref().is_some_and(|it| it.contains("a value in"));
+                    let is_open = has_forms || is_range || (names_unit(report) && fixes.len() > 1);
                     let fix = fixes.into_iter().next().filter(|_| !is_open);
                     Some((report.place.range.start, fix?))
                 });
@@ -73,7 +74,10 @@ impl Workspace {
     }
 
     fn fixes_of(&mut self, path: &Path, analysis: &Analysis, report: &TextReport) -> Vec<Action> {
-        let mut tries = meant(analysis, path, report);
+        let mut tries = self.written(path, report);
+        if tries.is_empty() {
+            tries = meant(analysis, path, report);
+        }
         if report.code == Code::UnknownName {
             tries.extend(self.imports(path, analysis, report));
         }
@@ -100,6 +104,27 @@ impl Workspace {
             .collect()
     }
 
+    /// The changes that a report brings: of the places of each the first that mends it.
+    fn written(&mut self, path: &Path, report: &TextReport) -> Vec<Try> {
+        let text = self.file_text(path).unwrap_or_default();
+        let mut found: Vec<Try> = Vec::new();
+        for TextRewrite { says, places } in &report.rewrites {
+            let fitting = places.iter().take(TRIES).find(|edits| {
+                let is_new = found.iter().all(|known| known.edits != **edits);
+                is_new && self.mends(path, report, edits).is_some()
+            });
+            let Some(edits) = fitting else { continue };
+            let gone = edits.first().and_then(|edit| text.get(edit.place.range.clone()));
+            let title = if says.is_empty() {
+                format!("leave out `{}`", one_line(gone.unwrap_or_default()))
+            } else {
+                format!("write `{}`", one_line(says))
+            };
+            found.push(Try { title, edits: edits.clone() });
+        }
+        found
+    }
+
     /// How many errors are left after some edits, if a report is gone and nothing else is wrong.
     fn mends(&mut self, path: &Path, report: &TextReport, edits: &[Edit]) -> Option<usize> {
         let mut after = self.after(edits);
@@ -108,31 +133,47 @@ impl Workspace {
             analysis.reports.iter().filter(|it| it.code == report.code).count()
         };
         let errors = |analysis: &Analysis| analysis.errors();
+        let unread = |analysis: &Analysis| {
+            let own = analysis.own_reports(path);
+            own.filter(|it| is_unread(it)).count()
+        };
         if !is_unread(report) {
+            // What can't be read hides what is wrong with it.
+            let is_readable = unread(&is) <= unread(&was);
             // Of some things the compiler warns only in a text without errors.
             let less = if report.severity == Severity::Error {
                 errors(&is) < errors(&was)
             } else {
                 is.reports.len() < was.reports.len() && errors(&is) <= errors(&was)
             };
-            return (less && alike(&is) < alike(&was)).then(|| errors(&is));
+            return (less && is_readable && alike(&is) < alike(&was)).then(|| errors(&is));
         }
         // What could not be read hides what is wrong behind it, but not in its own lines.
-        let unread = |analysis: &Analysis| {
-            let own = analysis.own_reports(path);
-            own.filter(|it| is_unread(it)).count()
-        };
-        // What is tried is one edit.
-        let line = edits.first().map(|edit| line_around(&is.text, edit.place.range.start));
+        // What is tried is one edit. Where a bracket closes is seen by what makes sense in its
+        // line; of anything else, what it brings has to make sense.
+        let is_closing = matches!(report.code, Code::UnclosedBracket | Code::UnclosedString);
+        let edit = edits.first();
+        let line = edit.map(|edit| line_around(&is.text, edit.place.range.start));
+        let brought = edit.map(|edit| {
+            let from = edit.place.range.start;
+            from..from + edit.text.len()
+        });
         let is_new = |it: &TextReport| {
             !was.own_reports(path).any(|other| it.code == other.code && it.message == other.message)
         };
         // A file whose name can be read may not be there.
         let may_differ = report.code == Code::UnclosedString;
         let is_here = |it: &TextReport| line.as_ref().is_some_and(|line| it.touches(line));
+        let is_brought = |it: &TextReport| {
+            if is_closing {
+                is_here(it)
+            } else {
+                brought.as_ref().is_some_and(|own| it.touches(own))
+            }
+        };
         let spoils = is.own_reports(path).filter(|it| it.severity == Severity::Error).any(|it| {
             (is_unread(it) && (is_new(it) || is_here(it)))
-                || (!may_differ && is_new(it) && is_here(it))
+                || (!may_differ && is_new(it) && is_brought(it))
         });
         (unread(&is) < unread(&was) && !spoils).then(|| errors(&is))
     }
@@ -166,94 +207,10 @@ impl Workspace {
     }
 }
 
-/// An edit that a help may mean.
-struct Try {
-    title: String,
-    edits: Vec<Edit>,
-}
-
-/// The edits of one text that a report's help may mean, the likeliest first.
-fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Vec<Try> {
-    let Some(help) = &report.help else { return Vec::new() };
-    let range = report.place.range.clone();
-    let marked = analysis.text.get(range.clone()).unwrap_or_default();
-    let write = |range: Range<usize>, text: String| Try {
-        title: format!("write `{text}`"),
-        edits: vec![Edit::replace(path, range, text)],
-    };
-    let mut tries = Vec::new();
-    let line = line_around(&analysis.text, range.start);
-    let whole_line = analysis.text.get(line).unwrap_or_default().to_owned();
-    // An example isn't what the author meant; of one with a unit, the unit is.
-    let is_example = help.contains("for example") || names_unit(report);
-    // What could be written is no answer to what should be.
-    let lists = help.contains("use one of") || help.starts_with("it has");
-    if lists {
-        return Vec::new();
-    }
-    if matches!(report.code, Code::UnclosedBracket | Code::UnclosedString) {
-        let places = closings(&analysis.text, range.start);
-        let closed = places.into_iter().map(|(at, sign)| Try {
-            title: format!("close it with `{}`", one_line(&sign)),
-            edits: vec![Edit::replace(path, at..at, sign)],
-        });
-        tries.extend(closed);
-        // One that closes another kind of bracket opens nothing: it is replaced.
-        if !tries.is_empty() {
-            return tries;
-        }
-    }
-    let before = analysis.text.get(..range.start).unwrap_or_default();
-    for text in quoted(help) {
-        let Some(text) = behind(before, text) else { continue };
-        let unit = text.trim_start_matches(|sign: char| sign.is_ascii_digit() || sign == '.');
-        let has_unit =
-            unit.len() < text.len() && unit.trim_start().starts_with(char::is_alphabetic);
-        if text.starts_with("/ ") {
-            tries.push(write(range.clone(), format!("{marked} {text}")));
-        } else if has_unit && is_number(marked) {
-            tries.push(write(range.clone(), format!("{marked}{unit}")));
-        } else if !has_unit && !is_example && !invents(text, marked, &whole_line) {
-            tries.push(write(range.clone(), text.to_owned()));
-            // A line of another language is replaced as a whole.
-            let line = line_around(&analysis.text, range.start);
-            let written = analysis.text.get(line.clone()).unwrap_or_default();
-            let begin = line.start + written.len() - written.trim_start().len();
-            if begin == range.start {
-                tries.push(write(begin..line.start + written.trim_end().len(), text.to_owned()));
-            }
-            // What is written in brackets may stand for the brackets around.
-            let around = brackets(&analysis.text)
-                .into_iter()
-                .rev()
-                .find(|pair| pair.open <= range.start && range.end <= pair.close);
-            if let Some(pair) = around.filter(|_| text.starts_with(['(', '[', '{'])) {
-                tries.push(write(pair.open..pair.close, text.to_owned()));
-            }
-            if let [sign] = text.as_bytes()
-                && sign.is_ascii_punctuation()
-            {
-                tries.push(write(range.start..range.start, text.to_owned()));
-                tries.push(write(range.end..range.end, text.to_owned()));
-            }
-        }
-    }
-    if help.contains("leave it out") || help.contains("leave one") {
-        let line = line_around(&analysis.text, range.start);
-        let leave = |range: Range<usize>, what: &str| Try {
-            title: format!("leave out {what}"),
-            edits: vec![Edit::replace(path, range, "")],
-        };
-        tries.push(leave(range.clone(), &format!("`{}`", one_line(marked))));
-        tries.push(leave(line, "the line"));
-    }
-    if let [only] = tries.as_mut_slice()
-        && !is_example
-        && !help.starts_with("did you mean")
-    {
-        only.title.clone_from(help);
-    }
-    tries
+/// Changes that a help may mean.
+pub(super) struct Try {
+    pub(super) title: String,
+    pub(super) edits: Vec<Edit>,
 }
 
 /// Whether a report is about a text that can't be read.
@@ -262,71 +219,8 @@ fn is_unread(report: &TextReport) -> bool {
 }
 
 /// Whether a report asks for the unit of a number.
-fn names_unit(report: &TextReport) -> bool {
+pub(super) fn names_unit(report: &TextReport) -> bool {
     report.help.as_ref().is_some_and(|help| help.contains("the unit"))
-}
-
-/// A text in a line of a title.
-fn one_line(text: &str) -> String {
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    if words.chars().count() > 40 { words.chars().take(39).chain(['…']).collect() } else { words }
-}
-
-/// What stands between backticks and can be written as it is.
-fn quoted(help: &str) -> impl Iterator<Item = &str> {
-    let parts = help.split('`').skip(1).step_by(2);
-    parts
-        .map(|part| part.trim_end_matches(" …"))
-        .filter(|part| !part.contains('…') && !part.is_empty())
-}
-
-/// What a help says to write behind what stands before the place already: of `give 1 when`, it is
-/// `when` behind `give -1`. None if the author has written another beginning of it.
-fn behind<'t>(before: &str, text: &'t str) -> Option<&'t str> {
-    let line = before.rsplit('\n').next().unwrap_or_default();
-    let written: Vec<&str> = line.split_whitespace().collect();
-    let is_alike =
-        |(one, other): (&&str, &str)| *one == other || (is_number(one) && is_number(other));
-    let words = || text.split_whitespace();
-    let starts = |count: usize| {
-        written.len() >= count && written[written.len() - count..].iter().zip(words()).all(is_alike)
-    };
-    let count = words().count();
-    let Some(known) = (1..count).rev().find(|count| starts(*count)) else {
-        let first = words().next().unwrap_or_default();
-        let is_word = first.len() > 1 && first.chars().all(char::is_alphabetic);
-        let stands = count > 1 && is_word && statement_of(line).contains(&first);
-        return (!stands).then_some(text);
-    };
-    let mut rest = text;
-    for _ in 0..known {
-        rest = rest.trim_start().split_once(char::is_whitespace)?.1;
-    }
-    Some(rest.trim_start())
-}
-
-/// The words of the statement under way at the end of a line.
-fn statement_of(line: &str) -> Vec<&str> {
-    line.rsplit(['{', '}']).next().unwrap_or_default().split_whitespace().collect()
-}
-
-/// Whether a help has numbers of its own where the author wrote others.
-fn invents(text: &str, marked: &str, line: &str) -> bool {
-    let numbers = |text: &str| -> Vec<String> {
-        let parts = text.split(|sign: char| !(sign.is_alphanumeric() || matches!(sign, '.' | '_')));
-        let begins = |part: &&str| part.starts_with(|sign: char| sign.is_ascii_digit());
-        parts
-            .filter(begins)
-            .map(|part| part.trim_end_matches(char::is_alphabetic).to_owned())
-            .collect()
-    };
-    let written = numbers(line);
-    let is_new = !is_number(marked) || text.contains(['(', '[', '{']);
-    is_new && !written.is_empty() && numbers(text).iter().any(|number| !written.contains(number))
-}
-
-fn is_number(text: &str) -> bool {
-    text.parse::<f64>().is_ok()
 }
 
 /// Whether a text declares an item of this name.

@@ -3,7 +3,7 @@
 use super::edits::Edit;
 use super::edits::offset_after;
 use super::outline::{Symbol, SymbolKind, flat};
-use super::place::{FilePlace, is_scenario};
+use super::place::{FilePlace, is_scenario, is_script};
 use super::{Analysis, TextReport, Workspace};
 use crate::dsl::ast::Span;
 use crate::dsl::problem::{Severity, Stage};
@@ -97,6 +97,18 @@ impl Analysis {
             .or_else(unused)
     }
 
+    /// The declaration that the name at a byte of a script refers to.
+    fn declared_from(&self, script: &Path, offset: usize) -> Option<FilePlace> {
+        let is_here = |at: Span| {
+            self.place(at).is_some_and(|place| {
+                let own = place.range;
+                place.path == script && own.start <= offset && offset <= own.end
+            })
+        };
+        let (_, declared) = self.index.uses().find(|(at, _)| is_here(*at))?;
+        self.place(declared)
+    }
+
     /// Where a declaration of a file is used in this text and in the scripts that it names.
     fn uses_of(&self, path: &Path, declaration: &FilePlace) -> Vec<FilePlace> {
         let is_meant = |span: Span| self.place(span).as_ref() == Some(declaration);
@@ -151,6 +163,11 @@ impl Analysis {
 impl Workspace {
     /// Where the name at a byte of a text is declared.
     pub fn declaration(&mut self, path: &Path, offset: usize) -> Option<FilePlace> {
+        if is_script(path) {
+            // What a script reads by name is declared by the texts that use it.
+            let roots = self.roots(path);
+            return roots.iter().find_map(|root| self.analysis(root)?.declared_from(path, offset));
+        }
         let analysis = self.analysis(path)?;
         analysis.place(analysis.declared_at(offset)?)
     }

@@ -34,6 +34,15 @@ impl Workspace {
         files
     }
 
+    /// The scenarios' files of a folder and of those in it, and the open texts there.
+    pub(super) fn files_in(&self, folder: &Path) -> BTreeSet<PathBuf> {
+        let mut files = BTreeSet::new();
+        search(folder, DEPTH_MAX, &mut files);
+        let open = self.paths().filter(|it| it.starts_with(folder) && is_scenario(it));
+        files.extend(open.map(Path::to_owned));
+        files
+    }
+
     /// The files near the open texts that read some of them, with the open texts and themselves.
     pub(super) fn files_that_read(&mut self, changed: BTreeSet<PathBuf>) -> BTreeSet<PathBuf> {
         let mut known = changed;

@@ -1,12 +1,15 @@
 //! The picture of a start beside the text, and what somebody moves in it.
 
-use super::analysis::scenario_of;
-use super::{Analysis, Edit, SymbolKind, Workspace};
+use super::alone::{BrokenRequire, SoundScenario};
+use super::refused::Refusals;
+use super::{Edit, SymbolKind, Workspace};
 use crate::Loaded;
 use crate::drag::HeldThing;
 use crate::dsl::Outline;
 use crate::dsl::ast::ItemKind;
-use crate::engine::draw::Drawer;
+use crate::dsl::problem::Severity;
+use crate::engine::batch::EpisodeError;
+use crate::engine::draw::{DrawError, Drawer};
 use crate::engine::environment::{Environment, EnvironmentOptions};
 use crate::error::Error;
 use crate::film;
@@ -40,6 +43,22 @@ pub struct StartPicture {
     pub view: [f64; 4],
     /// Whoever and whatever can be moved in it.
     pub things: Vec<PlacedThing>,
+    /// What a start must meet: what is written, and of what follows from the rest of the text what
+    /// refuses something.
+    pub requires: Vec<AskedOfStart>,
+    /// Why no episode has this start; it is drawn as it is written then.
+    pub refused: Option<String>,
+}
+
+/// Something that a start must meet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AskedOfStart {
+    /// The author's words or label.
+    pub label: String,
+    /// The share of starts that it is the first to refuse, 0..1.
+    pub share: f64,
+    /// Whether the start of the picture fails it.
+    pub fails: bool,
 }
 
 /// A player or the ball in a picture.
@@ -89,43 +108,61 @@ impl Workspace {
         to: [f64; 2],
     ) -> Result<Vec<Edit>, String> {
         let analysis = self.analysis(path).ok_or("the text is gone")?;
-        let loaded = self.sound(path, &analysis, scenario)?;
+        let SoundScenario { loaded, broken } = self.sound(path, &analysis, scenario)?;
         let environment = environment_of(&loaded)?;
-        let drawer = first_draw(&loaded, &environment);
+        let (drawer, refused) = first_draw(&loaded, &environment);
         let held = HeldThing::of(&loaded.scenario, &drawer, player);
         let held = held.ok_or("nobody stands there any more")?;
-        let numbers = held.moved(&loaded, &analysis.text, to)?;
-        Ok(numbers.into_iter().map(|it| Edit::replace(path, it.range, it.text)).collect())
+        // What is left out of the text is as long as the blanks for it.
+        let (_, read) = loaded.sources.iter().next().ok_or("the text is gone")?;
+        let numbers = held.moved(&loaded, &read.text, to)?;
+        let edits: Vec<Edit> =
+            numbers.into_iter().map(|it| Edit::replace(path, it.range, it.text)).collect();
+        // Whoever mends a start that is refused needn't do it in one move.
+        if refused.is_none() && broken.is_empty() {
+            self.after(&edits).starts(path, scenario)?;
+        }
+        Ok(edits)
     }
 
-    /// A scenario of a text, if nothing is wrong with the text.
-    fn sound(&self, path: &Path, analysis: &Analysis, name: &str) -> Result<Loaded, String> {
-        match analysis.errors() {
-            0 => {}
-            1 => return Err("1 error in the text".to_owned()),
-            broken => return Err(format!("{broken} errors in the text")),
+    /// Whether a scenario has a start.
+    ///
+    /// # Errors
+    /// Why it has none.
+    fn starts(&mut self, path: &Path, scenario: &str) -> Result<(), String> {
+        let analysis = self.analysis(path).ok_or("the text is gone")?;
+        let sound = self.sound(path, &analysis, scenario).map_err(|why| {
+            let errors = analysis.own_reports(path).filter(|it| it.severity == Severity::Error);
+            let first = errors.map(|it| it.message.clone()).next();
+            format!("not there: {}", first.unwrap_or(why))
+        })?;
+        let environment = environment_of(&sound.loaded)?;
+        let (_, refused) = first_draw(&sound.loaded, &environment);
+        let broken = sound.broken.into_iter().map(|it| it.label).next();
+        match broken.or(refused.map(|why| why.requirement)) {
+            None => Ok(()),
+            Some(requirement) => Err(format!("not there: `{requirement}` fails")),
         }
-        let known = analysis.loaded.as_ref().filter(|it| it.scenario.name == name).cloned();
-        known
-            .or_else(|| scenario_of(path, &analysis.text, &self.loader(path), name))
-            .ok_or_else(|| "it can't be compiled".to_owned())
     }
 }
 
 /// The starts of a scenario.
-fn drawn(loaded: &Loaded) -> Result<StartPicture, String> {
+fn drawn(SoundScenario { loaded, broken }: &SoundScenario) -> Result<StartPicture, String> {
     let scenario = &loaded.scenario;
-    let fault = |why: crate::engine::batch::EpisodeError| Error::Episode(Box::new(why)).to_string();
     let mut environment = environment_of(loaded)?;
+    let (drawer, refused) = first_draw(loaded, &environment);
     let mut scene = Scene::default();
-    let mut beneath = regions(loaded, &environment);
+    let mut beneath = regions(loaded, &drawer);
     let mut dots: Vec<[String; 3]> = Vec::new();
-    for episode in (0..STARTS).rev() {
+    // Where the first start is refused, an environment has it until its first episode.
+    let episodes = if refused.is_none() { STARTS } else { 0 };
+    of_match(environment.state(), &mut scene);
+    for episode in (0..episodes).rev() {
         match environment.reset(Some(SEED), Some(episode)) {
             Ok(()) => {}
             // The first start is the picture; of the others, those that there are.
             Err(_) if episode > 0 => continue,
-            Err(why) => return Err(fault(why.into())),
+            Err(why) => return Err(Error::Episode(Box::new(why.into())).to_string()),
         }
         of_match(environment.state(), &mut scene);
         if episode > 0 {
@@ -161,7 +198,35 @@ fn drawn(loaded: &Loaded) -> Result<StartPicture, String> {
         svg: picture::svg_over(&scenario.name, &names, &scene, &beneath),
         view: picture::view(&scene.pitch),
         things,
+        requires: requires(loaded, refused.as_ref(), broken),
+        refused: broken.first().map(|it| it.why.clone()).or_else(|| {
+            refused.map(|why| Error::Episode(Box::new(EpisodeError::from(why))).to_string())
+        }),
     })
+}
+
+/// What the starts of a scenario must meet.
+fn requires(
+    loaded: &Loaded,
+    refused: Option<&DrawError>,
+    broken: &[BrokenRequire],
+) -> Vec<AskedOfStart> {
+    let Some(found) = Refusals::of(loaded) else { return Vec::new() };
+    let requires = &loaded.scenario.start.requires;
+    let parts = requires.iter().zip(&loaded.origins.requires).zip(&found.by);
+    parts
+        .filter_map(|((require, origin), count)| {
+            let fails = refused.is_some_and(|why| why.requirement == require.label);
+            let matters = origin.help.is_none() || *count > 0 || fails;
+            let (label, share) = (require.label.clone(), found.share(*count));
+            matters.then_some(AskedOfStart { label, share, fails })
+        })
+        .chain(broken.iter().map(|it| AskedOfStart {
+            label: it.label.clone(),
+            share: 1.0,
+            fails: true,
+        }))
+        .collect()
 }
 
 /// The environment in which a start is drawn.
@@ -170,20 +235,30 @@ fn environment_of(loaded: &Loaded) -> Result<Environment, String> {
         .map_err(|why| Error::Environment(why).to_string())
 }
 
-/// What has drawn the first start, also one that is refused.
-fn first_draw(loaded: &Loaded, environment: &Environment) -> Drawer {
-    let mut drawer = Drawer::new(&loaded.scenario);
+/// What has drawn the first start, and why it is refused, if it is.
+fn first_draw(loaded: &Loaded, environment: &Environment) -> (Drawer, Option<DrawError>) {
+    let scenario = &loaded.scenario;
+    let mut drawer = Drawer::new(scenario);
     let (roster, bindings) = (environment.roster(), environment.bindings());
-    let _ = drawer.draw(&loaded.scenario, bindings, roster, SEED, 0);
-    drawer
+    let drawn = drawer.draw(scenario, bindings, roster, SEED, 0);
+    if drawn.is_err() {
+        // The attempt that is drawn, of all that were refused.
+        drawer.draw_unchecked(scenario, bindings, roster);
+    }
+    (drawer, drawn.err())
 }
 
-/// The outlines of the regions of the first start.
-fn regions(loaded: &Loaded, environment: &Environment) -> String {
-    let drawer = first_draw(loaded, environment);
+/// The outlines of the regions of the first start, each once.
+fn regions(loaded: &Loaded, drawer: &Drawer) -> String {
+    let mut shapes: Vec<Outline<f64>> = Vec::new();
+    for (_, shape) in loaded.regions(drawer) {
+        if !shapes.contains(&shape) {
+            shapes.push(shape);
+        }
+    }
     let mut text = String::new();
-    for (_, shape) in loaded.regions(&drawer) {
-        outline(&shape, &mut text);
+    for shape in &shapes {
+        outline(shape, &mut text);
     }
     text
 }

@@ -1,7 +1,9 @@
 //! What is wrong: the compiler's reports by file.
 
+use super::Edit;
 use super::place::FilePlace;
-use crate::dsl::problem::{Code, Problem, Severity};
+use crate::dsl::ast::Span;
+use crate::dsl::problem::{Code, Problem, Rewrite, Severity};
 use crate::dsl::source::Sources;
 use std::ops::Range;
 
@@ -20,6 +22,30 @@ pub struct TextReport {
     pub help: Option<String>,
     /// Further places, and what is to be said about them.
     pub related: Vec<(FilePlace, String)>,
+    /// How the help is followed, as far as the compiler knows it.
+    pub rewrites: Vec<TextRewrite>,
+}
+
+/// A way to follow a help.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextRewrite {
+    /// What is written; empty if something is left out.
+    pub says: String,
+    /// The changes that it may be, the likeliest first.
+    pub places: Vec<Vec<Edit>>,
+}
+
+impl TextRewrite {
+    fn of(rewrite: Rewrite, sources: &Sources) -> TextRewrite {
+        let edit = |(span, text): (Span, String)| {
+            Some(Edit { place: FilePlace::of(span, sources)?, text })
+        };
+        let edits = |place: Vec<(Span, String)>| place.into_iter().map(edit).collect();
+        TextRewrite {
+            says: rewrite.says,
+            places: rewrite.places.into_iter().filter_map(edits).collect(),
+        }
+    }
 }
 
 impl TextReport {
@@ -42,6 +68,7 @@ impl TextReport {
 
     fn of(problem: &Problem, sources: &Sources) -> Option<TextReport> {
         let words = problem.words();
+        let rewrites = words.rewrites.into_iter().map(|it| TextRewrite::of(it, sources)).collect();
         let related = words.labels.iter().skip(1);
         Some(TextReport {
             place: FilePlace::of(problem.place(), sources)?,
@@ -52,6 +79,7 @@ impl TextReport {
             related: related
                 .filter_map(|label| Some((FilePlace::of(label.span, sources)?, label.text.clone())))
                 .collect(),
+            rewrites,
         })
     }
 }

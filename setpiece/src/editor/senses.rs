@@ -150,7 +150,21 @@ pub(super) fn sense(text: &str, offset: usize, word: &str) -> Option<(&'static s
     }
     let of_rule = |rule: &Rule| {
         let found = SENSES.iter().find(|it| it.rule == *rule && it.word == word)?;
+        // Beside `on`, a condition is about the step of the event.
+        if *rule == Rule::give_when && is_of_event(text, offset) {
+            return Some((WHEN_OF_EVENT, found.page));
+        }
         Some((found.doc, found.page))
     };
     around.iter().rev().find_map(of_rule)
+}
+
+/// What the `when` of `give … on … when …` means.
+const WHEN_OF_EVENT: &str = "paid for these events in steps in which this holds, too";
+
+/// Whether the `give` whose condition begins at a byte has events.
+fn is_of_event(text: &str, offset: usize) -> bool {
+    let before = text.get(..offset).unwrap_or_default();
+    let statement = before.rfind("give").and_then(|at| before.get(at..)).unwrap_or_default();
+    statement.split(|sign: char| !(sign.is_alphanumeric() || sign == '_')).any(|word| word == "on")
 }

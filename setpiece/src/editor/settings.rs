@@ -23,8 +23,10 @@ enum Settings {
     Number,
     /// The name of a formation.
     Formation,
-    /// These words, or a list of players.
+    /// These words, or a player.
     WordsOrPlayers(&'static [SettingWord]),
+    /// These words, or a list of players.
+    WordsOrList(&'static [SettingWord]),
 }
 
 /// What the option of a block may be set to, if it isn't any value.
@@ -37,7 +39,7 @@ fn settings(block: &str, key: &str) -> Option<Settings> {
             ("flanks", "the top and the bottom of the picture are swapped"),
             ("ends", "the pitch is turned by 180°"),
         ]),
-        ("agents", "left" | "right") => Settings::WordsOrPlayers(&[("all", "every player")]),
+        ("agents", "left" | "right") => Settings::WordsOrList(&[("all", "every player")]),
         ("agents", "others") => Settings::Words(&[
             ("bot", "the game's own player"),
             ("hold", "they stand where they are"),
@@ -96,6 +98,10 @@ impl Analysis {
                 (words, acts.chain(self.after("behavior")).collect())
             }
             Settings::WordsOrPlayers(words) => (words, self.players()),
+            Settings::WordsOrList(words) => {
+                let list = |it: Completion| Completion { text: format!("[{}]", it.text), ..it };
+                (words, self.players().into_iter().map(list).collect())
+            }
         };
         let own: Vec<Completion> =
             words.iter().map(|&(name, doc)| word(name, doc, "setting")).collect();

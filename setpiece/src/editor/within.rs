@@ -1,7 +1,8 @@
 //! What may follow within a statement: what the grammar would read there, and what that can be.
 
 use super::Analysis;
-use super::completion::{Completion, CompletionKind, joining, word, words_of};
+use super::areas::is_place_in;
+use super::completion::{Completion, joining, word, words_of};
 use super::cursor::{UnfinishedStatement, unfinished};
 use super::words::WordKind;
 use crate::dsl::parse::{NextPart, next_parts};
@@ -37,6 +38,9 @@ impl Analysis {
             if !parts.is_empty() {
                 if let Some(found) = self.settings(block, text) {
                     return found;
+                }
+                if is_place_in(block, text) {
+                    return self.areas(block);
                 }
                 return self.parts(&parts, block, text);
             }
@@ -94,32 +98,11 @@ impl Analysis {
 
     /// What a name may be behind a keyword.
     fn named_after(&self, text: &str) -> Vec<Completion> {
-        let mut words = text.split_whitespace().rev();
-        match (words.next().unwrap_or_default(), words.next().unwrap_or_default()) {
-            ("start", _) => {
-                StartKind::ALL.iter().map(|it| word(it.name(), it.doc(), "mode")).collect()
-            }
-            ("place", _) => self.actors(),
-            (what, "remove") => self.removable(what),
+        match text.split_whitespace().next_back().unwrap_or_default() {
+            "start" => StartKind::ALL.iter().map(|it| word(it.name(), it.doc(), "mode")).collect(),
+            "place" => self.actors(),
             _ => Vec::new(),
         }
-    }
-
-    /// What a scenario has under a name and may remove, as far as it was compiled.
-    fn removable(&self, what: &str) -> Vec<Completion> {
-        let Some(loaded) = &self.loaded else { return Vec::new() };
-        let scenario = &loaded.scenario;
-        let names: Vec<&str> = match what {
-            "reward" => scenario.rewards.iter().map(|it| it.name.as_str()).collect(),
-            "end" => scenario.endings.list.iter().map(|it| it.label.as_str()).collect(),
-            "record" => scenario.records.iter().map(|it| it.name.as_str()).collect(),
-            _ => Vec::new(),
-        };
-        let name = |name: &str| Completion {
-            kind: CompletionKind::Name,
-            ..word(name, "", "of this scenario")
-        };
-        names.into_iter().map(name).collect()
     }
 
     /// Teams, players, and who else an event is by.

@@ -36,8 +36,9 @@ struct VersionOf {
 }
 
 impl LanguageServer {
-    /// The picture of a start: `{ scenario, version, svg, view, things }`, or `{ scenario, version,
-    /// message }`; null without a scenario.
+    /// The picture of a start: `{ scenario, version, svg, view, things, requires }`, with `message`
+    /// if no episode has this start; `{ scenario, version, message }` if nothing can be drawn; null
+    /// without a scenario.
     pub(super) fn preview(&mut self, asked: PreviewOf) -> Answer {
         let (path, text) = self.text(&asked.text_document.uri)?;
         let at = asked.position.map_or(text.len(), |at| offset_of(&Lines::of(&text), &text, at));
@@ -48,13 +49,22 @@ impl LanguageServer {
                     .things
                     .iter()
                     .map(|it| json!({ "player": it.player, "name": it.name, "at": it.at }));
-                json!({
+                let requires = start
+                    .requires
+                    .iter()
+                    .map(|it| json!({ "label": it.label, "share": it.share, "fails": it.fails }));
+                let mut shown = json!({
                     "scenario": it.scenario,
                     "version": version,
                     "svg": start.svg,
                     "view": start.view,
                     "things": things.collect::<Vec<Value>>(),
-                })
+                    "requires": requires.collect::<Vec<Value>>(),
+                });
+                if let (Some(why), Some(shown)) = (start.refused, shown.as_object_mut()) {
+                    shown.insert("message".to_owned(), why.into());
+                }
+                shown
             }
             Err(why) => json!({ "scenario": it.scenario, "version": version, "message": why }),
         }))

@@ -11,6 +11,7 @@ mod build;
 mod check;
 mod files;
 mod list;
+mod lsp;
 mod rewards;
 mod run;
 mod snapshot;

@@ -130,7 +130,7 @@ fn completion_knows_what_an_option_may_be() {
         ("formation f extends ‸".to_owned(), &["grf_kicking"], &["academy"]),
         ("check \"c\" { play academy with ‸".to_owned(), &["bot", "run_and_shoot"], &["ball"]),
         (scenario("mirror: ‸"), &["flanks", "ends"], &["far", "striker"]),
-        (scenario("agents { left: ‸ }"), &["all", "striker"], &["distance", "far"]),
+        (scenario("agents { left: ‸ }"), &["all", "[striker]"], &["striker", "distance", "far"]),
         (scenario("agents { others: ‸ }"), &["bot", "hold"], &["striker"]),
         (scenario("team right { GK at (1, 0) { ai: ‸"), &["lazy", "press"], &["distance", "GK"]),
         (scenario("team right { GK at (1, 0) { difficulty: 1, overlap: ‸"), &["allowed"], &["on"]),
@@ -201,6 +201,8 @@ fn a_word_means_what_may_be_written_there() {
         ("scenario a {\n    end limit 200 st‸eps\n}", "step", 1),
         ("reward r {\n    give 1 on pass b‸y left\n}", "who", 1),
         ("reward r {\n    give 1 wh‸en me has ball\n}", "paid in steps", 1),
+        ("reward r {\n    give 1 on goal wh‸en me has ball\n}", "for these events", 1),
+        ("reward r {\n    give 1 o‸n goal when me has ball\n}", "with one of these", 1),
         ("scenario a {\n    ball le‸ft of centre by 2m\n}", "to the left of somebody", 1),
         ("scenario a {\n    ball left o‸f centre by 2m\n}", "from which player", 1),
         ("scenario a {\n    ball between centre and left.goal a‸t 20%\n}", "how far along", 1),
@@ -249,4 +251,34 @@ fn who_has_no_name_is_not_offered_as_a_player() {
         found.iter().filter(|it| it.text == name).map(|it| it.detail.as_str()).collect()
     };
     assert_eq!((detail("CM"), detail("top")), (vec!["role"], vec!["a player"]));
+}
+
+#[test]
+fn a_region_behind_in_an_inherited_name_behind_remove_and_a_file_of_a_folder() {
+    let with = |line: &str| {
+        scenario(&format!(
+            "let flank = choice(left.box, right.box)\n    let lane = 0.2\n    region near = right.box\n    {line}"
+        ))
+    };
+    let regions: &[&str] = &["near", "flank", "zones", "left", "right", "centre_circle", "circle"];
+    let others: &[&str] = &["far", "lane", "striker", "goal", "box", "CF", "distance", "ball"];
+    let zones = "region zones = left.half\nconst width = 3m\n";
+    assert_completes(&[
+        (format!("{zones}{}", with("team right { CB in ‸ }")), regions, others),
+        (format!("{zones}{}", with("team right { CB in ‸")), regions, others),
+        (format!("{zones}{}", with("ball in ‸")), regions, others),
+        (with("team right { CB at (0, 0) when ball in ‸"), &["near", "left"], &[]),
+        (scenario("end mine when goal\n    remove end ‸"), &["scored", "limit"], &["mine"]),
+        (scenario("reward mine { give 1 }\n    remove reward ‸"), &["scoring"], &["mine"]),
+        // What is wrong elsewhere doesn't matter.
+        (format!("scenario b {{ bal }}\n{}", scenario("remove end ‸")), &["scored"], &["striker"]),
+    ]);
+    let (mut workspace, path, at) = marked("import \"‸\"\nimport \"deeper/\"\n");
+    let other = path.parent().unwrap().join("deeper/parts/two.pitch");
+    workspace.set(&other, "region a = left.box\n");
+    let mut offered = |at: usize| -> Vec<String> {
+        workspace.complete(&path, at).into_iter().map(|it| it.text).collect()
+    };
+    assert!(offered(at).contains(&"deeper/parts/two.pitch".to_owned()));
+    assert_eq!(offered(at + "\"\nimport \"deeper/".len()), ["parts/two.pitch"]);
 }

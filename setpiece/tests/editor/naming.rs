@@ -298,4 +298,12 @@ fn a_name_is_renamed_in_the_script_files_that_use_it() {
     assert_eq!(changed, ["r.rhai", "s.pitch"].map(str::to_owned).into());
     let of_script = edits.iter().find(|it| it.place.path.ends_with("r.rhai")).unwrap();
     assert_eq!(&script[of_script.place.range.clone()], "pace");
+    // From the script it is the same.
+    let from = path.with_file_name("r.rhai");
+    let in_script = script.find("pace").unwrap() + 1;
+    let declared = workspace.declaration(&from, in_script).expect("a declaration");
+    assert_eq!((&declared.path, declared.range.start), (&path, at));
+    assert_eq!(workspace.rename(&from, in_script, "tempo").expect("a parameter"), edits);
+    assert_eq!(workspace.references(&from, in_script).len(), 2);
+    assert_eq!(workspace.declaration(&from, script.find("ctx").unwrap()), None);
 }

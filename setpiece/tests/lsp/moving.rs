@@ -255,3 +255,106 @@ fn only_the_text_that_was_drawn_is_edited() {
         "player": { "team": "middle", "slot": 0 }, "to": [0, 0] });
     assert!(drawn.client.ask("setpiece/move", nobody).response_result.is_err());
 }
+
+/// A line that every start must meet, with a player on either side of it.
+const ASKED: &str = "\
+scenario other extends academy { ball at (0, 0)  team left { CM at (0.1, 0) } }
+scenario asked extends academy {
+    ball at (0.5, 0)
+    team left {
+        anna: CM at (2e-1, 0.1)
+        bert: CM at ((0.3, 0.1))
+        cora: CM at (uniform(0, 0.4), -0.1)
+    }
+    require anna in circle(centre, 25m)
+    require cora.x < 0.3 as \"cora stays back\"
+}
+";
+
+#[test]
+fn requirements_are_drawn_and_a_drop_that_breaks_one_is_refused() {
+    let mut drawn = Drawn::open(ASKED, "scenario asked");
+    let svg = drawn.picture["svg"].as_str().unwrap();
+    assert!(svg.contains("<circle cx=\"0.00\" cy=\"0.00\" r=\"25.00\""), "{svg}");
+    let requires = drawn.picture["requires"].as_array().unwrap();
+    let [circle, back] = requires.as_slice() else { panic!("{requires:?}") };
+    assert_eq!(circle["label"], "anna in circle(centre, 25m)");
+    assert_eq!((&circle["share"], &circle["fails"]), (&json!(0.0), &json!(false)));
+    assert_eq!(back["label"], "cora stays back");
+    let share = back["share"].as_f64().unwrap();
+    assert!((0.15..0.35).contains(&share), "{share}");
+    assert!(drawn.picture.get("message").is_none());
+    drawn.lands("anna", [5.44, 16.72], ["2e-1", "0.1"], "anna: CM at (0.1, 0.2)");
+    drawn.lands("bert", [5.44, 16.72], ["0.3", "0.1"], "bert: CM at ((0.1, 0.2))");
+    let mut refused = |to: [f64; 2]| drawn.drag("anna", to)["message"].as_str().map(str::to_owned);
+    assert_eq!(
+        refused([30.0, 0.0]).as_deref(),
+        Some("not there: `anna in circle(centre, 25m)` fails")
+    );
+    assert!(refused([16.32, 8.36]).is_some_and(|why| why.starts_with("not there: ")));
+    assert_eq!(refused([24.0, 0.0]), None);
+}
+
+#[test]
+fn a_start_that_no_episode_has_is_drawn_as_it_is_written() {
+    let text = ASKED.replacen("uniform(0, 0.4)", "0.35", 1);
+    let mut client = Client::new();
+    client.open(URI, &text);
+    let place = json!({ "line": 3, "character": 0 });
+    let asked = json!({ "textDocument": { "uri": URI }, "position": place });
+    let picture = client.result("setpiece/preview", asked);
+    let why = picture["message"].as_str().unwrap();
+    let mut drawn = Drawn { client, text, picture: picture.clone() };
+    assert!(why.contains("cora stays back"), "{why}");
+    let failing = json!({ "label": "cora stays back", "share": 1.0, "fails": true });
+    assert_eq!(picture["requires"][1], failing);
+    // It can be mended by hand, also in several moves.
+    drawn.lands("cora", [13.6, -8.36], ["0.35", "-0.1"], "cora: CM at (0.25, -0.1)");
+    assert!(drawn.drag("anna", [0.0, 0.0])["edits"].is_array());
+}
+
+#[test]
+fn errors_of_other_items_leave_the_picture() {
+    let broken = ASKED.replacen("CM at (0.1, 0) } }", "CMM at (0.1, 0) } }\nformation f { ? }", 1);
+    let mut client = Client::new();
+    client.open(URI, &broken);
+    let mut preview = |line: u32| {
+        let place = json!({ "line": line, "character": 0 });
+        let asked = json!({ "textDocument": { "uri": URI }, "position": place });
+        client.result("setpiece/preview", asked)
+    };
+    let picture = preview(4);
+    assert!(picture["svg"].is_string(), "{picture}");
+    assert_eq!(preview(0)["message"], "2 errors in the text");
+    let mut drawn = Drawn { client, text: broken, picture };
+    let (after, replaced) = drawn.moved("anna", [0.0, 0.0]);
+    assert_eq!(replaced, ["2e-1", "0.1"]);
+    assert!(after.contains("anna: CM at (0, 0)") && after.contains("CMM at"));
+    // Not those of what it extends or uses.
+    let parent = SEVERAL.replacen("ball at (0.5, 0)", "ball at (0.5, 0, 3)", 1);
+    let mut client = Client::new();
+    client.open(URI, &parent);
+    let place = json!({ "line": 15, "character": 0 });
+    let asked = json!({ "textDocument": { "uri": URI }, "position": place });
+    let picture = client.result("setpiece/preview", asked);
+    assert!(picture["message"].as_str().is_some_and(|why| why.contains("in the text")));
+}
+
+#[test]
+fn a_formation_of_both_teams_is_left_alone() {
+    let text = SEVERAL.replacen(
+        "        bert: CM at (0.2, 0.1) jitter 2m",
+        "        formation: block\n        bert: CM at (0.2, 0.1)",
+        1,
+    );
+    let mut drawn = Drawn::open(&text, "scenario drawn");
+    let why = "the left team has the same formation, whose player would move, too: edit the text";
+    let stoppers = drawn.picture["things"].as_array().unwrap().iter();
+    let right = stoppers.filter(|it| (it["at"][0].as_f64().unwrap() - 27.2).abs() < 0.01);
+    let player = right.map(|it| it["player"].clone()).next().expect("one of either team");
+    let asked = json!({
+        "textDocument": { "uri": URI, "version": drawn.picture["version"] },
+        "scenario": "drawn", "player": player, "to": [1.0, 2.0],
+    });
+    assert_eq!(drawn.client.result("setpiece/move", asked)["message"], why);
+}

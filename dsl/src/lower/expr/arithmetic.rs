@@ -102,8 +102,14 @@ impl<'w> Lower<'_, 'w> {
     }
 
     /// How `A or b` is written where `b` is no condition, but goes on with the end of A:
-    /// `goal by left or right`.
-    fn shared(&self, op: ast::InfixOp, a: &Expr, b: &Expr, ty: Ty) -> Option<String> {
+    /// `goal by left or right`; and in the place of what.
+    fn shared(
+        &self,
+        op: ast::InfixOp,
+        a: &Expr,
+        b: &Expr,
+        ty: Ty,
+    ) -> Option<(String, Option<Span>)> {
         let last = match &a.kind {
             ExprKind::Binary(inner, _, last)
                 if matches!(inner.node, ast::InfixOp::And | ast::InfixOp::Or) =>
@@ -119,8 +125,9 @@ impl<'w> Lower<'_, 'w> {
                 event.by.as_ref()?.span
             }
             ExprKind::Binary(op, _, region) if op.node == ast::InfixOp::In && ty == Ty::Region => {
+                let whole = region.span.to(b.span);
                 let (region, other) = (self.world.text(region.span), self.world.text(b.span));
-                return Some(format!("{region} {sign} {other}"));
+                return Some((format!("{region} {sign} {other}"), Some(whole)));
             }
             ExprKind::Binary(op, _, part)
                 if matches!(op.node, ast::InfixOp::Eq | ast::InfixOp::Ne) =>
@@ -133,7 +140,7 @@ impl<'w> Lower<'_, 'w> {
         let (whole, head) = (self.world.text(last.span), self.world.text(to(part.start)));
         let tail = self.world.text(Span { start: part.end, ..last.span });
         let again = format!("{head} {} {tail}", self.world.text(b.span));
-        Some(format!("{whole} {word} {}", again.trim_end()))
+        Some((format!("{whole} {word} {}", again.trim_end()), Some(last.span.to(b.span))))
     }
 
     fn sum(&mut self, is_add: bool, a: &'w Expr, b: &'w Expr, span: Span) -> Value<'w> {
@@ -528,6 +535,7 @@ impl<'w> Lower<'_, 'w> {
             (ty, Ty::Region, Repr::Region(region)) if ty.is_place() => {
                 let place = self.place_of(&x, a.span);
                 let region = region.clone();
+                self.note_asked_about(&region, b.span);
                 Value::one(Ty::Bool, self.inside(place, &region))
             }
             (Ty::Player, Ty::Team | Ty::Set, _) => {

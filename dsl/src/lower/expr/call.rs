@@ -78,7 +78,9 @@ impl<'w> Lower<'_, 'w> {
             (None, Some(ours)) => NotAFunction::Foreign(ours),
             (None, None) => NotAFunction::Unknown(Guess::of(text, known)),
         };
-        self.fail(Problem::new(name.span, Names::NoFunction { name: text.clone(), other }))
+        let is_value = matches!(other, NotAFunction::Value);
+        let problem = Problem::new(name.span, Names::NoFunction { name: text.clone(), other });
+        self.fail(if is_value { problem.rewriting(span, text) } else { problem })
     }
 
     /// Calls a `fn` of a file: its body is read with the caller's frame and view.
@@ -247,11 +249,16 @@ impl<'w> Lower<'_, 'w> {
     ) -> Option<Vec<Option<&'w Expr>>> {
         let mut given: Vec<Option<&'w Expr>> = vec![None; names.len()];
         let mut next = 0;
-        for arg in args {
+        for (nth, arg) in args.iter().enumerate() {
             if arg.binder.is_some() || arg.filter.is_some() {
                 let least = (callee == Function::Nearest.name()).then(|| self.least_of(arg, args));
+                let written = least.clone();
                 let fact = Calls::NoPlayers { callee: callee.to_owned(), least };
-                self.report(Problem::new(arg.span, fact));
+                let problem = Problem::new(arg.span, fact);
+                self.report(match written {
+                    Some(written) => problem.rewriting(span, written),
+                    None => problem,
+                });
                 return None;
             }
             let at = match (&arg.key, arg_name(arg)) {
@@ -289,7 +296,16 @@ impl<'w> Lower<'_, 'w> {
                         names,
                         signature: of_builtin(callee),
                     };
-                    self.report(Problem::new(arg.span, fact));
+                    let problem = Problem::new(arg.span, fact);
+                    // With the comma before it.
+                    let before = nth.checked_sub(1).and_then(|before| args.get(before));
+                    self.report(match before {
+                        Some(before) => {
+                            let from = Span { start: before.span.end, ..before.span };
+                            problem.rewriting(from.to(arg.span), "")
+                        }
+                        None => problem.rewriting(arg.span, ""),
+                    });
                     return None;
                 }
             }

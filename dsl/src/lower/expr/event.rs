@@ -7,6 +7,7 @@ use crate::ast::{EventExpr, Expr};
 use crate::check::types::Ty;
 use crate::problem::facts::{Calls, Kind, Names, Scopes, Types};
 use crate::problem::{Guess, Problem};
+use crate::source::Span;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Landmark, Qualifier};
 use setpiece_scenario::{BinaryOp, EventFilter, Fold, FoldKind, Over, Reg, When, Who};
 
@@ -98,10 +99,14 @@ impl<'w> Lower<'_, 'w> {
             return None;
         }
         let qualifier = self.qualifier(kind, event)?;
+        // Behind the event's words.
+        let words = event.qualifier.as_ref().map_or(event.name.span, |it| it.span);
+        let last = Span { start: words.end, ..words };
         if !kind.has_actor()
             && let Some(by) = &event.by
         {
-            self.report(Problem::new(by.span, Calls::NobodyDoes { event: name.to_owned() }));
+            let fact = Calls::NobodyDoes { event: name.to_owned() };
+            self.report(Problem::new(by.span, fact).rewriting(last.to(by.span), ""));
             return None;
         }
         if !kind.has_receiver()
@@ -112,10 +117,9 @@ impl<'w> Lower<'_, 'w> {
                 .filter(|kind| kind.has_receiver())
                 .map(|kind| kind.name())
                 .collect();
-            self.report(Problem::new(
-                to.span,
-                Calls::ReachesNobody { event: name.to_owned(), others },
-            ));
+            let fact = Calls::ReachesNobody { event: name.to_owned(), others };
+            let last = event.by.as_ref().map_or(last, |by| Span { start: by.span.end, ..last });
+            self.report(Problem::new(to.span, fact).rewriting(last.to(to.span), ""));
             return None;
         }
         let by = event.by.as_deref().map(|who| self.who(who));
@@ -139,10 +143,18 @@ impl<'w> Lower<'_, 'w> {
         if known.contains(&qualifier.node) {
             return Some(Some(qualifier.node));
         }
+        let name = event.name.span;
         let (event, qualifier, span) =
             (event.name.node.clone(), qualifier.node.to_string(), qualifier.span);
+        let is_alone = known.is_empty();
         let known = known.iter().map(|qualifier| qualifier.name()).collect();
-        self.report(Problem::new(span, Calls::NeverQualified { event, qualifier, known }));
+        let end = name.end;
+        let problem = Problem::new(span, Calls::NeverQualified { event, qualifier, known });
+        self.report(if is_alone {
+            problem.rewriting(Span { start: end, ..span }, "")
+        } else {
+            problem
+        });
         None
     }
 

@@ -330,10 +330,13 @@ impl<'w> Lower<'_, 'w> {
             (Ty::Player | Ty::Ball, "position" | "pos") => Like::Place,
             _ => Like::Other(Guess::similar_or_all(name, known)),
         };
-        self.fail(Problem::new(
-            at,
-            Names::NoProperty { text, noun: ty.noun(), name: name.to_owned(), like },
-        ))
+        let has_ball = (like == Like::HasBall).then(|| format!("{text} has ball"));
+        let fact = Names::NoProperty { text, noun: ty.noun(), name: name.to_owned(), like };
+        let problem = Problem::new(at, fact);
+        self.fail(match has_ball {
+            Some(written) => problem.rewriting(of.to(at), written),
+            None => problem,
+        })
     }
 }
 

@@ -207,6 +207,13 @@ impl<'w> Lower<'_, 'w> {
         value(RegionValue::Polygon(corners))
     }
 
+    /// Notes a region that a requirement asks about.
+    pub(super) fn note_asked_about(&mut self, region: &RegionValue, span: Span) {
+        if let Some(start) = self.start_mut().filter(|start| start.is_requiring) {
+            start.asked_about.push(RegionOrigin { span, shape: region.clone() });
+        }
+    }
+
     /// Whether a point lies in a region, its edge included but for a polygon's.
     pub(crate) fn inside(&mut self, place: (Reg, Reg), region: &RegionValue) -> Reg {
         match region {

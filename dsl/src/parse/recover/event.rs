@@ -2,7 +2,7 @@
 
 use super::Wrong;
 use crate::parse::reader::Reader;
-use crate::problem::facts::{Kind, Names, Syntax};
+use crate::problem::facts::{Fact, Kind, Names, Syntax};
 use crate::problem::{Guess, Problem, nearest};
 use setpiece_grammar::Rule;
 use setpiece_scenario::vocabulary::{
@@ -20,10 +20,35 @@ impl Reader<'_> {
         if wrong.positives.iter().any(event) && is_name(word) {
             if wrong.tokens.get(at + 1).is_some_and(|(_, next)| *next == "changes") {
                 let fact = Syntax::ChangeNoEvent { name: word.to_owned() };
-                return Some(Problem::new(self.at(wrong.at), fact));
+                let written = match word {
+                    "round" => "when round_elapsed == 1 step".to_owned(),
+                    _ => format!("when {word} changes"),
+                };
+                return Some(self.behind_on(
+                    Problem::new(self.at(wrong.at), fact),
+                    wrong,
+                    2,
+                    written,
+                ));
             }
             let behind = wrong.tokens.get(at + 1..).unwrap_or_default();
-            return Some(no_event(word, behind, self.at(wrong.at)));
+            let problem = no_event(word, behind, self.at(wrong.at));
+            let (count, written) = match problem.fact() {
+                Fact::Syntax(Syntax::StateNoEvent { name }) => (1, format!("when {name}")),
+                Fact::Syntax(Syntax::PropertyNoEvent { name, doer, action: None }) => {
+                    (1, format!("when {doer}.{name}"))
+                }
+                Fact::Syntax(Syntax::PropertyNoEvent { name, doer, action: Some(action) }) => {
+                    let is_named =
+                        behind.first().is_some_and(|(_, it)| Action::from_name(it).is_some());
+                    (1 + usize::from(is_named), format!("when {doer}.{name} == {action}"))
+                }
+                _ => return Some(problem),
+            };
+            // Who does it is in the condition.
+            let word = |at: usize| behind.get(at).map(|(_, word)| *word);
+            let by = if word(count - 1) == Some("by") { 2 } else { 0 };
+            return Some(self.behind_on(problem, wrong, count + by, written));
         }
         let may_be = |name: &str| is_name(name) && !wrong.context.keywords().contains(&name);
         let (from, name) = wrong.tokens.get(at.checked_sub(1)?).filter(|(_, name)| may_be(name))?;
@@ -35,6 +60,25 @@ impl Reader<'_> {
         let meant = nearest(name, OVER_TIME.iter().copied())
             .filter(|meant| meant != name && word == "of")?;
         Some(Problem::new(span, Syntax::MisspeltOverTime { word: (*name).to_owned(), meant }))
+    }
+
+    /// A problem of words behind `on`; `written`: what stands for them and the `on`.
+    fn behind_on(
+        &self,
+        problem: Problem,
+        wrong: &Wrong<'_>,
+        count: usize,
+        written: String,
+    ) -> Problem {
+        let at = wrong.token_at();
+        let token = |at: usize| wrong.tokens.get(at).copied();
+        let on = at.checked_sub(1).and_then(token).filter(|(_, word)| *word == "on");
+        match (on, token(at + count - 1)) {
+            (Some((from, _)), Some((last, word))) => {
+                problem.rewriting(self.between(from, last + word.len()), written)
+            }
+            _ => problem,
+        }
     }
 }
 
@@ -67,6 +111,13 @@ fn no_event(name: &str, behind: &[(usize, &str)], span: crate::source::Span) -> 
         let action = (property.ty == Type::Action).then(|| action.unwrap_or(Action::Shot));
         return Problem::new(span, Syntax::PropertyNoEvent { name: name.to_owned(), doer, action });
     }
-    let guess = Guess::or_all(name, &names().collect::<Vec<_>>());
+    // `goal_by_us`
+    let by = name
+        .split_once("_by_")
+        .filter(|(event, who)| EventKind::from_name(event).is_some() && !who.is_empty());
+    let guess = match by {
+        Some((event, who)) => Guess::sure(format!("{event} by {who}")),
+        None => Guess::or_all(name, &names().collect::<Vec<_>>()),
+    };
     Problem::new(span, Names::Unknown { kind: Kind::Event, name: name.to_owned(), guess })
 }

@@ -1,10 +1,10 @@
 //! What was expected, in the author's words.
 
 use super::{Context, Finding, Wrong, text};
-use crate::habit::{self, BRACKET_APART, Begins};
+use crate::habit::{self, BRACKET_APART, Begins, HabitPiece, HabitRewrite};
 use crate::parse::reader::{Reader, reserved, token};
 use crate::problem::facts::{Hint, Syntax};
-use crate::problem::{Guess, Problem, nearest};
+use crate::problem::{Guess, Problem, Rewrite, nearest};
 use crate::source::Span;
 use setpiece_grammar::{Rule, keyword, noun};
 use setpiece_scenario::vocabulary::Role;
@@ -65,10 +65,55 @@ impl Reader<'_> {
         let misplaced =
             || self.misplaced(wrong.context, self.word(wrong.at), wrong.at, Some(&found.help));
         let problem = if is_new { misplaced() } else { None };
-        let problem =
+        let mut problem =
             problem.unwrap_or_else(|| self.expected(wrong, Hint::Habit(found.help.clone())));
+        for rewrite in found.rewrites {
+            problem = problem.with_rewrite(self.rewrite(&wrong.tokens, rewrite));
+        }
         let (fresh, goes_on) = (found.begins == Begins::New, found.begins == Begins::Before);
         Some(Finding { problem, fresh, goes_on })
+    }
+
+    /// A way to follow a habit's help, in the text.
+    fn rewrite(&self, tokens: &[(usize, &str)], rewrite: HabitRewrite) -> Rewrite {
+        let ends = |range: Range<usize>| -> Option<Range<usize>> {
+            let (from, _) = tokens.get(range.start).filter(|_| !range.is_empty())?;
+            let (last, word) = tokens.get(range.end.checked_sub(1)?)?;
+            Some(*from..last + word.trim_start().len())
+        };
+        let place = |(range, pieces): (Range<usize>, Vec<HabitPiece>)| {
+            let mut bytes = ends(range)?;
+            let mut written = String::new();
+            for piece in pieces {
+                match piece {
+                    HabitPiece::Text(text) => written.push_str(&text),
+                    HabitPiece::Kept(kept) => {
+                        written.push_str(ends(kept).map_or("", |kept| text(self.original(), kept)));
+                    }
+                    HabitPiece::Rest(from) => {
+                        let line = text(self.text, bytes.end..self.text.len());
+                        let line = bytes.end + line.find('\n').unwrap_or(line.len());
+                        let count =
+                            tokens.iter().skip(from).take_while(|(at, _)| *at < line).count();
+                        let rest = ends(from..from + count)?;
+                        bytes.end = rest.end;
+                        written.push_str(text(self.original(), rest));
+                    }
+                }
+            }
+            let mut written = written.trim_end().to_owned();
+            // `!ball_dead` is `not ball_dead`.
+            let is_word = |sign: char| sign.is_alphanumeric() || sign == '_';
+            let behind = text(self.text, bytes.end..self.text.len());
+            if written.ends_with(is_word) && behind.starts_with(is_word) {
+                written.push(' ');
+            }
+            Some(vec![(self.between(bytes.start, bytes.end), written)])
+        };
+        Rewrite {
+            says: rewrite.says,
+            places: rewrite.places.into_iter().filter_map(place).collect(),
+        }
     }
 
     /// That something else was expected.

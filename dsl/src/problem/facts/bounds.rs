@@ -33,10 +33,13 @@ facts! {
             } else {
                 format!("{what} is `{text}`: {steps:.3} steps")
             };
-            say(message, "not a whole number of steps").help(match steps.round() {
-                steps if steps > 1.0 => format!("write `{steps} steps`; a step is 0.1 s"),
-                _ => "write `1 step`; a step is 0.1 s".to_owned(),
-            })
+            let written = match steps.round() {
+                steps if steps > 1.0 => format!("{steps} steps"),
+                _ => "1 step".to_owned(),
+            };
+            say(message, "not a whole number of steps")
+                .help(format!("write `{written}`; a step is 0.1 s"))
+                .writing(None, written)
         },
         /// A word that an option never has.
         NeverWord { option: String, word: String, known: Vec<&'static str> } = Code::OutOfRange =>

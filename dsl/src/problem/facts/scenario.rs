@@ -32,7 +32,8 @@ facts! {
         /// Nothing refers to a name.
         Unused { what: Declared, name: String } = Code::UnusedName =>
             say(format!("{} `{name}` is never used", what.noun()), "not read")
-                .help(format!("{}, leave it out, or begin its name with `_`", what.cure(name))),
+                .help(format!("{}, leave it out, or begin its name with `_`", what.cure(name)))
+                .writing(None, format!("_{name}")),
         /// A cast names nobody who could play.
         NoSuchAi { text: String } = Code::WrongType =>
             say(format!("`{text}` is not who plays a player"), "")

@@ -78,7 +78,7 @@ facts! {
         /// Digits with `_` between them.
         DigitsAlone { number: String, rest: String } = Code::Syntax =>
             say(format!("`{number}{rest}` is no number"), "digits alone")
-                .help(format!("write `{number}{}`", rest.replace('_', ""))),
+                .write(format!("{number}{}", rest.replace('_', ""))),
         /// A unit that there is not; `meant`: with a blank before it where one belongs.
         UnknownUnit { word: String, number: String, meant: UnitGuess } = Code::Syntax =>
             say(format!("unknown unit `{word}`"), "no unit has this name").help(match meant {
@@ -88,7 +88,7 @@ facts! {
         /// A blank before a unit.
         UnitApart { number: String, unit: &'static str } = Code::Syntax =>
             say(format!("the unit `{unit}` must touch its number"), "a blank between them")
-                .help(format!("write `{number}{unit}`")),
+                .write(format!("{number}{unit}")),
         /// A second comparison behind the first one.
         ComparisonChain { first: Span } = Code::ComparisonChain =>
             say("comparisons don't chain", "a second comparison")

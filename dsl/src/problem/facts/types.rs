@@ -41,9 +41,13 @@ facts! {
             expected("`on` or `off`", *found, text).help(format!("write `{rule}: on` or `{rule}: off`")),
         /// The operands of an operator don't agree.
         Disagree { verb: Verb, left: Operand, right: Operand } = code(left.ty, right.ty) =>
-            say(disagreement(*verb, left, right), right.ty.noun())
-                .at(&left.span, left.ty.noun())
-                .help(agree(*verb, left, right)),
+            agree(
+                say(disagreement(*verb, left, right), right.ty.noun())
+                    .at(&left.span, left.ty.noun()),
+                *verb,
+                left,
+                right,
+            ),
         /// `a + b` of two points; `offset`: the name of the second one, if it is a point that could
         /// be an offset.
         PointsAdded { offset: Option<String> } = Code::WrongType => {
@@ -57,7 +61,9 @@ facts! {
         },
         /// A point whose coordinates have different units.
         MixedPoint { first: Operand, other: Operand, is_height: bool } = Code::MixedUnits => {
-            let help = if let Some(metres) = first.metres.as_ref().or(other.metres.as_ref()) {
+            let operand = [first, other].into_iter().find(|it| it.metres.is_some());
+            let normalised = operand.and_then(|it| Some((it.span, it.metres.as_ref()?)));
+            let help = if let Some((_, metres)) = normalised {
                 format!("a coordinate is normalised; in metres write `{metres}`")
             } else if *is_height {
                 "a place on the pitch has two coordinates; a third is a height, `1m`".to_owned()
@@ -70,6 +76,7 @@ facts! {
             say(format!("`{text}` is {first_noun}, `{other_text}` {noun}: a point has one unit"), noun)
                 .at(&first.span, first_noun)
                 .help(help)
+                .writing_if(normalised)
         },
         /// `nobody` stands where a place is wanted.
         NobodyHasNoPlace = Code::Impossible => say("`nobody` has no place", "nobody is there").help(NAME_A_PLAYER),
@@ -111,7 +118,7 @@ facts! {
         /// `A or B` of regions; `joined`: how it is written.
         RegionsJoined { word: &'static str, joined: String } = Code::WrongType =>
             say(format!("`{word}` joins conditions, and these are regions"), "two regions")
-                .help(format!("write `{joined}`")),
+                .write(joined),
         /// A name of a file that stands for no value; `cure`: how it is used instead.
         NotAValue { name: String, noun: &'static str, cure: Option<Use> } = Code::WrongType => {
             let said = say(format!("`{name}` is {noun}, not a value"), "");
@@ -231,12 +238,12 @@ pub(crate) enum Instead {
     Condition,
     /// An event where players are counted.
     CountedEvent,
-    /// A condition that repeats what both sides of `and` or `or` share.
-    Repeated { condition: String },
-    /// A region stands behind `at`.
-    In { text: String },
-    /// A place stands behind `in`.
-    At { text: String },
+    /// A condition that repeats what both sides of `and` or `or` share; in the place of what.
+    Repeated { condition: String, whole: Option<Span> },
+    /// A region stands behind `at`; `place`: both.
+    In { text: String, place: Span },
+    /// A place stands behind `in`; `place`: both.
+    At { text: String, place: Span },
     /// A number stands behind `at`.
     PointInBrackets,
     /// A coordinate of a point.
@@ -288,9 +295,16 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
         },
         Instead::Condition => said.help(condition(found, text)),
         Instead::CountedEvent => said.help(format!("events are counted by `count of {text}`")),
-        Instead::Repeated { condition } => said.help(format!("write `{condition}`")),
-        Instead::In { text } => said.help(format!("write `in {text}`")),
-        Instead::At { text } => said.help(format!("write `at {text}`")),
+        Instead::Repeated { condition, whole } => {
+            said.help(format!("write `{condition}`"))
+                .writing_if(whole.map(|whole| (whole, condition)))
+        }
+        Instead::In { text, place } => {
+            said.help(format!("write `in {text}`")).writing(Some(*place), format!("in {text}"))
+        }
+        Instead::At { text, place } => {
+            said.help(format!("write `at {text}`")).writing(Some(*place), format!("at {text}"))
+        }
         Instead::PointInBrackets => said.help("a point stands in brackets: `at (0.5, 0.1)`"),
         Instead::Coordinate => {
             said.help("a point is written `(0.5, 0.1)` or `(27m, 8m)`, a velocity `(5m/s, 0m/s)`")
@@ -388,45 +402,54 @@ fn disagreement(verb: Verb, left: &Operand, right: &Operand) -> String {
     )
 }
 
-/// How two operands can be made to agree.
-fn agree(verb: Verb, left: &Operand, right: &Operand) -> String {
+/// Adds how two operands can be made to agree.
+fn agree(said: Said, verb: Verb, left: &Operand, right: &Operand) -> Said {
     let (x, y) = (left.ty, right.ty);
     let (text_a, text_b) = (&left.text, &right.text);
     let is_compared = verb == Verb::Compare;
+    let whole = left.span.to(right.span);
+    let both =
+        |said: Said, text: String| said.help(format!("write `{text}`")).writing(Some(whole), text);
     if (x == Ty::LENGTH && y.is_plain()) || (y == Ty::LENGTH && x.is_plain()) {
         let number = if y == Ty::LENGTH { left } else { right };
         if let Some(text) = &number.metres {
-            return metres(text);
+            return said.help(metres(text)).writing(Some(number.span), text);
         }
-        return "write the number with its unit, `2m`; `/ 1m` makes a length a number, and `grf_distance` is one"
-            .to_owned();
+        let said = said.help(
+            "write the number with its unit, `2m`; `/ 1m` makes a length a number, and \
+             `grf_distance` is one",
+        );
+        let is_literal = number.text.parse::<f64>().is_ok();
+        let text = format!("{}m", number.text);
+        return if is_literal { said.writing(Some(number.span), text) } else { said };
     }
     let (of_x, of_y) = (x.dim().is_some(), y.dim().is_some());
+    let unquoted = text_b.trim_matches('"');
     match (x, y, x.example()) {
         (_, ty, Some(example)) if of_x && ty.is_plain() => {
-            format!("write the number with its unit, for example `{example}`")
+            said.help(format!("write the number with its unit, for example `{example}`"))
         }
         (_, _, Some(example)) if of_x && of_y => {
             let verb = if is_compared { "compare it with" } else { "both must be" };
-            format!("{verb} {}, for example `{example}`", x.noun())
+            said.help(format!("{verb} {}, for example `{example}`", x.noun()))
         }
-        (Ty::Role | Ty::Mode | Ty::Action, _, _) if right.is_quoted => {
-            format!("write it without quotes: `{}`", text_b.trim_matches('"'))
-        }
-        (Ty::Player | Ty::Team | Ty::Set, _, _) if right.is_quoted => {
-            format!("a name stands without quotes: `{}`", text_b.trim_matches('"'))
-        }
+        (Ty::Role | Ty::Mode | Ty::Action, _, _) if right.is_quoted => said
+            .help(format!("write it without quotes: `{unquoted}`"))
+            .writing(Some(right.span), unquoted),
+        (Ty::Player | Ty::Team | Ty::Set, _, _) if right.is_quoted => said
+            .help(format!("a name stands without quotes: `{unquoted}`"))
+            .writing(Some(right.span), unquoted),
         (Ty::Player, Ty::Team | Ty::Set, _) if is_compared => {
-            format!("write `{text_a} in {text_b}`")
+            both(said, format!("{text_a} in {text_b}"))
         }
         (ty, Ty::Point | Ty::Player | Ty::Ball, _) if ty.is_place() && is_compared => {
-            format!("write `distance({text_a}, {text_b}) < 1m`")
+            both(said, format!("distance({text_a}, {text_b}) < 1m"))
         }
         (ty, Ty::Region, _) if ty.is_place() && is_compared => {
-            format!("write `{text_a} in {text_b}`")
+            both(said, format!("{text_a} in {text_b}"))
         }
-        _ if is_compared => "both sides must be of one kind".to_owned(),
-        _ => "numbers, vectors and regions can be added and subtracted, each with its like"
-            .to_owned(),
+        _ if is_compared => said.help("both sides must be of one kind"),
+        _ => said
+            .help("numbers, vectors and regions can be added and subtracted, each with its like"),
     }
 }

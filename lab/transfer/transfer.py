@@ -62,7 +62,11 @@ What was found by playing the same keys in both games, step by step, and built:
 
 - A rival's ball is reached for where it will be, some ticks ahead. A touch in between leaves the foot beside it.
   A player who hasn't seen the last touch yet goes by the ball's way before it.
-- A ball that a rival has just touched springs off the legs of whoever stands in its way.
+- A ball that a rival has just touched springs off the legs of whoever stands in its way. Who takes the ball, or stops
+  it, minds their own motion to its end: a ball that is touched meanwhile rolls on between their feet.
+- How somebody takes a rival's ball depends on the angle between their run and the way that they want with it.
+- A sprinter's ball hops, runs further, and is touched every 0.72 s.
+- A shooter turns in the swing: a shot across the run goes where it is aimed.
 - An opponent close by makes a dribbler push the ball further, most a nervous one.
 - The swing of a shot brakes the runner, who follows through and only then speeds up again.
 - A shot struck while setting off scatters twice as much as one on the run.
@@ -70,8 +74,9 @@ What was found by playing the same keys in both games, step by step, and built:
 
 What remains:
 
-- A sprinter who runs straight at a lone defender loses the ball to them at once here; in the real game it mostly rolls
-  on and both run after it. That makes `academy_3_vs_1_with_keeper` harder here.
+- A defender slides at a sprinter less often here, and so fouls less often.
+- A keeper who comes out stops a sprinter in the end; in the real game two in five get past.
+- A player slows down here to take a ball that lies across their way; in the real game they run on.
 - Bots pass more often and more safely here once they have won the ball. Agents have it for fewer steps and play fewer
   passes.
 - Drawn actions keep less than likeliest ones: the real game's episodes differ more from each other.

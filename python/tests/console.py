@@ -52,6 +52,28 @@ def matches(wanted: list[str], printed: list[str]) -> bool:
     return any(matches(rest, printed[at:]) for at in range(len(head), len(printed) + 1))
 
 
+def cut(wanted: list[str], printed: list[str]) -> list[str]:
+    """Returns what is printed, left out where a console leaves it out with `…`.
+
+    The first part is as long as before, and so is the last. A part between them begins with the
+    line whose first word is that of the first line before.
+    """
+    if GAP not in wanted:
+        return printed
+    shown, at = [], 0
+    parts = [part.strip("\n").splitlines() for part in "\n".join(wanted).split(GAP)]
+    first = [line.split()[:1] for line in printed]
+    for number, part in enumerate(parts):
+        if number == len(parts) - 1:
+            at = max(at, len(printed) - len(part))
+        elif number and part:
+            begins = range(at, len(printed))
+            at = next((n for n in begins if first[n] == part[0].split()[:1]), at)
+        shown += [*([GAP] if number else []), *printed[at : at + len(part)]]
+        at += len(part)
+    return shown
+
+
 class Page:
     """A page that is tried in a folder of its own."""
 
@@ -153,7 +175,7 @@ class Page:
             # Of what needs no words, the page shows none.
             if wanted and not matches(wanted, said):
                 self.faults.append("\n".join([f"$ {command}", *said]))
-                shown += "".join(f"{line}\n" for line in said)
+                shown += "".join(f"{line}\n" for line in cut(wanted, said))
                 continue
             if not wanted and done.returncode:
                 self.faults.append("\n".join([f"$ {command}", *said]))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from calls import faults
-from console import Page, blocks, matches
+from console import Page, blocks, cut, matches
 from programs import ROOT
 
 import setpiece
@@ -158,6 +158,10 @@ def test_a_console_may_leave_lines_out() -> None:
     assert matches(["…", "c"], ["a", "c"])
     assert not matches(["a", "…", "c"], ["a", "b", "c", "d"])
     assert not matches(["a"], ["a", "b"])
+    printed = ["a 1", "b", "c 1", "d", "e"]
+    assert cut(["a 0", "…", "e"], printed) == ["a 1", "…", "e"]
+    assert cut(["…", "c 0", "…"], printed) == ["…", "c 1", "…"]
+    assert cut(["a 0"], printed) == printed
 
 
 @pytest.mark.parametrize(

@@ -134,11 +134,25 @@ fn a_parameter_that_makes_no_start_is_one_clear_error() {
 #[test]
 fn values_that_are_not_finite_are_reported() {
     let folder = folder();
-    let source =
-        CLOSE.replace("ball at", "reward x { state n = 0  give 1 / n as \"broken\" }\n    ball at");
-    let path = write(folder.path(), "faulty.pitch", source);
+    let parts = "reward x {
+        state n = 0
+        give 1 as \"sound\"
+        give 1 / n when elapsed > 0.5s as \"broken\"
+    }
+    reward y { state n = 0  n = n / n  give n }
+    reward z { give 1 }
+    ball at";
+    let path = write(folder.path(), "faulty.pitch", CLOSE.replace("ball at", parts));
     let output = text(&setpiece(&["run", &path, "--episodes", "2"]).stdout);
-    assert!(output.contains("values in `x` were not finite"), "{output}");
+    for line in [
+        "values were not finite and were not paid",
+        "`broken` of the reward `x`: first in step 6 of episode 0",
+        "a `state` of the reward `y`: first in step 1 of episode 0",
+    ] {
+        assert!(output.contains(line), "{line}: {output}");
+    }
+    let named = output.lines().filter(|line| line.contains("of the reward"));
+    assert_eq!(named.count(), 2, "{output}");
     assert!(
         json(&["run", &path, "--episodes", "2", "--format", "json"])["faults"].as_u64().unwrap()
             > 0

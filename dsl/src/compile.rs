@@ -10,6 +10,7 @@ mod uses;
 use crate::ast::{File, Ident, Item, ItemKind, ScenarioItem, Span};
 use crate::cast::Cast;
 use crate::index::Index;
+use crate::lower::alone::check_regions;
 use crate::lower::loaded_scripts::LoadedScripts;
 use crate::lower::mirror::Mirror;
 use crate::lower::param_info::ParamInfo;
@@ -286,6 +287,7 @@ impl<'a> Compilation<'a> {
         let behaviors = behavior::lower_behaviors(&step, &behaviors, &mut players);
         dead::check_scenario(&world);
         dead::check_constants(&world);
+        check_regions(&step);
         self.unused.declare(&world);
 
         let origins = Origins {

@@ -132,6 +132,29 @@ fn a_parameter_that_makes_no_start_is_one_clear_error() {
 }
 
 #[test]
+fn a_name_that_the_file_lacks_is_answered_with_its_scenarios_and_suites() {
+    let folder = folder();
+    let suites = "suite short { close for 2 episodes }\nsuite thorough { close for 9 episodes }";
+    let both = write(folder.path(), "both.pitch", format!("{CLOSE}\n{suites}"));
+    let run = |path: &str, name: &str, help: &str| {
+        fails(&["run", path, "--scenario", name], 1, &["SP0214", help]);
+    };
+    run(&both, "nope", "it has the suites `short`, `thorough` and `close`");
+    run(&both, "thorogh", "did you mean `thorough`?");
+    run(&both, "clos", "did you mean `close`?");
+    let one = write(
+        folder.path(),
+        "one.pitch",
+        format!("{CLOSE}\nsuite short {{ close for 2 episodes }}"),
+    );
+    run(&one, "nope", "it has the suite `short` and `close`");
+    let library = "suite short { academy_corner for 2 episodes }";
+    let alone = write(folder.path(), "alone.pitch", library);
+    run(&alone, "nope", "it has `short`");
+    run(&alone, "shrt", "did you mean `short`?");
+}
+
+#[test]
 fn values_that_are_not_finite_are_reported() {
     let folder = folder();
     let parts = "reward x {

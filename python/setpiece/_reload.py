@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Literal
 
 from setpiece._callbacks import failed
@@ -55,6 +56,7 @@ class Watcher:
         self._live = Live(path_of(source), allow_outside=allow_outside)
         self._on_reload = on_reload
         self._waiting: Scenario | None = None
+        self._missing: Path | None = None
         self.scenario, self.last = self._live.scenario, None
         self.at_once = watch == "now"
 
@@ -123,6 +125,19 @@ class Watcher:
             return self._live.poll() or self._waiting, None
         except SetpieceError as error:
             return None, Reload("broken", None, error, "the scenario's files have errors")
+        finally:
+            self._warn_of_missing()
+
+    def _warn_of_missing(self) -> None:
+        """Warns once when a file is gone, and once when it is back."""
+        before, self._missing = self._missing, self._live.missing
+        if self._missing == before:
+            return
+        if before is not None and before.exists():
+            warnings.warn(f"`{before}` is back: its changes are reloaded again", stacklevel=2)
+        if self._missing is not None:
+            message = f"`{self._missing}` is gone: the scenario in use stays until it is back"
+            warnings.warn(message, stacklevel=2)
 
 
 def check_watch(watch: object) -> None:

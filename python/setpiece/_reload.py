@@ -121,12 +121,12 @@ class Watcher:
 
     def _changed(self) -> tuple[Scenario | None, Reload | None]:
         """The scenario of changed files, or one that is still waiting; or what broke them."""
+        # Before the files are looked at: a warning may be an error, which no change may be lost to.
+        self._warn_of_missing()
         try:
             return self._live.poll() or self._waiting, None
         except SetpieceError as error:
             return None, Reload("broken", None, error, "the scenario's files have errors")
-        finally:
-            self._warn_of_missing()
 
     def _warn_of_missing(self) -> None:
         """Warns once when a file is gone, and once when it is back."""

@@ -10,6 +10,7 @@ mod uses;
 use crate::ast::{File, Ident, Item, ItemKind, ScenarioItem, Span};
 use crate::cast::Cast;
 use crate::index::Index;
+use crate::lower::alone::check_regions;
 use crate::lower::loaded_scripts::LoadedScripts;
 use crate::lower::mirror::Mirror;
 use crate::lower::param_info::ParamInfo;
@@ -123,7 +124,7 @@ pub fn compile(
     let wanted = if has_plans && options.plans_suffice && options.scenario.is_none() {
         concrete(&candidates).next_back()
     } else {
-        pick(&candidates, options.scenario.as_deref(), &library, &mut problems)
+        pick(&candidates, options.scenario.as_deref(), items, &library, &mut problems)
     };
     let effort = Effort::new();
     let mut compilation = Compilation {
@@ -286,6 +287,7 @@ impl<'a> Compilation<'a> {
         let behaviors = behavior::lower_behaviors(&step, &behaviors, &mut players);
         dead::check_scenario(&world);
         dead::check_constants(&world);
+        check_regions(&step);
         self.unused.declare(&world);
 
         let origins = Origins {
@@ -377,6 +379,7 @@ fn concrete<'a>(
 fn pick<'a>(
     candidates: &[(&'a ScenarioItem, &str)],
     wanted: Option<&str>,
+    items: &[Item],
     library: &Library,
     problems: &mut Vec<Problem>,
 ) -> Option<&'a ScenarioItem> {
@@ -394,10 +397,22 @@ fn pick<'a>(
     let start = Span { file: FileId(0), start: 0, end: 0 };
     let file = library.sources.get(FileId(0)).map_or(String::new(), |source| source.name.clone());
     let names: Vec<&str> = concrete(candidates).map(|item| item.name.node.as_str()).collect();
+    // The command plays suites by their names, too.
+    let suites = items.iter().filter_map(|item| match &item.kind {
+        ItemKind::Suite(suite) => Some(suite.name.node.as_str()),
+        _ => None,
+    });
+    let suites: Vec<&str> = suites.collect();
     problems.push(match (wanted, candidates.first()) {
         (Some(wanted), _) if !names.is_empty() => {
-            let guess = Guess::similar_or_all(wanted, &names);
-            Problem::new(start, Whole::NoSuchScenario { file, wanted: wanted.to_owned(), guess })
+            let guess = Guess::similar_or(wanted, &[&names[..], &suites].concat(), &names);
+            let (wanted, suites) = (wanted.to_owned(), suites.into_iter().map(str::to_owned));
+            let suites = suites.collect();
+            Problem::new(start, Whole::NoSuchScenario { file, wanted, guess, suites })
+        }
+        (Some(wanted), None) if !suites.is_empty() => {
+            let guess = Guess::similar_or_all(wanted, &suites);
+            Problem::new(start, Whole::NoSuchSuite { file, wanted: wanted.to_owned(), guess })
         }
         (_, Some((item, _))) => Problem::new(
             item.name.span,

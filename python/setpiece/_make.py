@@ -108,7 +108,8 @@ def make(
     - `watch`: whether every `reset` reloads the scenario's file, its imports and scripts if they
       have changed; with `"now"` every `step` reloads changed scripts, but nothing else. A change of
       the last 50 ms or so may wait for the next `reset` or `step`. A broken file leaves the last
-      good scenario in place, and one that would change the spaces is held back.
+      good scenario in place, and one that would change the spaces is held back. A file that is gone
+      is a warning, as is its return.
     - `on_reload`: called with the `Reload` of every change, in the `reset` or `step` that found it,
       which raises `CallbackError` if the call fails; see also `env.unwrapped.last_reload`. Without
       it a change that can't be applied is a warning.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Literal
 
 from setpiece._callbacks import failed
@@ -55,6 +56,7 @@ class Watcher:
         self._live = Live(path_of(source), allow_outside=allow_outside)
         self._on_reload = on_reload
         self._waiting: Scenario | None = None
+        self._missing: Path | None = None
         self.scenario, self.last = self._live.scenario, None
         self.at_once = watch == "now"
 
@@ -119,10 +121,23 @@ class Watcher:
 
     def _changed(self) -> tuple[Scenario | None, Reload | None]:
         """The scenario of changed files, or one that is still waiting; or what broke them."""
+        # Before the files are looked at: a warning may be an error, which no change may be lost to.
+        self._warn_of_missing()
         try:
             return self._live.poll() or self._waiting, None
         except SetpieceError as error:
             return None, Reload("broken", None, error, "the scenario's files have errors")
+
+    def _warn_of_missing(self) -> None:
+        """Warns once when a file is gone, and once when it is back."""
+        before, self._missing = self._missing, self._live.missing
+        if self._missing == before:
+            return
+        if before is not None and before.exists():
+            warnings.warn(f"`{before}` is back: its changes are reloaded again", stacklevel=2)
+        if self._missing is not None:
+            message = f"`{self._missing}` is gone: the scenario in use stays until it is back"
+            warnings.warn(message, stacklevel=2)
 
 
 def check_watch(watch: object) -> None:

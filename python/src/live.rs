@@ -4,7 +4,7 @@ use crate::errors;
 use crate::scenario::Scenario;
 use pyo3::prelude::*;
 use setpiece::Live as Facade;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
@@ -34,6 +34,13 @@ impl Live {
     fn scenario(&self, py: Python<'_>) -> PyResult<Scenario> {
         let loaded = self.inner.lock().unwrap_or_else(PoisonError::into_inner).loaded().clone();
         Scenario::from_loaded(py, loaded)
+    }
+
+    /// A file that has been missing for a while: its last good state goes on.
+    #[getter]
+    fn missing(&self) -> Option<PathBuf> {
+        let live = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        live.missing().map(Path::to_owned)
     }
 
     /// The new scenario if a file has changed since the last call, else None; waits for at most

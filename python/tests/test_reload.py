@@ -1,5 +1,6 @@
 import os
 import time
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -97,6 +98,37 @@ def test_a_file_that_is_deleted_and_comes_back_is_taken(pitch_file: Callable[[st
     save(path, SHOT.replace("LIMIT", "6"))
     assert wait_for_reload(env, env.last_reload).state == "applied"
     assert length(env) == 6
+
+
+def test_a_file_that_is_gone_is_reported_once_and_when_it_is_back(
+    pitch_file: Callable[[str], Path],
+) -> None:
+    path = pitch_file(SHOT.replace("LIMIT", "5"))
+    env = setpiece.make(path, watch=True)
+
+    def warned_of(text: str) -> bool:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            env.reset()
+        assert len(caught) <= 1
+        return any(str(path) in str(one.message) and text in str(one.message) for one in caught)
+
+    def wait_for_warning(text: str) -> None:
+        end = time.monotonic() + 20
+        while not warned_of(text):
+            assert time.monotonic() < end, f"nothing said that the file {text}"
+            time.sleep(0.02)
+
+    path.unlink()
+    wait_for_warning("is gone")
+    assert not any(warned_of("is gone") for _ in range(50))
+    assert length(env) == 5
+    # It is back as it was: there is nothing to reload.
+    save(path, SHOT.replace("LIMIT", "5"))
+    wait_for_warning("is back")
+    assert length(env) == 5
+    path.unlink()
+    wait_for_warning("is gone")
 
 
 def test_only_files_can_be_watched() -> None:

@@ -1,23 +1,22 @@
 //! Runs episodes of a scenario with a ready-made agent, and summarises the results.
 
+pub mod faults;
+
 use crate::error::Error;
 use crate::evaluate::refuse_endless;
-use setpiece_engine::batch::{EpisodeError, EpisodeSummary, Policy, ReadyMade, run_episodes};
+use setpiece_engine::batch::{EpisodeError, EpisodeSummary, ReadyMade, run_episodes};
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::digest;
-use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece_engine::environment::{Environment, EnvironmentOptions};
 use setpiece_engine::statistics::{MatchMeans, MatchStatistics};
 use setpiece_scenario::Scenario;
-use setpiece_scenario::vocabulary::{Action, Team, Verdict};
+use setpiece_scenario::vocabulary::{Team, Verdict};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
 /// The outcome of an episode that failed.
 const BROKEN: &str = "error";
-
-/// In how many episodes a run looks for numbers that can't be observed.
-const OBSERVED_EPISODES: usize = 5;
 
 /// What to run.
 #[derive(Clone, Debug)]
@@ -104,86 +103,6 @@ pub fn run(
     )
     .map_err(|why| Error::Threads(why.to_string()))?;
     Ok(summarise(episodes, &environment, begin.elapsed().as_secs_f64()))
-}
-
-/// The rewards whose values weren't finite, of the first episode with such faults.
-///
-/// The episode is played again with each reward alone: what is paid doesn't change what the agents
-/// do.
-///
-/// # Errors
-/// Like [`run`].
-pub fn faulty_rewards(
-    scenario: &Arc<Scenario>,
-    options: &RunOptions,
-    summary: &Summary,
-) -> Result<Vec<String>, Error> {
-    let Some(faulty) = summary.episodes.iter().flatten().find(|episode| episode.faults > 0) else {
-        return Ok(Vec::new());
-    };
-    let faults = |rewards: Vec<String>| -> Result<u64, Error> {
-        let environment =
-            EnvironmentOptions { rewards: Some(rewards), ..options.environment.clone() };
-        let episodes = faulty.index..faulty.index + 1;
-        let alone = RunOptions { episodes, threads: 1, environment, ..options.clone() };
-        Ok(run(scenario, &alone, |_| {})?.faults)
-    };
-    let own = || scenario.rewards.iter().map(|reward| reward.name.clone()).collect();
-    let names: Vec<String> = options.environment.rewards.clone().unwrap_or_else(own);
-    // Behaviours have faults, too, whatever is paid.
-    let others = faults(Vec::new())?;
-    let mut found = Vec::new();
-    for name in names {
-        if faults(vec![name.clone()])? > others {
-            found.push(name);
-        }
-    }
-    Ok(found)
-}
-
-/// The numbers of the scenario's own observation that could not be computed in the first episodes,
-/// and how often. They are played again, and every agent looks in every step.
-///
-/// # Errors
-/// Like [`run`].
-pub fn faulty_numbers(
-    scenario: &Arc<Scenario>,
-    options: &RunOptions,
-) -> Result<Vec<(String, u64)>, Error> {
-    let Some(observation) = &scenario.observation else { return Ok(Vec::new()) };
-    let mut environment = Environment::new(scenario.clone(), options.environment.clone())
-        .map_err(Error::Environment)?;
-    let mut out = vec![0.0; observation.values.len()];
-    let (mut scratch, mut policy) = (Scratch::default(), ReadyMade::new(options.agent));
-    let mut found: Vec<(String, u64)> = Vec::new();
-    for index in options.episodes.clone().take(OBSERVED_EPISODES) {
-        if environment.reset(Some(options.seed), Some(index)).is_err() {
-            continue;
-        }
-        policy.begin(&environment);
-        loop {
-            for agent in 0..environment.n_agents() {
-                // The buffer is of the right size.
-                let _ = environment.observe_vector(agent, &mut out);
-            }
-            if !environment.is_running() {
-                break;
-            }
-            let actions: Vec<Action> =
-                (0..environment.n_agents()).map(|agent| policy.act(&environment, agent)).collect();
-            // A script that fails has been reported by the run.
-            if environment.step(&actions, &mut scratch).is_err() {
-                break;
-            }
-        }
-        for (name, times) in environment.observed_faults() {
-            match found.iter_mut().find(|(known, _)| known == name) {
-                Some((_, sum)) => *sum += u64::from(times),
-                None => found.push((name.to_owned(), times.into())),
-            }
-        }
-    }
-    Ok(found)
 }
 
 /// Summarises episodes that an environment like this one has played.

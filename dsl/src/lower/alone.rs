@@ -30,8 +30,10 @@ pub(crate) fn check_alone<'w>(step: &StepWorld<'_, 'w>, item: &'w Item) -> Vec<P
             let scope = Scope::new(false, LiteralFrame::World);
             Lower::constant(step.world, scope).constant_item(binding, binding.name.span);
         }),
-        ItemKind::Fn(item) => as_called(step, item, None, LiteralFrame::Own),
-        ItemKind::Region(item) => as_called(step, item, Some(Ty::Region), LiteralFrame::World),
+        ItemKind::Fn(item) => as_called(step, item, None, Scope::new(false, LiteralFrame::Own)),
+        ItemKind::Region(item) => {
+            as_called(step, item, Some(Ty::Region), Scope::new(false, LiteralFrame::World))
+        }
         ItemKind::Table(item) => found_by(step, || {
             let mut lower = Caller::Reward.program(step);
             lower.rectangle(item.over.as_ref());
@@ -41,6 +43,23 @@ pub(crate) fn check_alone<'w>(step: &StepWorld<'_, 'w>, item: &'w Item) -> Vec<P
         ItemKind::Reward(item) => found_by(step, || reward::lower_alone(step, item)),
         ItemKind::Behavior(item) => found_by(step, || behavior::lower_alone(step, item)),
         _ => Vec::new(),
+    }
+}
+
+/// Reports the errors in a scenario's own regions that nothing in it uses.
+pub(crate) fn check_regions(step: &StepWorld<'_, '_>) {
+    let world = step.world;
+    for region in &world.flat.regions {
+        let name = region.name.span;
+        if !world.flat.is_own(name) || world.used.borrow().contains(&name) {
+            continue;
+        }
+        // What an unused region alone reads stays unused.
+        let used = world.used.borrow().clone();
+        let scope = Scope::new(true, LiteralFrame::World);
+        let found = as_called(step, region, Some(Ty::Region), scope);
+        world.used.replace(used);
+        world.problems.borrow_mut().extend(found);
     }
 }
 
@@ -69,7 +88,7 @@ fn as_called<'w>(
     step: &StepWorld<'_, 'w>,
     item: &'w FnItem,
     ty: Option<Ty>,
-    frame: LiteralFrame,
+    around: Scope<'w>,
 ) -> Vec<Problem> {
     let mut best: Option<Vec<Problem>> = None;
     let circular = step.world.circular.take();
@@ -78,7 +97,7 @@ fn as_called<'w>(
         step.world.circular.replace(circular.clone());
         let found = found_by(step, || {
             let mut lower = caller.program(step);
-            let mut scope = Scope::new(false, frame);
+            let mut scope = around.clone();
             lower.bind_any(&item.params, &mut scope);
             let written = item.ty.as_ref().map(|ty| param::declared_type(step.world, ty));
             lower.within(scope, |lower| match ty.or(written) {

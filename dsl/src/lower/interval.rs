@@ -1,6 +1,7 @@
 //! The least and greatest value a register can have, as far as parameters' ranges and draws tell.
 
 use super::builder::Builder;
+use setpiece_scenario::pitch::{STEP_S, STEPS_PER_S};
 use setpiece_scenario::vocabulary::Field;
 use setpiece_scenario::{BinaryOp, Distribution, EventFilter, FoldKind, Instr, Over, Reg, UnaryOp};
 use std::cell::Cell;
@@ -45,9 +46,14 @@ pub(crate) fn never_holds(
 }
 
 /// What is known of a match under way.
+#[derive(Clone, Copy)]
 pub(crate) struct InPlay<'a> {
     /// How long it lasts, seconds, if that is known.
     pub(crate) longest: Option<f64>,
+    /// How long each of its rounds lasts, seconds, if that is known.
+    pub(crate) longest_round: Option<f64>,
+    /// Whether the parts of an `and` are looked at together.
+    pub(crate) joint: bool,
     /// Whether an event that passes a filter can happen.
     pub(crate) happens: &'a dyn Fn(&EventFilter) -> bool,
 }
@@ -56,6 +62,8 @@ pub(crate) struct InPlay<'a> {
 const VISITS_MAX: u32 = 4_000;
 /// Deepest nesting that is looked into.
 const DEPTH_MAX: u32 = 64;
+/// Most parts of an `and` that are looked at together.
+const CONJUNCTS_MAX: usize = 16;
 
 struct Search<'a> {
     code: &'a Builder,
@@ -84,7 +92,26 @@ impl Search<'_> {
             {
                 NEVER
             }
+            Instr::Binary(BinaryOp::And, a, b)
+                if in_play.is_some_and(|known| known.joint) && self.exclude([*a, *b], depth) =>
+            {
+                NEVER
+            }
             Instr::Binary(op, a, b) => binary(*op, of(*a)?, of(*b)?)?,
+            Instr::Ever { of: holds, .. } if in_play.is_some() && of(*holds) == Some(NEVER) => {
+                NEVER
+            }
+            Instr::Held { of: holds, seconds, .. } => {
+                let too_long = in_play?.longest.zip(of(*seconds)).is_some_and(|(longest, held)| {
+                    // The start counts, too.
+                    (held.0 * STEPS_PER_S).round() > (longest * STEPS_PER_S).round() + 1.0
+                });
+                if too_long || of(*holds) == Some(NEVER) { NEVER } else { (0.0, 1.0) }
+            }
+            Instr::RoundElapsed => {
+                let bounds = [in_play?.longest, in_play?.longest_round];
+                (0.0, bounds.into_iter().flatten().reduce(f64::min)?)
+            }
             Instr::Table { table, .. } => {
                 let numbers = self.code.numbers_of(*table).iter();
                 numbers.fold(None, |found: Option<Interval>, &number| {
@@ -118,6 +145,91 @@ impl Search<'_> {
             _ => return None,
         };
         (found.0.is_finite() && found.1.is_finite()).then_some(found)
+    }
+
+    /// Whether conditions can't hold in the same step.
+    fn exclude(&self, parts: [Reg; 2], depth: u32) -> bool {
+        let parts = self.conjuncts(parts);
+        let is_denied = |part: &Reg| match self.code.instr(*part) {
+            Some(Instr::Unary(UnaryOp::Not, of)) => parts.contains(of),
+            _ => false,
+        };
+        let orders: Vec<Order> = parts.iter().flat_map(|part| self.orders(*part)).collect();
+        let clash = |below: &Order, above: &Order| {
+            let is_strict = below.strict || above.strict;
+            if below.less == above.more {
+                return is_strict;
+            }
+            let known = |reg: Reg| self.code.constant_of(reg);
+            if let (Some(least), Some(most)) = (known(below.less), known(above.more)) {
+                return least > most || least == most && is_strict;
+            }
+            let of = |reg: Reg| self.bounded(reg, depth + 1);
+            of(below.less).zip(of(above.more)).is_some_and(|(least, most)| apart(most, least))
+        };
+        parts.iter().any(is_denied)
+            || orders.iter().any(|below| {
+                let mut ends = orders.iter().filter(|above| above.less == below.more);
+                ends.any(|above| clash(below, above))
+            })
+    }
+
+    /// What holds if all of some conditions do.
+    fn conjuncts(&self, parts: [Reg; 2]) -> Vec<Reg> {
+        let (mut open, mut found) = (parts.to_vec(), Vec::new());
+        while let Some(part) = open.pop() {
+            match self.code.instr(part) {
+                Some(Instr::Binary(BinaryOp::And, a, b)) => open.extend([*a, *b]),
+                _ => found.push(part),
+            }
+            if found.len() > CONJUNCTS_MAX {
+                break;
+            }
+        }
+        found
+    }
+
+    /// What a comparison says: which value isn't more than which.
+    fn orders(&self, condition: Reg) -> Vec<Order> {
+        let Some(&Instr::Binary(op, a, b)) = self.code.instr(condition) else { return Vec::new() };
+        let order = |less, more, strict| Order { less, more, strict };
+        match op {
+            BinaryOp::Lt | BinaryOp::Le => vec![order(a, b, op == BinaryOp::Lt)],
+            BinaryOp::Gt | BinaryOp::Ge => vec![order(b, a, op == BinaryOp::Gt)],
+            BinaryOp::Eq => vec![order(a, b, false), order(b, a, false)],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// `less < more`, or `less <= more`.
+struct Order {
+    less: Reg,
+    more: Reg,
+    strict: bool,
+}
+
+/// Until when a condition has held in every round, seconds after its beginning: if it is one that
+/// time brings about.
+pub(crate) fn longest_round(
+    code: &Builder,
+    condition: Reg,
+    params: &[Option<Interval>],
+) -> Option<f64> {
+    let of = |condition| longest_round(code, condition, params);
+    let is_time = |reg: Reg| matches!(code.instr(reg), Some(Instr::RoundElapsed));
+    match code.instr(condition)? {
+        Instr::Binary(BinaryOp::Or, a, b) => {
+            [of(*a), of(*b)].into_iter().flatten().reduce(f64::min)
+        }
+        Instr::Binary(BinaryOp::And, a, b) => Some(of(*a)?.max(of(*b)?)),
+        Instr::Binary(BinaryOp::Gt | BinaryOp::Ge, time, bound)
+        | Instr::Binary(BinaryOp::Lt | BinaryOp::Le, bound, time)
+            if is_time(*time) =>
+        {
+            Some(interval(code, *bound, params)?.1 + STEP_S)
+        }
+        _ => None,
     }
 }
 

@@ -1,11 +1,12 @@
 //! Payments and endings that no match can bring about, and why.
 
-use super::Lower;
 use super::interval::{self, InPlay};
+use super::value::{LiteralFrame, Scope};
+use super::{Lower, ProgramStage};
 use crate::problem::facts::{Because, Never};
-use setpiece_scenario::pitch::STEPS_PER_S;
+use setpiece_scenario::pitch::{STEPS_PER_S, X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{EventKind, Field, Qualifier, Rule, Team};
-use setpiece_scenario::{EventFilter, Instr, Over, Reg, UnaryOp, Who};
+use setpiece_scenario::{BinaryOp, EventFilter, Instr, Over, Reg, UnaryOp, Who};
 use std::cell::Cell;
 
 impl Lower<'_, '_> {
@@ -71,11 +72,32 @@ impl Lower<'_, '_> {
 
     /// Whether a condition never holds, whatever happens in the match.
     pub(crate) fn never_holds(&self, reg: Reg) -> bool {
-        let in_play = InPlay {
+        self.never_holds_if(reg, |_| {})
+    }
+
+    /// The same with other knowledge of the match.
+    fn never_holds_if(&self, reg: Reg, change: impl FnOnce(&mut InPlay<'_>)) -> bool {
+        let mut in_play = InPlay {
             longest: self.longest(),
+            longest_round: self.longest_round(reg),
+            joint: true,
             happens: &|filter| self.never_happens(filter).is_none(),
         };
+        change(&mut in_play);
         interval::never_holds(&self.code, reg, &self.world.ranges(), in_play)
+    }
+
+    /// How long a round lasts at most, seconds, if that is known and a condition reads it.
+    fn longest_round(&self, reg: Reg) -> Option<f64> {
+        let (rounds, _) = self.world.flat.rounds?;
+        let reads_round = |instr: &Instr| matches!(instr, Instr::RoundElapsed);
+        let step = self.step.filter(|_| self.code.depends(reg, &reads_round))?;
+        self.world.tentatively(|| {
+            let scope = Scope::new(true, LiteralFrame::World);
+            let mut lower = Lower::in_step(step, ProgramStage::Ending, scope);
+            let ends = lower.condition(&rounds.when);
+            interval::longest_round(&lower.code, ends, &self.world.ranges())
+        })
     }
 
     /// Why a condition never holds: the event that never happens, or the one thing that it looks
@@ -93,6 +115,17 @@ impl Lower<'_, '_> {
         if let Some(why) = missing.get() {
             return why;
         }
+        let limit = self.longest().map(|seconds| Because::Limit(seconds * STEPS_PER_S));
+        if !self.never_holds_if(guard, |known| known.joint = false) {
+            return Never::Condition(Some(Because::Excluded));
+        }
+        if !self.never_holds_if(guard, |known| known.longest_round = None) {
+            let round = self.longest_round(guard);
+            return Never::Condition(round.map(|seconds| Because::Round(seconds * STEPS_PER_S)));
+        }
+        if !self.never_holds_if(guard, |known| known.longest = None) {
+            return Never::Condition(limit);
+        }
         let reads = |fields: &[Field]| {
             let test = |instr: &Instr| match instr {
                 Instr::Load { field, .. } => fields.contains(field),
@@ -104,9 +137,16 @@ impl Lower<'_, '_> {
             Instr::Each(each) => matches!(each.over, Over::Players { .. }),
             _ => false,
         });
-        let limit = self.longest().map(|seconds| Because::Limit(seconds * STEPS_PER_S));
+        let is_normalised = self.code.depends(guard, &|instr| match instr {
+            Instr::Binary(BinaryOp::Div, _, scale) => {
+                let scale = self.code.constant_of(*scale);
+                scale == Some(X_SCALE_M) || scale == Some(Y_SCALE_M)
+            }
+            _ => false,
+        });
+        let places = if is_normalised { Because::Places } else { Because::Metres };
         let all = [
-            (reads(PLACES), Some(Because::Places)),
+            (reads(PLACES), Some(places)),
             (reads(&[Field::BallVx, Field::BallVy, Field::BallVz]), Some(Because::BallSpeed)),
             (reads(&[Field::PlayerVx, Field::PlayerVy]), Some(Because::PlayerSpeed)),
             (reads(&[Field::PlayerYellowCards]), Some(Because::YellowCards)),

@@ -18,7 +18,8 @@ use crate::live::Live;
 use crate::plans::{LoadedPlans, library_plans, load_plans};
 #[cfg(feature = "render")]
 use crate::plot;
-use crate::run::{RunOptions, Summary, faulty_rewards, first_error, run, summarise};
+use crate::run::faults::faulty_terms;
+use crate::run::{RunOptions, Summary, first_error, run, summarise};
 use crate::scenario::plan::{PlannedEpisodes, Plans, Played, Suite};
 use crate::scenario::{Bindings, Scenario};
 use crate::{Error, Loaded};
@@ -359,7 +360,7 @@ fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
             let environment = Environment::new(scenario.clone(), options.environment.clone())
                 .map_err(Error::Environment)?;
             let summary = summarise(played, &environment, 0.0);
-            let faulty = faulty_rewards(&scenario, &options, &summary)?;
+            let faulty = faulty_terms(&scenario, &options, &summary)?;
             let width = summary::outcomes(&scenario, &summary, out);
             summary::means(&summary, &faulty, width, out);
             summary::unclear(&scenario, &options, width, out)?;

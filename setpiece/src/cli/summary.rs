@@ -7,7 +7,8 @@ use crate::engine::batch::EpisodeSummary;
 use crate::engine::environment::Environment;
 use crate::engine::statistics::MatchMeans;
 use crate::level::Level;
-use crate::run::{RunOptions, Summary, faulty_numbers, faulty_rewards};
+use crate::run::faults::{FaultyTerm, faulty_numbers, faulty_terms};
+use crate::run::{RunOptions, Summary};
 use crate::scenario::{Scenario, Verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -121,7 +122,7 @@ pub(crate) fn print(
     out.line("");
     let width = outcomes(scenario, summary, out);
     out.line("");
-    means(summary, &faulty_rewards(scenario, options, summary)?, width, out);
+    means(summary, &faulty_terms(scenario, options, summary)?, width, out);
     unclear(scenario, options, width, out)?;
     if scenario.endings.list.is_empty() {
         let m = &summary.match_stats;
@@ -176,8 +177,8 @@ pub(crate) fn unclear(
 
 /// Prints the means over the episodes: score, return by term, length, records.
 ///
-/// - `faulty`: the rewards whose values weren't finite.
-pub(crate) fn means(summary: &Summary, faulty: &[String], width: usize, out: &Out) {
+/// - `faulty`: the parts of rewards whose values weren't finite.
+pub(crate) fn means(summary: &Summary, faulty: &[FaultyTerm], width: usize, out: &Out) {
     let [left, right] = summary.score;
     out.line(format!("  {:width$}  {left:.2} : {right:.2}", "mean score"));
     // Of two sides that play each other the mean says little.
@@ -196,14 +197,19 @@ pub(crate) fn means(summary: &Summary, faulty: &[String], width: usize, out: &Ou
         }
     }
     if summary.faults > 0 {
-        let place = match faulty {
-            [] => String::new(),
-            rewards => format!(" in `{}`", rewards.join("`, `")),
-        };
-        let report = format!(
-            "{} values{place} were not finite and were not paid: a division by zero?",
-            summary.faults
-        );
+        let values = summary.faults;
+        let mut report =
+            format!("{values} values were not finite and were not paid: a division by zero?");
+        for FaultyTerm { reward, term, episode, step } in faulty {
+            let part = match term {
+                Some(term) => format!("`{term}` of the reward `{reward}`"),
+                None => format!("a `state` of the reward `{reward}`"),
+            };
+            report += &format!(
+                "\n  {:width$}      {part}: first in step {step} of episode {episode}",
+                ""
+            );
+        }
         out.line(StyledText::from(format!("  {:width$}    ", "")).paint(&report, Paint::Failure));
     }
     out.line(format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));

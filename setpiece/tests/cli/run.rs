@@ -132,13 +132,50 @@ fn a_parameter_that_makes_no_start_is_one_clear_error() {
 }
 
 #[test]
+fn a_name_that_the_file_lacks_is_answered_with_its_scenarios_and_suites() {
+    let folder = folder();
+    let suites = "suite short { close for 2 episodes }\nsuite thorough { close for 9 episodes }";
+    let both = write(folder.path(), "both.pitch", format!("{CLOSE}\n{suites}"));
+    let run = |path: &str, name: &str, help: &str| {
+        fails(&["run", path, "--scenario", name], 1, &["SP0214", help]);
+    };
+    run(&both, "nope", "it has the suites `short`, `thorough` and `close`");
+    run(&both, "thorogh", "did you mean `thorough`?");
+    run(&both, "clos", "did you mean `close`?");
+    let one = write(
+        folder.path(),
+        "one.pitch",
+        format!("{CLOSE}\nsuite short {{ close for 2 episodes }}"),
+    );
+    run(&one, "nope", "it has the suite `short` and `close`");
+    let library = "suite short { academy_corner for 2 episodes }";
+    let alone = write(folder.path(), "alone.pitch", library);
+    run(&alone, "nope", "it has `short`");
+    run(&alone, "shrt", "did you mean `short`?");
+}
+
+#[test]
 fn values_that_are_not_finite_are_reported() {
     let folder = folder();
-    let source =
-        CLOSE.replace("ball at", "reward x { state n = 0  give 1 / n as \"broken\" }\n    ball at");
-    let path = write(folder.path(), "faulty.pitch", source);
+    let parts = "reward x {
+        state n = 0
+        give 1 as \"sound\"
+        give 1 / n when elapsed > 0.5s as \"broken\"
+    }
+    reward y { state n = 0  n = n / n  give n }
+    reward z { give 1 }
+    ball at";
+    let path = write(folder.path(), "faulty.pitch", CLOSE.replace("ball at", parts));
     let output = text(&setpiece(&["run", &path, "--episodes", "2"]).stdout);
-    assert!(output.contains("values in `x` were not finite"), "{output}");
+    for line in [
+        "values were not finite and were not paid",
+        "`broken` of the reward `x`: first in step 6 of episode 0",
+        "a `state` of the reward `y`: first in step 1 of episode 0",
+    ] {
+        assert!(output.contains(line), "{line}: {output}");
+    }
+    let named = output.lines().filter(|line| line.contains("of the reward"));
+    assert_eq!(named.count(), 2, "{output}");
     assert!(
         json(&["run", &path, "--episodes", "2", "--format", "json"])["faults"].as_u64().unwrap()
             > 0

@@ -111,6 +111,8 @@ pub(crate) enum Never {
 pub(crate) enum Because {
     /// Coordinates on the pitch.
     Places,
+    /// Coordinates in metres.
+    Metres,
     /// The ball's velocity.
     BallSpeed,
     /// A player's velocity.
@@ -123,6 +125,10 @@ pub(crate) enum Because {
     BallHeight,
     /// The time: how many steps the episode has at most.
     Limit(f64),
+    /// The time: how many steps a round has at most.
+    Round(f64),
+    /// Parts that don't hold in the same step.
+    Excluded,
     /// A number of players.
     Players,
 }
@@ -159,12 +165,17 @@ impl Because {
             Because::Places => {
                 "x lies between about -1 and 1, y between -0.42 and 0.42; metres are `ball.metres.x > 20m`"
             }
+            Because::Metres => {
+                "on the usual pitch x lies between about -54m and 54m, y between -35m and 35m"
+            }
             Because::BallSpeed => "no ball flies as fast",
             Because::PlayerSpeed => "nobody runs as fast",
             Because::YellowCards => "a player has 0, 1 or 2 yellow cards",
             Because::Fatigue => "fatigue lies between 0 and 1",
             Because::BallHeight => "no ball rises as high",
             Because::Limit(steps) => return format!("the episode is over after {steps:.0} steps"),
+            Because::Round(steps) => return format!("a round is over after {steps:.0} steps"),
+            Because::Excluded => "its parts exclude each other",
             Because::Players => "a team has at most 11 players",
         }
         .to_owned()

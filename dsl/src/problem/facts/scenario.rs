@@ -9,8 +9,22 @@ facts! {
     /// Facts about a whole scenario.
     pub(crate) Whole {
         /// The scenario that was asked for is not in the file.
-        NoSuchScenario { file: String, wanted: String, guess: Guess } = Code::NoScenario =>
-            say(format!("`{file}` has no scenario `{wanted}`"), "").guess(guess, "it has"),
+        NoSuchScenario {
+            file: String,
+            wanted: String,
+            guess: Guess,
+            suites: Vec<String>,
+        } = Code::NoScenario => {
+            let listed = match &suites[..] {
+                [] => "it has".to_owned(),
+                [suite] => format!("it has the suite `{suite}` and"),
+                suites => format!("it has the suites `{}` and", suites.join("`, `")),
+            };
+            say(format!("`{file}` has no scenario `{wanted}`"), "").guess(guess, &listed)
+        },
+        /// The file has suites alone, others than the one that was asked for.
+        NoSuchSuite { file: String, wanted: String, guess: Guess } = Code::NoScenario =>
+            say(format!("`{file}` has no suite `{wanted}`"), "").guess(guess, "it has"),
         /// Every scenario of the file is abstract.
         OnlyAbstract { file: String, first: String } = Code::NoScenario =>
             say(format!("`{file}` has only abstract scenarios"), "abstract")

@@ -200,7 +200,7 @@ fn a_defender_stops_for_a_ball_that_rolls_up() {
 }
 
 #[test]
-fn a_sprinters_ball_rolls_past_a_keeper_who_comes_out_and_both_run_after_it() {
+fn a_sprinters_ball_rolls_past_a_keeper_who_comes_out_and_is_often_stopped_in_the_end() {
     let mut environment = library("academy_run_to_score_with_keeper");
     let keeper = PlayerId(11);
     let mut seen = [0; 2];

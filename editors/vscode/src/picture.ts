@@ -7,7 +7,7 @@ export interface Asked {
   readonly label: string;
   /** The share of starts that it is the first to refuse. */
   readonly share: number;
-  /** Whether the start of the picture fails it. */
+  /** Whether it is the one that refused the start most often, or holds an error. */
   readonly fails: boolean;
 }
 

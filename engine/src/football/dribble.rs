@@ -54,9 +54,12 @@ const ABOUT: f32 = -0.5;
 const TURNING_TICKS: i32 = 40;
 /// From this cosine on, the ball already rolls the way the player runs.
 const ALONG: f32 = 0.94;
+/// From which speed on a ball that is pushed on hops, m/s; how fast it then rises for each m/s above
+/// that; and at most, m/s. Fitted to how far sprinters' balls run: below that speed, backspin takes
+/// what the hop saves.
 const HOPS_FROM_MPS: f32 = 6.5;
 const HOP: f32 = 0.5;
-const HOP_MAX_MPS: f32 = 1.5;
+const HOP_MOST_MPS: f32 = 1.5;
 /// Deceleration of a stopping player (`STOP_MPS2`) and of a slow ball (`ROLL_MPS2`), m/s².
 const STOP_MPS2: f32 = 12.0;
 const ROLL_MPS2: f32 = 1.75;
@@ -131,18 +134,18 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
     }
     let care = Care { lines: minds_lines(game, id), lies: rolling < LIES_MPS };
     let velocity = self::ahead(&player, to_ball, ahead, speed, &care);
-    let velocity = carry::as_skilled(game, id, velocity, speed);
-    contact::push(game, events, id, velocity, hop_mps(velocity.length()));
+    push_on(game, events, id, velocity, speed);
     if player.body.kick.is_none() {
         note_turn(game, id, ahead);
     }
     true
 }
 
-/// How fast a ball rises that is pushed on at this speed, m/s. Fitted to how far sprinters' balls
-/// run: below `HOPS_FROM_MPS` backspin takes what the hop saves.
-fn hop_mps(speed: f32) -> f32 {
-    ((speed - HOPS_FROM_MPS) * HOP).clamp(0.0, HOP_MAX_MPS)
+/// Pushes the ball on as the player's skill allows. A fast one hops.
+fn push_on(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2, speed: f32) {
+    let velocity = carry::as_skilled(game, id, velocity, speed);
+    let hop = ((velocity.length() - HOPS_FROM_MPS) * HOP).clamp(0.0, HOP_MOST_MPS);
+    contact::push(game, events, id, velocity, hop);
 }
 
 /// Pushes the ball of a start off, for a player who has no agent yet: they follow it at that pace
@@ -153,8 +156,7 @@ pub(super) fn set_off(game: &mut Match, events: &mut Events, id: PlayerId) {
     let speed = player.body.dribble.length();
     let ahead = player.body.dribble.normalize_or(player.body.facing);
     let velocity = carry::straight_on(&player, to_ball, ahead, speed);
-    let velocity = carry::as_skilled(game, id, velocity, speed);
-    contact::push(game, events, id, velocity, hop_mps(velocity.length()));
+    push_on(game, events, id, velocity, speed);
     let now = game.tick as i32;
     let player = &mut game.players[id.index()];
     player.vel = ahead * SETS_OFF_MPS;

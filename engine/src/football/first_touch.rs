@@ -24,9 +24,6 @@ const SETTLED_MPS: f32 = 0.8;
 const FOLLOWED_MPS: f32 = 3.6;
 /// A ball met faster than this hops off the body that takes it, m/s; chosen.
 const HOPS_MPS: f32 = 8.0;
-/// The share of speed that a player keeps who takes up a ball lying ahead. Fitted to the starts of
-/// the Academy.
-const TAKEN_UP: f32 = 1.0;
 /// Ticks until a player who has taken up such a ball plays it again; fitted.
 const TAKING_TICKS: i32 = 33;
 
@@ -97,12 +94,8 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     if wish.length_squared() > 0.25 {
         dribble::note_turn(game, id, ahead);
     }
-    let taker = &mut game.players[id.index()];
     if hard {
-        taker.body.ready_at = game.tick as i32 + TAKING_TICKS;
-    }
-    if lies && wish.dot(to_ball) > 0.0 {
-        taker.vel *= TAKEN_UP;
+        game.players[id.index()].body.ready_at = game.tick as i32 + TAKING_TICKS;
     }
 }
 

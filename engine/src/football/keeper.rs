@@ -26,7 +26,7 @@ const HOLD_TICKS: u32 = 600;
 const BODY_M: f32 = 0.4;
 /// Shares of the balls in reach that a keeper without skill saves: any, at once, and more per
 /// second left. Fitted to how many goals agents' and bots' shots score.
-const SAVES: [f32; 3] = [0.0, 0.1, 0.9];
+const SAVES: [f32; 3] = [0.5, 0.45, 0.7];
 /// A ball at least this easy can be held (`HOLDS_FROM`, GRF's); `HOLDS` is how often it then is.
 /// `SLOWS_MPS2`: how a flying ball slows, m/s²; chosen.
 const HOLDS_FROM: f32 = 0.3;

@@ -88,10 +88,9 @@ pub fn advance(game: &mut Match) -> Busy {
         let has_ball = owner == Some(id);
         let (want, pace) = match player.body.intent {
             _ if frozen.is_some_and(|taker| taker != id) => (Vec2::ZERO, NO_POINT),
-            _ if player.body.lunge.is_some_and(|lunge| lunge.stops) => {
-                let lunge = player.body.lunge.filter(|lunge| lunge.at < now);
-                let sets_off = player.body.dribble.clamp_length_max(STOPPED_MPS);
-                (lunge.map_or(Vec2::ZERO, |_| sets_off), NO_POINT)
+            _ if let Some(lunge) = player.body.lunge.filter(|lunge| lunge.stops) => {
+                let most = if lunge.at < now { STOPPED_MPS } else { 0.0 };
+                (player.body.dribble.clamp_length_max(most), NO_POINT)
             }
             Intent::Stand => (Vec2::ZERO, NO_POINT),
             Intent::Run(velocity) => (velocity, NO_POINT),

@@ -42,9 +42,11 @@ const LEFT_MPS: f32 = 3.8;
 const RUN_MPS: f32 = 6.0;
 /// Difficulty of the easiest shot. Fitted to the measured directions.
 const LEAST_HARD: f32 = 0.07;
-/// How much a hard shot is pulled towards the run: less than the 0.8 of GRF, whose players turn in
-/// the swing. Fitted to the directions of shots across the run.
-const PULL: f32 = 0.3;
+/// How much a hard shot is pulled towards the run, for each radian between them, and at most (GRF's).
+/// A shooter turns in the swing, so that small angles hardly count. Fitted to the directions of shots
+/// across the run.
+const PULL_PER_RAD: f32 = 0.6;
+const PULL_MOST: f32 = 0.8;
 /// The factor from GRF's ball speed at the foot to ours. GRF brakes the ball before it can first be
 /// observed.
 const GIVEN: f32 = 1.015;
@@ -146,7 +148,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let lifts = libm::powf(hard_at(pace.min(LEFT_MPS)), 0.7);
 
     let best = way.extend(0.05).normalize() * power;
-    let pulled = (way + (run - way) * (PULL * hard)).normalize_or(way);
+    let pull = (PULL_PER_RAD * off).min(PULL_MOST);
+    let pulled = (way + (run - way) * (pull * hard)).normalize_or(way);
     let (on, aside, up) = (noise::spread(game), noise::spread(game), noise::spread(game));
     let shaken = (way * on + way.perp() * aside).extend(up) * (0.5 * hard);
     let worst = (pulled.extend(0.0) + shaken).normalize_or(way.extend(0.0));

@@ -16,7 +16,7 @@ use setpiece_scenario::vocabulary::{Rule, Team};
 /// A ball higher than this isn't at its owner's foot yet, metres.
 pub(super) const FOOT_HIGH_M: f32 = 0.5;
 /// The ticks in which a player standing at the ball of a start pushes it straight on. Measured.
-pub(super) const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
+const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
 /// From how far at most, metres. Measured.
 const PUSH_OFF_M: f32 = 0.76;
 /// Nobody further from the ball has to do with it in a tick, metres: a foot reaches 1.1, a fast

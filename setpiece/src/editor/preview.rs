@@ -57,7 +57,7 @@ pub struct AskedOfStart {
     pub label: String,
     /// The share of starts that it is the first to refuse, 0..1.
     pub share: f64,
-    /// Whether the start of the picture fails it.
+    /// Whether it is the one that refused the start most often, or holds an error.
     pub fails: bool,
 }
 

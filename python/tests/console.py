@@ -56,19 +56,20 @@ def cut(wanted: list[str], printed: list[str]) -> list[str]:
     """Returns what is printed, left out where a console leaves it out with `…`.
 
     The first part is as long as before, and so is the last. A part between them begins with the
-    line whose first word is that of the first line before.
+    line whose first words are those of the first line before.
     """
     if GAP not in wanted:
         return printed
     shown, at = [], 0
     parts = [part.strip("\n").splitlines() for part in "\n".join(wanted).split(GAP)]
-    first = [line.split()[:1] for line in printed]
+    words = [re.findall(r"[a-z]+", line)[:2] for line in printed]
     for number, part in enumerate(parts):
         if number == len(parts) - 1:
             at = max(at, len(printed) - len(part))
         elif number and part:
             begins = range(at, len(printed))
-            at = next((n for n in begins if first[n] == part[0].split()[:1]), at)
+            wanted_words = re.findall(r"[a-z]+", part[0])[:2]
+            at = next((n for n in begins if words[n] == wanted_words), at)
         shown += [*([GAP] if number else []), *printed[at : at + len(part)]]
         at += len(part)
     return shown

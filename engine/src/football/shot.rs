@@ -42,9 +42,9 @@ const LEFT_MPS: f32 = 3.8;
 const RUN_MPS: f32 = 6.0;
 /// Difficulty of the easiest shot. Fitted to the measured directions.
 const LEAST_HARD: f32 = 0.07;
-/// How much a hard shot is pulled towards the run, for each radian between them, and at most (GRF's).
-/// A shooter turns in the swing, so that small angles hardly count. Fitted to the directions of shots
-/// across the run.
+/// How much a hard shot is pulled towards the run, for each radian between them, and at most
+/// (GRF's). A shooter turns in the swing, so small angles hardly count. Fitted to the directions of
+/// shots across the run.
 const PULL_PER_RAD: f32 = 0.6;
 const PULL_MOST: f32 = 0.8;
 /// The factor from GRF's ball speed at the foot to ours. GRF brakes the ball before it can first be

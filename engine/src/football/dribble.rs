@@ -54,9 +54,9 @@ const ABOUT: f32 = -0.5;
 const TURNING_TICKS: i32 = 40;
 /// From this cosine on, the ball already rolls the way the player runs.
 const ALONG: f32 = 0.94;
-/// From which speed on a ball that is pushed on hops, m/s; how fast it then rises for each m/s above
-/// that; and at most, m/s. Fitted to how far sprinters' balls run: below that speed, backspin takes
-/// what the hop saves.
+/// From which speed on a ball that is pushed on hops, m/s; how fast it then rises for each m/s
+/// above that; and at most, m/s. Fitted to how far sprinters' balls run: below that speed, backspin
+/// takes what the hop saves.
 const HOPS_FROM_MPS: f32 = 6.5;
 const HOP: f32 = 0.5;
 const HOP_MOST_MPS: f32 = 1.5;

@@ -35,7 +35,7 @@ def test_an_environment_plays_what_it_plays_in_a_vector(mode: str, agents: str |
         assert envs.action_space.shape == (2, *vector.action_space.shape[1:])  # type: ignore[index]
         envs.async_reset(seed=11)
         rewards, over, infos = np.zeros(vector.action_space.shape), np.zeros(6, bool), {}  # type: ignore[arg-type, var-annotated]
-        for step in range(150):
+        for step in range(300):
             actions = rng.integers(0, 19, vector.action_space.shape)
             for group in range(3):
                 seen, paid, terminated, truncated, with_them = envs.recv()
@@ -123,7 +123,8 @@ def test_parameters_and_seeds_of_each() -> None:
     params = [{"difficulty": at / 10} for at in range(4)]
     with groups_of("academy_corner", 4, params=params) as envs:
         envs.async_reset(seed=[5, 6, 5, 6])
-        envs.recv()
+        for _ in range(2):
+            envs.recv()
         vector = setpiece.make_vec("academy_corner", 4, params=params)
         vector.reset(seed=[5, 6, 5, 6])
         assert envs._vectors[1].levels == vector.levels[2:]

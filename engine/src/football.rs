@@ -39,6 +39,7 @@ pub mod pass;
 pub mod pass_target;
 pub mod possession;
 pub mod reach;
+mod reach_motion;
 pub mod recent;
 pub mod referee;
 pub mod report;

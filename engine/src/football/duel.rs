@@ -3,7 +3,10 @@
 //! A lunge is decided some ticks before the foot meets the ball. It aims at the place where the
 //! ball will be if nobody touches it. If somebody does, the foot arrives beside the ball.
 
-use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
+use crate::football::pace::DRIBBLES_FROM_MPS;
+use crate::football::reach_motion::{
+    BACK_DEG, KEEPER_POKES, KICKS, RUNNING_POKES, ReachMotion, STANDING_POKES, TAKES, TRAP, motions,
+};
 use crate::football::{
     bounce, contact, first_touch, forecast, kick, noise, possession, reach, report, slide, touch,
 };
@@ -15,114 +18,9 @@ use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, Role};
 
-/// A way to reach for the ball.
-///
-/// Measured of GRF's motions: how soon they touch, how long they last, and where the ball is then.
-struct ReachMotion {
-    /// The lowest speed for this motion, m/s.
-    from_mps: f32,
-    /// Up to which angle between the run and the way that the player wants, degrees.
-    to_degrees: f32,
-    /// Ticks until the foot arrives, and until the player is free again.
-    ticks: i32,
-    lasts: i32,
-    /// Where the foot then is, ahead of the player and to the side, metres.
-    ahead_m: f32,
-    aside_m: f32,
-    /// How far off the ball may be, along the run and across it, metres.
-    along_m: f32,
-    across_m: f32,
-    /// Whether the player stops for it.
-    stops: bool,
-}
-
-const fn motion(
-    from_mps: f32,
-    to_degrees: f32,
-    [ticks, lasts]: [i32; 2],
-    [ahead_m, aside_m]: [f32; 2],
-    off: [f32; 2],
-) -> ReachMotion {
-    ReachMotion {
-        from_mps,
-        to_degrees,
-        ticks,
-        lasts,
-        ahead_m,
-        aside_m,
-        along_m: off[0],
-        across_m: off[1],
-        stops: false,
-    }
-}
-
-/// A motion for which the player stops.
-const fn stop(
-    from_mps: f32,
-    to_degrees: f32,
-    ticks: [i32; 2],
-    foot: [f32; 2],
-    off: [f32; 2],
-) -> ReachMotion {
-    ReachMotion { stops: true, ..motion(from_mps, to_degrees, ticks, foot, off) }
-}
-
-/// Angles up to which a motion leads on, turns a little, half, square, back, and about, degrees.
-const ON_DEG: f32 = 13.0;
-const BIT_DEG: f32 = 30.0;
-const HALF_DEG: f32 = 62.0;
-const SQUARE_DEG: f32 = 105.0;
-const BACK_DEG: f32 = 150.0;
-const ABOUT_DEG: f32 = 180.0;
-
-/// Pokes. Whoever runs pokes only at a ball that comes from behind.
-const POKES: [ReachMotion; 3] = [
-    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [24, 58], [-0.7, 0.6], [0.3, 0.26]),
-    motion(0.0, ABOUT_DEG, [11, 28], [0.9, 0.0], [0.59, 0.41]),
-    motion(0.0, ABOUT_DEG, [15, 35], [0.0, 1.05], [0.59, 0.41]),
-];
-/// Pokes of a keeper, fastest first. Fitted to how often one stops a sprinter.
-const KEEPER_POKES: [ReachMotion; 5] = [
-    motion(SPRINTS_FROM_MPS, ABOUT_DEG, [12, 39], [0.77, 0.0], [0.47, 0.17]),
-    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [9, 26], [0.61, 0.0], [0.56, 0.26]),
-    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [24, 58], [-0.5, 0.7], [0.56, 0.26]),
-    motion(0.0, ABOUT_DEG, [11, 28], [0.9, 0.0], [0.59, 0.41]),
-    motion(0.0, ABOUT_DEG, [15, 35], [0.0, 1.05], [0.59, 0.41]),
-];
-/// Ways to take the ball along, fastest first, and the motions of a pace by their angles.
-const TAKES: [ReachMotion; 20] = [
-    motion(SPRINTS_FROM_MPS, ON_DEG, [12, 25], [0.3, 0.0], [0.3, 0.15]),
-    motion(SPRINTS_FROM_MPS, BIT_DEG, [14, 40], [0.38, 0.0], [0.27, 0.14]),
-    motion(SPRINTS_FROM_MPS, SQUARE_DEG, [19, 53], [0.36, 0.1], [0.2, 0.2]),
-    stop(SPRINTS_FROM_MPS, ABOUT_DEG, [22, 59], [0.62, 0.0], [0.28, 0.18]),
-    motion(WALKS_FROM_MPS, ON_DEG, [15, 26], [0.0, 0.0], [0.36, 0.5]),
-    motion(WALKS_FROM_MPS, BIT_DEG, [16, 29], [0.0, 0.0], [0.36, 0.18]),
-    motion(WALKS_FROM_MPS, BIT_DEG, [10, 29], [-0.3, 0.0], [0.2, 0.2]),
-    motion(WALKS_FROM_MPS, HALF_DEG, [27, 50], [0.0, 0.0], [0.62, 0.33]),
-    motion(WALKS_FROM_MPS, SQUARE_DEG, [19, 53], [0.2, 0.0], [0.31, 0.3]),
-    stop(WALKS_FROM_MPS, BACK_DEG, [20, 47], [0.8, 0.0], [0.18, 0.23]),
-    motion(DRIBBLES_FROM_MPS, ON_DEG, [15, 26], [0.12, 0.0], [0.24, 0.49]),
-    motion(DRIBBLES_FROM_MPS, BIT_DEG, [16, 29], [0.08, 0.0], [0.33, 0.27]),
-    motion(DRIBBLES_FROM_MPS, BIT_DEG, [10, 29], [-0.16, 0.0], [0.26, 0.1]),
-    motion(DRIBBLES_FROM_MPS, HALF_DEG, [27, 50], [0.23, 0.0], [0.62, 0.36]),
-    motion(DRIBBLES_FROM_MPS, SQUARE_DEG, [19, 53], [0.2, 0.0], [0.15, 0.32]),
-    stop(DRIBBLES_FROM_MPS, BACK_DEG, [20, 47], [0.72, 0.0], [0.24, 0.3]),
-    motion(0.0, BIT_DEG, [8, 28], [0.0, 0.0], [0.3, 0.15]),
-    motion(0.0, HALF_DEG, [7, 36], [0.0, 0.0], [0.43, 0.45]),
-    motion(0.0, SQUARE_DEG, [8, 32], [0.0, 0.0], [0.5, 0.37]),
-    motion(0.0, ABOUT_DEG, [13, 55], [0.0, 0.0], [0.75, 0.5]),
-];
-/// Stops a ball that rolls towards the player, long before it arrives, to go back with it. (GRF's.)
-const TRAP: ReachMotion = stop(DRIBBLES_FROM_MPS, ABOUT_DEG, [29, 54], [0.17, 0.0], [0.19, 0.16]);
 /// A carrier's ball that they have again no sooner than this is stopped like one that nobody has,
 /// seconds. (GRF's.)
 const LOOSE_S: f32 = 0.4;
-/// Kicks at a ball that a rival still dribbles. (Measured of GRF's motions.)
-const KICKS: [ReachMotion; 3] = [
-    motion(WALKS_FROM_MPS, ABOUT_DEG, [41, 69], [0.25, 0.0], [0.35, 0.3]),
-    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [27, 61], [0.2, 0.0], [0.35, 0.3]),
-    motion(0.0, ABOUT_DEG, [35, 73], [0.6, 0.0], [0.35, 0.3]),
-];
 /// How a player brakes who stops for a ball, m/s².
 const STOPPING_MPS2: f32 = 13.0;
 /// A slower ball isn't trapped, m/s. (GRF's.)
@@ -251,8 +149,12 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     if traps && turn > BACK_DEG && lunges(game, id, &TRAP, Aim::Take, seen) {
         return;
     }
-    let pokes = if player.role == Role::GK { &KEEPER_POKES[..] } else { &POKES[..] };
-    let pokes = if sooner || hidden > HIDDEN[0] { &[] } else { motions(pokes, pace, ABOUT_DEG) };
+    let running = if player.role == Role::GK { &KEEPER_POKES[..] } else { &RUNNING_POKES[..] };
+    let pokes = match motions(running, pace, 0.0) {
+        _ if sooner || hidden > HIDDEN[0] => &[],
+        [] => &STANDING_POKES[..],
+        pokes => pokes,
+    };
     if pokes.iter().any(|way| lunges(game, id, way, Aim::Poke, seen)) {
         return;
     }
@@ -270,18 +172,6 @@ fn turn_degrees(player: &Player) -> f32 {
     };
     let cos = player.body.dribble.try_normalize().map_or(1.0, |wish| wish.dot(run));
     libm::acosf(cos.clamp(-1.0, 1.0)).to_degrees()
-}
-
-/// The motions of a list for a pace and a turn: of those for the fastest gait that the pace allows,
-/// those of the least angle that holds the turn.
-fn motions(ways: &'static [ReachMotion], pace: f32, turn: f32) -> &'static [ReachMotion] {
-    let Some(gait) = ways.iter().map(|way| way.from_mps).find(|from| pace >= *from) else {
-        return &[];
-    };
-    let fits = |way: &ReachMotion| way.from_mps == gait && turn <= way.to_degrees;
-    let Some(first) = ways.iter().position(fits) else { return &[] };
-    let same = |way: &&ReachMotion| fits(way) && way.to_degrees == ways[first].to_degrees;
-    &ways[first..first + ways[first..].iter().take_while(same).count()]
 }
 
 /// Whether the ball gets past a player before its carrier has it again. A team without agents

@@ -7,6 +7,7 @@ mod play;
 mod start;
 
 use crate::choice::Choices;
+use crate::levels;
 use std::fmt::Write as _;
 
 /// Writes a scenario's text.
@@ -22,6 +23,8 @@ struct Writer<'a, 'b> {
     records: Vec<String>,
     /// Names of regions.
     regions: Vec<String>,
+    /// Names of tables.
+    tables: Vec<String>,
     /// Names of behaviours that take no arguments.
     behaviors: Vec<String>,
 }
@@ -69,6 +72,7 @@ pub fn scenario(choices: &mut Choices<'_>) -> String {
         numbers: vec![],
         records: vec![],
         regions: vec![],
+        tables: vec![],
         behaviors: vec![],
     };
     writer.file();
@@ -86,6 +90,9 @@ impl Writer<'_, '_> {
             let shape = self.shape();
             self.line(&format!("region area{n} = {shape}"));
             self.regions.push(format!("area{n}"));
+        }
+        for n in 0..self.choices.below(3) {
+            self.table(n);
         }
         let squads = std::mem::take(&mut self.squads);
         for n in 0..self.choices.below(3) {
@@ -106,9 +113,17 @@ impl Writer<'_, '_> {
         if self.choices.rarely(6) {
             self.pitch();
         }
+        if self.choices.rarely(6) {
+            let (one, other) = (self.shape(), self.shape());
+            self.line(&format!("let zone = choice({one}, {other})"));
+            self.regions.push("zone".to_owned());
+        }
         self.start();
         self.teams();
         self.agents();
+        if self.choices.rarely(6) {
+            self.substitution();
+        }
         for n in 0..self.choices.below(4) {
             self.record(n);
         }
@@ -123,6 +138,12 @@ impl Writer<'_, '_> {
         }
         self.line("end limit 100 steps");
         self.line("}");
+        if self.choices.rarely(8) {
+            let params = self.numbers.iter().filter(|name| name.starts_with('k'));
+            let params: Vec<&str> = params.map(String::as_str).collect();
+            let text = levels::text(self.choices, "fuzzed", &params);
+            self.line(&text);
+        }
     }
 
     fn line(&mut self, text: &str) {
@@ -226,6 +247,18 @@ impl Writer<'_, '_> {
             }
         }
         self.line(&format!("pitch {{ {} }}", options.join(", ")));
+    }
+
+    fn table(&mut self, n: usize) {
+        let (columns, rows) = (1 + self.choices.below(5), 1 + self.choices.below(4));
+        let mut row = || {
+            let numbers = (0..columns).map(|_| format!("{:.2}", self.choices.between(-1.0, 1.0)));
+            format!("[{}]", numbers.collect::<Vec<_>>().join(", "))
+        };
+        let rows: Vec<String> = (0..rows).map(|_| row()).collect();
+        let over = self.choices.one(&["", " over pitch", " over right.half", " over left.box"]);
+        self.line(&format!("table t{n}{over} = [{}]", rows.join(", ")));
+        self.tables.push(format!("t{n}"));
     }
 
     fn agents(&mut self) {

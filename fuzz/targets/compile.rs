@@ -6,7 +6,9 @@ use setpiece::Error;
 use setpiece::dsl::problem::{Problem, Severity};
 use setpiece::dsl::report::{Format, render};
 use setpiece::dsl::source::{Source, Sources};
+use setpiece::scenario::plan::{Plans, Played};
 use setpiece::scenario::{Scenario, file, verify};
+use setpiece_fuzz::levels;
 
 const NAME: &str = "<fuzz>";
 
@@ -28,9 +30,11 @@ fuzz_target!(init: setpiece_fuzz::seed::write("compile"), |data: &[u8]| {
         }
         Err(error) => panic!("a text is refused otherwise than by its problems: {error}"),
     };
+    let plans =
+        levels::may_have_plans(text).then(|| levels::plans(text, NAME, report)).flatten();
     let source = Source { name: NAME.to_owned(), text: text.into() };
     let Ok(formatted) = setpiece::dsl::format::format(&source) else {
-        assert!(scenario.is_none(), "what compiles can be formatted");
+        assert!(scenario.is_none() && plans.is_none(), "what compiles can be formatted");
         return;
     };
     let again = Source { name: NAME.to_owned(), text: formatted.as_str().into() };
@@ -40,7 +44,38 @@ fuzz_target!(init: setpiece_fuzz::seed::write("compile"), |data: &[u8]| {
         let other = setpiece::compile_text(&formatted, NAME).expect("what was formatted compiles as before");
         assert_eq!(said(&scenario), said(&other.scenario), "what was formatted says the same");
     }
+    if let Some(plans) = plans {
+        let other = levels::plans(&formatted, NAME, report).expect("formatted plans compile as before");
+        assert_eq!(planned(&plans), planned(&other), "formatted plans say the same");
+    }
 });
+
+/// What plans say, except quotations from their text.
+fn planned(plans: &Plans) -> String {
+    let played = |played: &Played| format!("{:?} {}", played.bindings, said(&played.scenario));
+    let mut text = String::new();
+    for suite in &plans.suites {
+        text.push_str(&format!("suite {} {}\n", suite.name, suite.doc));
+        for entry in &suite.entries {
+            text.push_str(&format!("{} {} {}\n", entry.count, entry.seed, played(&entry.played)));
+        }
+    }
+    for check in &plans.checks {
+        let episodes = &check.episodes;
+        let goals: Vec<_> = check.expectations.iter().map(|expected| &expected.goal).collect();
+        text.push_str(&format!("check {} {} {}", check.name, check.agent, check.over_params));
+        text.push_str(&format!(" {} {} {goals:?}", episodes.count, episodes.seed));
+        text.push_str(&format!("{}\n", played(&episodes.played)));
+    }
+    for curriculum in &plans.curricula {
+        let (name, doc, current) = (&curriculum.name, &curriculum.doc, curriculum.current);
+        text.push_str(&format!("curriculum {name} {doc} {current}\n"));
+        for stage in &curriculum.stages {
+            text.push_str(&format!("{} {:?} {}\n", stage.name, stage.how, played(&stage.played)));
+        }
+    }
+    text
+}
 
 /// A scenario's content, except quotations from its text and the places of scripts.
 fn said(scenario: &Scenario) -> String {

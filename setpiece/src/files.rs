@@ -185,6 +185,7 @@ impl FileLoader {
     }
 
     /// The files of the library that can be imported: their names and texts.
+    #[cfg(feature = "editor")]
     pub(crate) fn library_texts() -> impl Iterator<Item = (String, Arc<str>)> {
         let sources = stdlib::paths().filter_map(stdlib::file);
         sources.map(|source| (source.name, source.text))

@@ -62,7 +62,7 @@ impl Writer<'_, '_> {
         if depth == 0 {
             return self.leaf(view);
         }
-        match self.choices.below(16) {
+        match self.choices.below(19) {
             0 | 1 => self.leaf(view),
             2 => {
                 let sign = self.choices.one(&["+", "-", "*", "/"]);
@@ -105,6 +105,15 @@ impl Writer<'_, '_> {
             }
             11 if view.knows_time() => format!("(closing(ball, {}) / 1m)", self.point(inner(view))),
             12 => format!("offside_line({})", self.team(view)),
+            16 if !self.tables.is_empty() => self.looked_up(view),
+            17 if view != View::Start => {
+                let fold = self.choices.one(&["sum", "mean", "min", "max"]);
+                let (grid, of) = (self.grid(), self.of_point(view));
+                format!("{fold}({of} for q in {grid})")
+            }
+            18 if view != View::Start => {
+                format!("count(q in {} where {} > 0.3)", self.grid(), self.of_point(view))
+            }
             13 if view.judges() => format!("(count of {})", self.event(view)),
             14 if view.judges() => {
                 let fold = self.choices.one(&["max", "min", "mean", "sum", "first", "last"]);
@@ -195,6 +204,28 @@ impl Writer<'_, '_> {
                 self.choices.one(&["== shot", "!= idle", "in [left, short_pass]", "changes"])
             ),
             _ => format!("count(o in players where distance(o, {p}) < 9m) > 1"),
+        }
+    }
+
+    /// A number of a table.
+    fn looked_up(&mut self, view: View) -> String {
+        let at = self.choices.below(self.tables.len());
+        let (table, how) = (self.tables[at].clone(), self.choices.one(&["", ", linear"]));
+        format!("{table}({}{how})", self.point(view))
+    }
+
+    fn grid(&mut self) -> String {
+        let over = self.choices.one(&["", ", right.box", ", left.half"]);
+        format!("grid({}, {}{over})", 1 + self.choices.below(6), 1 + self.choices.below(4))
+    }
+
+    /// A number of a grid's point `q`.
+    fn of_point(&mut self, view: View) -> String {
+        match (self.choices.below(4), self.tables.first().cloned()) {
+            (0, Some(table)) => format!("{table}(q, linear)"),
+            (1, _) => format!("(distance(q, {}) / 9m)", self.point(inner(view))),
+            (2, _) => "q.x * q.y".to_owned(),
+            _ => format!("min(distance(q, p) for p in {}) / 1m", self.set(view)),
         }
     }
 

@@ -6,10 +6,11 @@ impl Writer<'_, '_> {
     pub(super) fn reward(&mut self, n: usize) {
         let view = View::Own;
         let weight = self.choices.between(1.0, -2.0);
-        self.line(&format!("reward r{n} {{ state s = 0"));
+        let audience = self.choices.one(&["", "", "", " for left", " for CF", " for right"]);
+        self.line(&format!("reward r{n}{audience} {{ state s = 0"));
         for at in 0..=self.choices.below(4) {
             let (value, condition) = (self.number(view), self.condition(view));
-            let line = match self.choices.below(8) {
+            let line = match self.choices.below(9) {
                 0 => format!("give {value} when {condition} as \"a{at}\""),
                 1 => format!("give {value} per second as \"b{at}\""),
                 2 => format!("give {value} once when {condition} as \"c{at}\""),
@@ -21,9 +22,11 @@ impl Writer<'_, '_> {
                 }
                 5 => format!("when {condition} {{ s = {value} }} else {{ give s as \"f{at}\" }}"),
                 6 => {
-                    let who = self.choices.one(&["left", "CF", "assist", "[GK, right]", "ball.owner"]);
+                    let who =
+                        self.choices.one(&["left", "CF", "assist", "[GK, right]", "ball.owner"]);
                     format!("give {value} to {who} when {condition} as \"h{at}\"")
                 }
+                7 => format!("give potential({value}, gamma: 0.99) as \"i{at}\""),
                 _ => format!("give {value} on end success as \"g{at}\""),
             };
             self.line(&line);
@@ -84,6 +87,18 @@ impl Writer<'_, '_> {
             }
         }
         self.line("}");
+    }
+
+    pub(super) fn substitution(&mut self) {
+        let Some(name) = self.somebody() else { return };
+        let condition = self.condition(View::World);
+        let options = self.choices.one(&[
+            "",
+            " { fatigue: 0.2 }",
+            " { difficulty: 0.5 }",
+            " { stats: { speed: 0.9, stamina: 0.1 } }",
+        ]);
+        self.line(&format!("substitute {name} when {condition}{options}"));
     }
 
     pub(super) fn behavior(&mut self, n: usize) {

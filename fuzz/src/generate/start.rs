@@ -105,7 +105,11 @@ impl Writer<'_, '_> {
         let mut options = vec!["overlap: allowed".to_owned()];
         match self.choices.below(10) {
             1 => options.push("ai: hold".to_owned()),
-            2 => options.push(self.choices.one(&["ai: lazy", "ai: choice(press: 1, hold: 2)", "ai: press"]).to_owned()),
+            2 => options.push(
+                self.choices
+                    .one(&["ai: lazy", "ai: choice(press: 1, hold: 2)", "ai: press"])
+                    .to_owned(),
+            ),
             3..5 => {
                 if let Some(behavior) = self.behaviors.get(n % self.behaviors.len().max(1)) {
                     options.push(format!("ai: {behavior}"));

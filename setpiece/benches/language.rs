@@ -67,6 +67,27 @@ const SHAPING: &str = "reward shaping {
         give -0.001 * me.fatigue as \"fatigue\"
     }";
 
+/// A term that looks at one place.
+const ONE_PLACE: &str =
+    "reward r { give 0.01 * smoothstep(0m, 30m, distance(ball, them.goal)) as \"a\" }";
+
+/// The same at 192 places.
+const GRID: &str = "reward r {
+        give 0.01 * mean(smoothstep(0m, 30m, distance(q, them.goal)) for q in grid(16, 12)) as \"a\"
+    }";
+
+/// A table at 192 places.
+const TABLE_ON_GRID: &str =
+    "reward r { give 0.01 * mean(threat(q, linear) for q in grid(16, 12)) as \"a\" }";
+
+/// Which of two teams has the nearest player, at 192 places: 4,224 distances.
+const CONTROL: &str = "reward r {
+        give 0.01 * mean(
+            if min(distance(p, q) for p in us) < min(distance(p, q) for p in them) then 1 else 0
+            for q in grid(12, 16, right.half)
+        ) as \"a\"
+    }";
+
 /// Twenty operations: operators, assignments, calls and properties.
 const SCRIPT_WITH_HELPERS: &str = "reward script rhai \"\"\"
         fn reward(ctx, now, prev, events) {
@@ -92,7 +113,8 @@ const SCRIPT_WITH_GETTERS: &str = "reward script rhai \"\"\"
 /// A judge in the middle of a match, ready to judge one step repeatedly.
 fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) {
     let text = format!(
-        "scenario s extends 11_vs_11_stochastic {{ remove reward scoring  agents {{ {agents} }}  {rewards} }}"
+        "table threat over pitch = [[0, 0.1, 0.3], [0, 0.2, 0.4]]
+        scenario s extends 11_vs_11_stochastic {{ remove reward scoring  agents {{ {agents} }}  {rewards} }}"
     );
     let scenario = compiled(&text).scenario;
     let mut environment = Environment::new(scenario.clone(), EnvironmentOptions::default())
@@ -141,6 +163,10 @@ fn judges(c: &mut Criterion<CpuTime>) {
     judging(c, "judge/checkpoints", "reward checkpoints", "left: 1");
     judging(c, "judge/shaping_of_ten_terms", SHAPING, "left: 1");
     judging(c, "judge/shaping_of_ten_terms_22_agents", SHAPING, "left: all  right: all");
+    judging(c, "judge/one_place", ONE_PLACE, "left: 1");
+    judging(c, "judge/grid_of_192_places", GRID, "left: 1");
+    judging(c, "judge/table_on_192_places", TABLE_ON_GRID, "left: 1");
+    judging(c, "judge/control_of_192_places", CONTROL, "left: 1");
     judging(c, "judge/script_with_helpers", SCRIPT_WITH_HELPERS, "left: 1");
     judging(c, "judge/script_with_getters", SCRIPT_WITH_GETTERS, "left: 1");
 }

@@ -23,6 +23,11 @@ pub const WIDTH: usize = 120;
 /// Blanks per block.
 pub const INDENT: usize = 4;
 
+/// An expression on one line of the one layout, without comments; `None` if it is none.
+pub(crate) fn one_line(text: &str) -> Option<String> {
+    Some(print::one_line(&pieces::of_expression(text)?))
+}
+
 /// The text in the one layout. Comments, line breaks that read well and single empty lines are
 /// kept; four blanks indent a block. The result reads as the same syntax tree and is its own
 /// format.

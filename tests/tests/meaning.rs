@@ -188,3 +188,30 @@ fn a_scripts_weight_may_be_computed() {
     assert_eq!(paid(&mut environment, 3), [1.5, 3.0, 4.5]);
     assert_eq!(environment.term_names(), ["own/script"]);
 }
+
+/// What has no label is called by its text: in the one layout, so that it has one name, and one
+/// noise, however it is laid out.
+#[test]
+fn an_observed_value_is_called_the_same_in_every_layout() {
+    let named = |lines: &str| {
+        let text = format!(
+            "scenario s {{
+                ball at (0.1, 0)
+                team left {{ CM at (0, 0) }}
+                agents {{ left: 1 }}
+                observe vector {{ {lines} }}
+                end limit 20 steps
+            }}"
+        );
+        environment(&text).observed_names().to_vec()
+    };
+    let names = ["count(p in them where p.x > 0)", "ball - me.x", "ball - me.y", "min(1, 2)"];
+    assert_eq!(
+        named("count(p in them where p.x > 0)\nball - me\nmin(1, 2)"),
+        names.map(str::to_owned)
+    );
+    assert_eq!(
+        named("count( p in them  where p.x >0 )\nball-me\nmin(\n1, // one\n 2, /* two */\n)"),
+        names.map(str::to_owned)
+    );
+}

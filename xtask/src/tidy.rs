@@ -156,7 +156,7 @@ const DSL_ARROWS: &[(&str, &[&str])] = &[
         "lower",
         &[
             "source", "check", "cast", "outline", "origins", "index", "ast", "problem", "parse",
-            "resolve",
+            "format", "resolve",
         ],
     ),
     (

@@ -68,9 +68,18 @@ impl SourcePiece<'_> {
 
 /// The pieces of a text that parses; `None` where it doesn't.
 pub(super) fn pieces(text: &str) -> Option<Vec<SourcePiece<'_>>> {
-    let file = PitchParser::parse(Rule::file, text).ok()?.next()?;
+    read(Rule::file, text)
+}
+
+/// The same of an expression alone.
+pub(super) fn of_expression(text: &str) -> Option<Vec<SourcePiece<'_>>> {
+    read(Rule::expr, text)
+}
+
+fn read(rule: Rule, text: &str) -> Option<Vec<SourcePiece<'_>>> {
+    let whole = PitchParser::parse(rule, text).ok()?.next()?;
     let mut reader = PieceReader { text, at: 0, pieces: Vec::new() };
-    reader.walk(file, Rule::file, false);
+    reader.walk(whole, rule, false);
     reader.gap(text.len());
     Some(reader.pieces)
 }

@@ -89,6 +89,24 @@ fn joined(parts: &[LinePart<'_>]) -> String {
     text
 }
 
+/// Pieces on one line, without comments.
+pub(super) fn one_line(pieces: &[SourcePiece<'_>]) -> String {
+    let mut tokens = pieces.iter().filter(|piece| !piece.is_comment()).peekable();
+    let (mut text, mut last): (String, Option<&SourcePiece<'_>>) = (String::new(), None);
+    while let Some(piece) = tokens.next() {
+        // A comma behind the last of a list belongs to lists of several lines.
+        if piece.is(Rule::comma) && tokens.peek().is_some_and(|next| next.closes()) {
+            continue;
+        }
+        if last.is_some_and(|last| spaced(last, piece)) {
+            text.push(' ');
+        }
+        text.push_str(&piece.text);
+        last = Some(piece);
+    }
+    text
+}
+
 /// Columns of a line without the comment at its end, the widest of its rows.
 pub(super) fn width(line: &FormatLine<'_>) -> usize {
     let mut width = line.indent;

@@ -39,7 +39,8 @@ pub(crate) fn lower_observation(step: &StepWorld<'_, '_>) -> Option<Observation>
             continue;
         }
         let label = line.label.as_ref();
-        let name = label.map_or_else(|| world.text(line.value.span), |label| label.node.clone());
+        let name =
+            label.map_or_else(|| world.laid_out(line.value.span), |label| label.node.clone());
         let (known, found) = (values.len(), world.problems.borrow().len());
         history = history.max(lower.line(line, &name, &mut values));
         // Behind a name that nothing has may stand what was meant to be its value.

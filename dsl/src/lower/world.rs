@@ -170,4 +170,17 @@ impl<'w> World<'w> {
         let words: Vec<&str> = text.split_whitespace().collect();
         words.join(" ")
     }
+
+    /// Whether a sign that compares numbers stands behind a span.
+    pub(crate) fn is_compared(&self, span: Span) -> bool {
+        let text = self.library.sources.get(span.file).map_or("", |source| &source.text);
+        let behind = text.get(span.end as usize..).unwrap_or_default().trim_start();
+        behind.starts_with(['<', '>', '=', '!'])
+    }
+
+    /// An expression's text on one line, the same however the author has laid it out.
+    pub(crate) fn laid_out(&self, span: Span) -> String {
+        let text = self.library.sources.text(span);
+        crate::format::one_line(text).unwrap_or_else(|| self.text(span))
+    }
 }

@@ -290,15 +290,22 @@ impl Drawer {
     /// pitch's.
     fn failed(&self, scenario: &Scenario, roster: &Roster, seed: u64, index: u64) -> Option<usize> {
         let requires = &scenario.start.requires;
-        let own = requires.iter().enumerate().position(|(which, require)| {
+        let own = (0..requires.len()).find(|&which| self.is_unmet(scenario, which, seed, index));
+        own.or_else(|| {
+            self.misplaced(scenario, roster).map(|fault| requires.len() + fault as usize)
+        })
+    }
+
+    /// Whether the last attempt at the start of an episode fails one of the author's requirements.
+    ///
+    /// - `which`: its place among them; no other one is failed.
+    pub fn is_unmet(&self, scenario: &Scenario, which: usize, seed: u64, index: u64) -> bool {
+        scenario.start.requires.get(which).is_some_and(|require| {
             let asked = require.probability.is_none_or(|probability| {
                 let coin = Stream::of_draw(seed, index, COIN_ATTEMPT, which as u64).unit_f64();
                 coin < self.value(probability)
             });
             asked && !truth(self.value(require.condition))
-        });
-        own.or_else(|| {
-            self.misplaced(scenario, roster).map(|fault| requires.len() + fault as usize)
         })
     }
 

@@ -5,9 +5,9 @@ import type { Field, Thing } from "./field";
 /** Something that a start must meet. */
 export interface Asked {
   readonly label: string;
-  /** The share of starts that it is the first to refuse. */
-  readonly share: number;
-  /** Whether it is the one that refused the start most often, or holds an error. */
+  /** The share of starts that it is the first to refuse; none if it has an error. */
+  readonly share: number | null;
+  /** Whether the start that is drawn doesn't meet it, or it has an error. */
   readonly fails: boolean;
 }
 
@@ -63,6 +63,6 @@ export function shownOf(answer: PreviewAnswer | null | undefined, drawing: numbe
 
 /** What is said of something that a start must meet. */
 function spokenOf({ label, share, fails }: Asked): string {
-  const refuses = `is the first to refuse ${(100 * share).toFixed(0)} % of starts`;
-  return `${fails ? "✗" : "✓"} ${label}${share > 0 ? `: ${refuses}` : ""}`;
+  const refuses = share ? `: is the first to refuse ${(100 * share).toFixed(0)} % of starts` : "";
+  return `${fails ? "✗" : "✓"} ${label}${refuses}`;
 }

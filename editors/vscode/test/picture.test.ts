@@ -19,10 +19,11 @@ test("what a start must meet is listed, and a start that fails it is drawn", () 
   const requires = [
     { label: "ball.x > 0.3", share: 0.125, fails: true },
     { label: "far", share: 0, fails: false },
+    { label: "ball.z > 1", share: null, fails: true },
   ];
   const shown = shownOf({ scenario: "drill", svg: "<svg/>", requires, message: "no start" }, 1);
   assert.deepEqual(shown.asked, [
-    "✗ ball.x > 0.3: is the first to refuse 13 % of starts", "✓ far",
+    "✗ ball.x > 0.3: is the first to refuse 13 % of starts", "✓ far", "✗ ball.z > 1",
   ]);
   assert.equal(shown.words, "no start");
   assert.ok(shown.picture);

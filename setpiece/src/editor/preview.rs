@@ -55,9 +55,10 @@ pub struct StartPicture {
 pub struct AskedOfStart {
     /// The author's words or label.
     pub label: String,
-    /// The share of starts that it is the first to refuse, 0..1.
-    pub share: f64,
-    /// Whether it is the one that refused the start most often, or holds an error.
+    /// The share of single attempts at a start that it is the first to refuse, 0..1; none if it has
+    /// an error, so that no attempt asks for it.
+    pub share: Option<f64>,
+    /// Whether the start that is drawn doesn't meet it, or it has an error.
     pub fails: bool,
 }
 
@@ -198,7 +199,7 @@ fn drawn(SoundScenario { loaded, broken }: &SoundScenario) -> Result<StartPictur
         svg: picture::svg_over(&scenario.name, &names, &scene, &beneath),
         view: picture::view(&scene.pitch),
         things,
-        requires: requires(loaded, refused.as_ref(), broken),
+        requires: requires(loaded, &drawer, broken),
         refused: broken.first().map(|it| it.why.clone()).or_else(|| {
             refused.map(|why| Error::Episode(Box::new(EpisodeError::from(why))).to_string())
         }),
@@ -206,24 +207,23 @@ fn drawn(SoundScenario { loaded, broken }: &SoundScenario) -> Result<StartPictur
 }
 
 /// What the starts of a scenario must meet.
-fn requires(
-    loaded: &Loaded,
-    refused: Option<&DrawError>,
-    broken: &[BrokenRequire],
-) -> Vec<AskedOfStart> {
+///
+/// - `drawer`: that of the start that is drawn.
+fn requires(loaded: &Loaded, drawer: &Drawer, broken: &[BrokenRequire]) -> Vec<AskedOfStart> {
     let Some(found) = Refusals::of(loaded) else { return Vec::new() };
-    let requires = &loaded.scenario.start.requires;
-    let parts = requires.iter().zip(&loaded.origins.requires).zip(&found.by);
+    let scenario = &loaded.scenario;
+    let parts = scenario.start.requires.iter().zip(&loaded.origins.requires).zip(&found.by);
     parts
-        .filter_map(|((require, origin), count)| {
-            let fails = refused.is_some_and(|why| why.requirement == require.label);
+        .enumerate()
+        .filter_map(|(which, ((require, origin), count))| {
+            let fails = drawer.is_unmet(scenario, which, SEED, 0);
             let matters = origin.help.is_none() || *count > 0 || fails;
-            let (label, share) = (require.label.clone(), found.share(*count));
+            let (label, share) = (require.label.clone(), Some(found.share(*count)));
             matters.then_some(AskedOfStart { label, share, fails })
         })
         .chain(broken.iter().map(|it| AskedOfStart {
             label: it.label.clone(),
-            share: 1.0,
+            share: None,
             fails: true,
         }))
         .collect()

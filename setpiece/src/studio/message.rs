@@ -200,7 +200,7 @@ pub struct RequireReply {
     pub line: Option<u32>,
     /// The share of single attempts at a start that it is the first to refuse, 0..1.
     pub refused: f64,
-    /// Whether it is why this episode has no start.
+    /// Whether this episode has no start, and no other refused more attempts at it.
     pub fails: bool,
 }
 

@@ -306,11 +306,49 @@ fn a_start_that_no_episode_has_is_drawn_as_it_is_written() {
     let why = picture["message"].as_str().unwrap();
     let mut drawn = Drawn { client, text, picture: picture.clone() };
     assert!(why.contains("cora stays back"), "{why}");
-    let failing = json!({ "label": "cora stays back", "share": 1.0, "fails": true });
+    let failing = json!({ "label": "cora stays back", "share": null, "fails": true });
     assert_eq!(picture["requires"][1], failing);
     // It can be mended by hand, also in several moves.
     drawn.lands("cora", [13.6, -8.36], ["0.35", "-0.1"], "cora: CM at (0.25, -0.1)");
     assert!(drawn.drag("anna", [0.0, 0.0])["edits"].is_array());
+}
+
+#[test]
+fn whatever_the_drawn_start_does_not_meet_fails() {
+    let text = "\
+scenario asked extends academy {
+    let far = normal(0, 0.01)
+    ball at (0.5, 0)
+    team left { anna: CM at (0.2, far) }
+    require far > 0.9
+    require far > 0.95 as \"farther\"
+    require far < 0.99 as \"not there\"
+}
+";
+    let picture = Drawn::open(text, "scenario asked").picture;
+    assert!(picture["message"].is_string(), "{picture}");
+    // The first refuses every attempt, so that none comes to the second; neither holds.
+    assert_eq!(
+        picture["requires"],
+        json!([
+            { "label": "far > 0.9", "share": 1.0, "fails": true },
+            { "label": "farther", "share": 0.0, "fails": true },
+            { "label": "not there", "share": 0.0, "fails": false },
+        ])
+    );
+    // Nothing is measured of one that can't be read.
+    let mut client = Client::new();
+    client.open(URI, &ASKED.replacen("cora.x < 0.3", "cora.z < 0.3", 1));
+    let place = json!({ "line": 3, "character": 0 });
+    let asked = json!({ "textDocument": { "uri": URI }, "position": place });
+    let picture = client.result("setpiece/preview", asked);
+    assert_eq!(
+        picture["requires"],
+        json!([
+            { "label": "anna in circle(centre, 25m)", "share": 0.0, "fails": false },
+            { "label": "cora stays back", "share": null, "fails": true },
+        ])
+    );
 }
 
 #[test]

@@ -4,8 +4,8 @@ mod rewrite;
 mod table;
 
 use pest::Parser;
+use rewrite::{FoundPart, MatchedPart, PartKind, rewrites};
 pub(crate) use rewrite::{HabitPiece, HabitRewrite};
-use rewrite::{MatchedPart, PartKind, rewrites};
 use setpiece_grammar::{PitchParser, Rule};
 use setpiece_scenario::vocabulary::{EventKind, Role};
 use std::borrow::Cow;
@@ -71,8 +71,8 @@ pub(crate) struct FoundHabit {
 struct Matched<'t> {
     /// What it left open.
     open: Vec<Cow<'t, str>>,
-    /// Every part; the tokens are counted from the end.
-    parts: Vec<MatchedPart>,
+    /// Every part.
+    parts: Vec<FoundPart>,
 }
 
 impl Matched<'_> {
@@ -160,8 +160,8 @@ impl Habit {
         let of_right = right.map_or(&[][..], |(_, parts)| parts);
         let parts: Vec<MatchedPart> = left
             .iter()
-            .map(|part| part.counted(before.len(), 0))
-            .chain(of_right.iter().map(|part| part.counted(behind.len(), before.len())))
+            .map(|part| part.before(before.len()))
+            .chain(of_right.iter().map(|part| part.before(before.len() + behind.len())))
             .collect();
         ahead.open.append(&mut found.open);
         let tokens: Vec<&str> = before.iter().chain(behind).copied().collect();
@@ -188,12 +188,12 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Matched<'t>) ->
     let known = found.len();
     if *wanted == "…" {
         if pattern.is_empty() {
-            found.parts.push(MatchedPart::new(PartKind::Gap, left, left));
+            found.parts.push(FoundPart { kind: PartKind::Gap, left, count: left });
             return true;
         }
         return (0..=left).any(|skipped| {
             found.truncate(known);
-            found.parts.push(MatchedPart::new(PartKind::Gap, left, skipped));
+            found.parts.push(FoundPart { kind: PartKind::Gap, left, count: skipped });
             tokens.get(skipped..).is_some_and(|rest| matches(pattern, rest, found))
         });
     }
@@ -201,7 +201,7 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Matched<'t>) ->
     if let Some(optional) = wanted.strip_suffix('?').filter(|optional| !optional.is_empty()) {
         let stands = tokens.split_first().filter(|(token, _)| **token == optional);
         if stands.is_some_and(|(_, rest)| {
-            found.parts.push(MatchedPart::new(PartKind::Word, left, 1));
+            found.parts.push(FoundPart { kind: PartKind::Word, left, count: 1 });
             matches(pattern, rest, found)
         }) {
             return true;
@@ -214,7 +214,7 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Matched<'t>) ->
         && let ["-", number, tokens @ ..] = tokens
     {
         found.open.push(format!("-{number}").into());
-        found.parts.push(MatchedPart::new(open, left, 2));
+        found.parts.push(FoundPart { kind: open, left, count: 2 });
         return is_number(number) && matches(pattern, tokens, found);
     }
     let Some((token, tokens)) = tokens.split_first() else {
@@ -235,7 +235,7 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Matched<'t>) ->
         literal if literal.starts_with(char::is_alphabetic) && literal.ends_with('*') => {
             let rest = token.strip_prefix(literal.trim_end_matches('*'));
             found.open.extend(rest.map(Cow::from));
-            found.parts.push(MatchedPart::new(open, left, 1));
+            found.parts.push(FoundPart { kind: open, left, count: 1 });
             return rest.is_some() && matches(pattern, tokens, found);
         }
         literals if literals.contains('¦') => literals.split('¦').any(|literal| literal == *token),
@@ -245,13 +245,13 @@ fn matches<'t>(pattern: &[&str], tokens: &[&'t str], found: &mut Matched<'t>) ->
             } else {
                 literal.trim_start_matches('\\') == token.trim_start()
             };
-            found.parts.push(MatchedPart::new(PartKind::Word, left, 1));
+            found.parts.push(FoundPart { kind: PartKind::Word, left, count: 1 });
             return is_it && matches(pattern, tokens, found);
         }
     };
     if meant {
         found.open.push((*token).into());
-        found.parts.push(MatchedPart::new(open, left, 1));
+        found.parts.push(FoundPart { kind: open, left, count: 1 });
     }
     meant && matches(pattern, tokens, found)
 }

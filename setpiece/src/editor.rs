@@ -28,6 +28,7 @@ mod meant;
 mod names;
 mod near;
 mod outline;
+mod parents;
 mod place;
 mod preview;
 mod probed;

@@ -4,13 +4,21 @@ use super::filled;
 use std::borrow::Cow;
 use std::ops::Range;
 
+/// A part of a pattern that was found in some tokens, counted from their end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct FoundPart {
+    pub(super) kind: PartKind,
+    /// How many tokens there are from its first one on.
+    pub(super) left: usize,
+    /// How many of them it is.
+    pub(super) count: usize,
+}
+
 /// A part of a pattern, and the tokens that it was.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct MatchedPart {
-    pub(super) kind: PartKind,
-    /// How many tokens are left before it, until [`Self::counted`]; the first token then.
-    at: usize,
-    count: usize,
+    kind: PartKind,
+    tokens: Range<usize>,
 }
 
 /// What a part of a pattern is.
@@ -44,22 +52,11 @@ pub(crate) enum HabitPiece {
     Rest(usize),
 }
 
-impl MatchedPart {
-    /// `left`: the tokens from its first one on.
-    pub(super) fn new(kind: PartKind, left: usize, count: usize) -> MatchedPart {
-        MatchedPart { kind, at: left, count }
-    }
-
-    /// The same, counted from the first of all tokens.
-    ///
-    /// - `all`: the tokens that the pattern was matched with;
-    /// - `before`: the tokens before them.
-    pub(super) fn counted(&self, all: usize, before: usize) -> MatchedPart {
-        MatchedPart { at: before + all - self.at, ..self.clone() }
-    }
-
-    fn tokens(&self) -> Range<usize> {
-        self.at..self.at + self.count
+impl FoundPart {
+    /// The same among all tokens; `end`: where those end that the pattern was matched with.
+    pub(super) fn before(&self, end: usize) -> MatchedPart {
+        let start = end - self.left;
+        MatchedPart { kind: self.kind, tokens: start..start + self.count }
     }
 }
 
@@ -98,7 +95,7 @@ pub(super) fn rewrites(
         .filter(|(words, text)| is_said(words) && !is_example(text))
         .filter_map(|(words, template)| {
             if words.ends_with("leave") {
-                let end = parts.last()?.tokens().end;
+                let end = parts.last()?.tokens.end;
                 let places = vec![(at..end, Vec::new())];
                 return Some(HabitRewrite { says: String::new(), places });
             }
@@ -134,24 +131,24 @@ fn places(
     parts: &[MatchedPart],
     (tokens, at): (&[&str], usize),
 ) -> Vec<(Range<usize>, Vec<HabitPiece>)> {
-    let Some(end) = parts.last().map(|part| part.tokens().end) else { return Vec::new() };
+    let Some(end) = parts.last().map(|part| part.tokens.end) else { return Vec::new() };
     let is_named = |part: &MatchedPart| match part.kind {
         PartKind::Open(nth) => template.contains(&format!("{{{}}}", nth + 1)),
         PartKind::Word => {
-            let word = tokens.get(part.at).copied().unwrap_or_default().trim();
+            let word = tokens.get(part.tokens.start).copied().unwrap_or_default().trim();
             let begin = template.get(..word.len()).unwrap_or_default();
             begin.eq_ignore_ascii_case(word)
         }
         PartKind::Gap => false,
     };
     let first = |is_it: &dyn Fn(&MatchedPart) -> bool| {
-        parts.iter().find(|part| is_it(part)).map(|part| part.tokens().start)
+        parts.iter().find(|part| is_it(part)).map(|part| part.tokens.start)
     };
     let named = first(&is_named).map_or(at, |from| from.min(at));
     let whole = first(&|_| true).unwrap_or(at);
     // What is left open at the end and not written again may stay.
     let stays = |part: &&MatchedPart| matches!(part.kind, PartKind::Open(_)) && !is_named(part);
-    let kept: usize = parts.iter().rev().take_while(stays).map(|part| part.count).sum();
+    let kept: usize = parts.iter().rev().take_while(stays).map(|part| part.tokens.len()).sum();
     let of_pattern = [named..end, named..end - kept, whole..end];
     // What repeats what stands before the place takes its place.
     let repeats = named < at;
@@ -164,8 +161,8 @@ fn places(
         }
         let gaps: Vec<Range<usize>> = parts
             .iter()
-            .filter(|part| part.kind == PartKind::Gap && range.contains(&part.at))
-            .map(MatchedPart::tokens)
+            .filter(|part| part.kind == PartKind::Gap && range.contains(&part.tokens.start))
+            .map(|part| part.tokens.clone())
             .collect();
         for rest in [None, Some(range.end)] {
             let Some(pieces) = pieces(template, open, &gaps, rest) else { continue };

@@ -45,7 +45,7 @@ pub(crate) use rewards::{Because, Never, Rewards};
 pub(crate) use scenario::{Declared, Whole};
 pub(crate) use scope::{BeforeOutside, Scopes, ViewOutside};
 pub(crate) use start::Starts;
-pub(crate) use syntax::{Hint, Syntax, UnitGuess};
+pub(crate) use syntax::{Hint, ROUND, Syntax, UnitGuess};
 pub(crate) use tables::Tables;
 pub(crate) use types::{Instead, Operand, Types, Use, Verb};
 

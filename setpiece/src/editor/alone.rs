@@ -1,9 +1,10 @@
 //! One scenario of a text, whatever is wrong with the others.
 
 use super::analysis::scenario_of;
+use super::parents::{scenario_named, with_parents};
 use super::{Analysis, Workspace};
 use crate::Loaded;
-use crate::dsl::ast::{ItemKind, ScenarioItem, ScenarioStmtKind, Span};
+use crate::dsl::ast::{ScenarioItem, ScenarioStmtKind, Span};
 use crate::dsl::problem::Severity;
 use std::ops::Range;
 use std::path::Path;
@@ -90,19 +91,9 @@ impl Analysis {
 
     /// A scenario of the text and those that it extends.
     fn with_parents(&self, name: &str) -> Vec<&ScenarioItem> {
-        let mut found: Vec<&ScenarioItem> = Vec::new();
-        let mut next = Some(name);
-        while let Some(name) = next {
-            let item = self.tree.items.iter().find_map(|item| match &item.kind {
-                ItemKind::Scenario(it) if it.name.node == name => Some(it),
-                _ => None,
-            });
-            let is_new = |it: &&ScenarioItem| found.iter().all(|known| known.name != it.name);
-            let Some(item) = item.filter(is_new) else { break };
-            found.push(item);
-            next = item.extends.as_ref().map(|parent| parent.name.node.as_str());
-        }
-        found
+        let scenario = |name: &str| scenario_named(&self.tree.items, name);
+        let parent = |of: &&ScenarioItem| scenario(&of.extends.as_ref()?.name.node);
+        scenario(name).map_or_else(Vec::new, |own| with_parents(own, parent).collect())
     }
 }
 

@@ -1,16 +1,12 @@
 //! What a scenario inherits under a name and may remove.
 
 use super::completion::{Completion, CompletionKind, word};
+use super::parents::{scenario_named, with_parents};
 use super::{Analysis, SymbolKind};
-use crate::dsl::ast::{
-    EndStmt, Item, ItemKind, RewardUse, RewardUseKind, ScenarioItem, ScenarioStmtKind,
-};
+use crate::dsl::ast::{EndStmt, Item, RewardUse, RewardUseKind, ScenarioItem, ScenarioStmtKind};
 use crate::dsl::parse::parse;
 use crate::dsl::source::{FileId, SourceLoader};
 use crate::files::FileLoader;
-
-/// How many parents are followed.
-const PARENTS_MAX: usize = 32;
 
 /// What is removed at the end of a text, and the byte where its statement begins: of `remove end `,
 /// `end`.
@@ -26,9 +22,9 @@ impl Analysis {
     /// it, whether the text is whole or broken.
     pub(super) fn removable(&self, what: &str, statement: usize) -> Vec<Completion> {
         let around = self.around(statement, &[SymbolKind::Scenario]);
-        let own = around.and_then(|it| scenario(&self.tree.items, &it.name).cloned());
+        let own = around.and_then(|it| scenario_named(&self.tree.items, &it.name).cloned());
         let mut names: Vec<String> = Vec::new();
-        for parent in self.parents(own).iter().rev() {
+        for parent in own.map_or_else(Vec::new, |own| self.parents(own)).iter().rev() {
             for stmt in &parent.body {
                 match &stmt.kind {
                     ScenarioStmtKind::Remove { what: kind, name: Some(name) } => {
@@ -48,31 +44,22 @@ impl Analysis {
     }
 
     /// The parents of a scenario, the nearest first.
-    fn parents(&self, own: Option<ScenarioItem>) -> Vec<ScenarioItem> {
+    fn parents(&self, own: ScenarioItem) -> Vec<ScenarioItem> {
         let items: Vec<Item> = self.items().collect();
         let library = FileLoader::anywhere();
         let of_library = |name: &str| {
             let (_, path) = library.scenarios().into_iter().find(|(known, _)| known == name)?;
             let source = library.load(&path, "").ok()?;
             let file = parse(&source, FileId(0), &mut Vec::new());
-            scenario(&file.items, name).cloned()
+            scenario_named(&file.items, name).cloned()
         };
         let parent = |of: &ScenarioItem| {
             let name = of.extends.as_ref()?.bare();
-            let known = scenario(&items, name).filter(|it| it.name != of.name).cloned();
+            let known = scenario_named(&items, name).filter(|it| it.name != of.name).cloned();
             known.or_else(|| of_library(name))
         };
-        let first = own.as_ref().and_then(parent);
-        std::iter::successors(first, parent).take(PARENTS_MAX).collect()
+        with_parents(own, parent).skip(1).collect()
     }
-}
-
-/// A scenario of some items.
-fn scenario<'a>(items: &'a [Item], name: &str) -> Option<&'a ScenarioItem> {
-    items.iter().find_map(|item| match &item.kind {
-        ItemKind::Scenario(it) if it.name.node == name => Some(it),
-        _ => None,
-    })
 }
 
 /// The name under which a statement is removed by `remove WHAT`.

@@ -73,14 +73,12 @@ impl<'w> Lower<'_, 'w> {
         let item = library.find(name.span.file, text).map(|found| found.item.kind.noun());
         let foreign = ELSEWHERE.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours);
         let other = match (item, foreign) {
-            _ if is_value => NotAFunction::Value,
+            _ if is_value => NotAFunction::Value { call: span },
             (Some(noun), _) => NotAFunction::Item(noun),
             (None, Some(ours)) => NotAFunction::Foreign(ours),
             (None, None) => NotAFunction::Unknown(Guess::of(text, known)),
         };
-        let is_value = matches!(other, NotAFunction::Value);
-        let problem = Problem::new(name.span, Names::NoFunction { name: text.clone(), other });
-        self.fail(if is_value { problem.rewriting(span, text) } else { problem })
+        self.fail(Problem::new(name.span, Names::NoFunction { name: text.clone(), other }))
     }
 
     /// Calls a `fn` of a file: its body is read with the caller's frame and view.
@@ -252,13 +250,9 @@ impl<'w> Lower<'_, 'w> {
         for (nth, arg) in args.iter().enumerate() {
             if arg.binder.is_some() || arg.filter.is_some() {
                 let least = (callee == Function::Nearest.name()).then(|| self.least_of(arg, args));
-                let written = least.clone();
+                let least = least.map(|least| (span, least));
                 let fact = Calls::NoPlayers { callee: callee.to_owned(), least };
-                let problem = Problem::new(arg.span, fact);
-                self.report(match written {
-                    Some(written) => problem.rewriting(span, written),
-                    None => problem,
-                });
+                self.report(Problem::new(arg.span, fact));
                 return None;
             }
             let at = match (&arg.key, arg_name(arg)) {

@@ -324,19 +324,14 @@ impl<'w> Lower<'_, 'w> {
         let text = self.world.text(of);
         let like = match (ty, name) {
             (Ty::Player | Ty::Team | Ty::Set, "has_ball" | "hasBall" | "has_possession") => {
-                Like::HasBall
+                Like::HasBall { whole: of.to(at) }
             }
             (Ty::Player | Ty::Ball, "vx" | "vy" | "velocity.x" | "velocity.y") => Like::Velocity,
             (Ty::Player | Ty::Ball, "position" | "pos") => Like::Place,
             _ => Like::Other(Guess::similar_or_all(name, known)),
         };
-        let has_ball = (like == Like::HasBall).then(|| format!("{text} has ball"));
         let fact = Names::NoProperty { text, noun: ty.noun(), name: name.to_owned(), like };
-        let problem = Problem::new(at, fact);
-        self.fail(match has_ball {
-            Some(written) => problem.rewriting(of.to(at), written),
-            None => problem,
-        })
+        self.fail(Problem::new(at, fact))
     }
 }
 

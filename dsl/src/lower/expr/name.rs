@@ -72,7 +72,15 @@ impl<'w> Lower<'_, 'w> {
         }
         self.fail(Problem::new(
             span,
-            Names::NoValue { name: name.to_owned(), guess, late: self.scope.scenario },
+            Names::NoValue {
+                name: name.to_owned(),
+                guess,
+                late: self.scope.scenario,
+                records: !has_member
+                    && self.scope.scenario
+                    && matches!(self.stage, ProgramStage::Ending)
+                    && self.world.is_compared(span),
+            },
         ))
     }
 

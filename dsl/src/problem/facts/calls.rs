@@ -48,16 +48,17 @@ facts! {
                 .help("write `name: value`"),
         /// `for` or `where` in the call of a function that goes through no players.
         ///
-        /// - `least`: how the nearest of them is written.
-        NoPlayers { callee: String, least: Option<String> } = Code::WrongArguments =>
+        /// - `least`: how the nearest of them is written, and in the place of what.
+        NoPlayers { callee: String, least: Option<(Span, String)> } = Code::WrongArguments =>
             say(
                 format!("`{callee}` goes through no players"),
                 "`for` and `where` belong to `count`, `sum`, `min` and their like",
             )
             .help(match least {
-                Some(least) => format!("write `{least}`"),
+                Some((_, least)) => format!("write `{least}`"),
                 None => "count players first: `count(p in us where …)`".to_owned(),
-            }),
+            })
+            .writing_if(least.as_ref().map(|(span, least)| (*span, least))),
         /// `choice(0.3: press)`.
         WeightFirst { value: String, weight: String } = Code::WrongArguments =>
             say("a weight stands behind its value", "the other way round")

@@ -16,9 +16,23 @@ facts! {
         } = kind.code() => unknown(*kind, name, guess),
         /// No value in sight has this name.
         ///
-        /// - `late`: whether it is read in a scenario, where a child may declare it.
-        NoValue { name: String, guess: Guess, late: bool } = Code::UnknownName =>
-            say(format!("nothing here is called `{name}`"), "not known").guess(guess, ""),
+        /// - `late`: whether it is read in a scenario, where a child may declare it;
+        /// - `records`: whether it is compared where records are read.
+        NoValue {
+            name: String,
+            guess: Guess,
+            late: bool,
+            records: bool,
+        } = Code::UnknownName => {
+            let said = say(format!("nothing here is called `{name}`"), "not known").guess(guess, "");
+            if said.help.is_some() || !records {
+                said
+            } else {
+                said.help(format!(
+                    "declare it in the scenario: what is counted by `record {name} = count of …`, what is drawn by `let {name} = …`"
+                ))
+            }
+        },
         /// A value of the scenario is used outside of it.
         ///
         /// - `noun`: what uses it, with its article;
@@ -45,7 +59,9 @@ facts! {
         NoFunction { name: String, other: NotAFunction } = Code::UnknownFunction => {
             let said = say(format!("no function is called `{name}`"), "not known");
             match other {
-                NotAFunction::Value => said.help(format!("`{name}` is a value: write it without brackets")),
+                NotAFunction::Value { call } => said
+                    .help(format!("`{name}` is a value: write it without brackets"))
+                    .writing(Some(*call), name),
                 NotAFunction::Item(noun) => said.help(format!("`{name}` is {noun}")),
                 NotAFunction::Foreign(ours) => said.help(format!("did you mean `{ours}`?")),
                 NotAFunction::Unknown(guess) => said.guess(guess, ""),
@@ -76,7 +92,10 @@ facts! {
         } = Code::UnknownMember => {
             let said = say(format!("`{text}` ({noun}) has no property `{name}`"), "not known");
             match like {
-                Like::HasBall => said.help(format!("write `{text} has ball`")),
+                Like::HasBall { whole } => {
+                    let written = format!("{text} has ball");
+                    said.help(format!("write `{written}`")).writing(Some(*whole), written)
+                }
                 Like::Velocity => said.help(format!("write `{text}.velocity`, or `{text}.speed`")),
                 Like::Place => said.help(format!("write `{text}` for its place, or `{text}.x` and `{text}.y`")),
                 Like::Other(guess) => said.guess(guess, "it has"),
@@ -382,8 +401,8 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
 /// What has the name of a function that there is not.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum NotAFunction {
-    /// A value.
-    Value,
+    /// A value; `call`: with its brackets.
+    Value { call: Span },
     /// Another item, with its article.
     Item(&'static str),
     /// A function of another language, which is called so here.
@@ -395,8 +414,8 @@ pub(crate) enum NotAFunction {
 /// What a property that there is not may stand for.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Like {
-    /// A question for possession.
-    HasBall,
+    /// A question for possession; `whole`: with what it is asked of.
+    HasBall { whole: Span },
     /// The velocity by its parts.
     Velocity,
     /// The place.

@@ -4,7 +4,6 @@ use super::facts;
 use crate::problem::said::{Said, say};
 use crate::problem::{Code, Guess};
 use crate::source::Span;
-use setpiece_scenario::vocabulary::Action;
 
 facts! {
     /// Facts about syntax.
@@ -54,27 +53,20 @@ facts! {
                 said.help(format!("the roles are {}", guess.known.join(", ")))
             }
         },
-        /// A state of the match where an event is wanted.
-        StateNoEvent { name: String } = Code::UnknownEvent =>
-            say(format!("`{name}` is a state, no event"), "lasts").help(format!("write `when {name}`")),
-        /// A condition of what changes where an event is wanted.
-        ChangeNoEvent { name: String } = Code::UnknownEvent =>
-            say(format!("`{name} changes` is a condition, no event"), "a value").help(match name.as_str() {
-                "round" => "write `when round_elapsed == 1 step`: the first step of every round".to_owned(),
-                _ => format!("write `when {name} changes`"),
-            }),
-        /// Behind `on`, a property of a player; `action`: which one, if it is an action.
-        PropertyNoEvent {
-            name: String,
-            doer: String,
-            action: Option<Action>,
-        } = Code::UnknownEvent =>
-            say(format!("`{name}` is a property of a player, no event"), "read at every step").help(
-                match action {
-                    Some(action) => format!("write `when {doer}.{name} == {action}`"),
-                    None => format!("write `when {doer}.{name}`"),
-                },
-            ),
+        /// A state of the match where an event is wanted; `when`: what stands for `on` and it.
+        StateNoEvent { name: String, when: String } = Code::UnknownEvent =>
+            say(format!("`{name}` is a state, no event"), "lasts").help(format!("write `{when}`")),
+        /// A condition of what changes where an event is wanted; `when`: what stands for `on` and
+        /// it.
+        ChangeNoEvent { name: String, when: String } = Code::UnknownEvent => {
+            let which = if name == ROUND { ": the first step of every round" } else { "" };
+            say(format!("`{name} changes` is a condition, no event"), "a value")
+                .help(format!("write `{when}`{which}"))
+        },
+        /// Behind `on`, a property of a player; `when`: what stands for both.
+        PropertyNoEvent { name: String, when: String } = Code::UnknownEvent =>
+            say(format!("`{name}` is a property of a player, no event"), "read at every step")
+                .help(format!("write `{when}`")),
         /// Digits with `_` between them.
         DigitsAlone { number: String, rest: String } = Code::Syntax =>
             say(format!("`{number}{rest}` is no number"), "digits alone")
@@ -126,6 +118,9 @@ facts! {
         TooDeep = Code::TooDeep => say("this is nested too deeply", "too deep from here").help(NAME_PARTS),
     }
 }
+
+/// What changes when a round begins, as authors write it.
+pub(crate) const ROUND: &str = "round";
 
 const NAME_PARTS: &str = "give parts of it names with `let` or `fn`";
 

@@ -5,7 +5,7 @@ use super::value::{LiteralFrame, Scope};
 use super::{Lower, ProgramStage};
 use crate::problem::facts::{Because, Never};
 use setpiece_scenario::pitch::{STEPS_PER_S, X_SCALE_M, Y_SCALE_M};
-use setpiece_scenario::vocabulary::{EventKind, Field, Qualifier, Rule, Team};
+use setpiece_scenario::vocabulary::{EventKind, Field, PitchMeasure, Qualifier, Rule, Team};
 use setpiece_scenario::{BinaryOp, EventFilter, Instr, Over, Reg, UnaryOp, Who};
 use std::cell::Cell;
 
@@ -100,6 +100,20 @@ impl Lower<'_, '_> {
         })
     }
 
+    /// How far the goal lines and touchlines lie from the centre at most, metres, if that is known.
+    fn reach(&self) -> Option<[f64; 2]> {
+        let step = self.step?;
+        self.world.tentatively(|| {
+            let scope = Scope::new(true, LiteralFrame::World);
+            let mut lower = Lower::in_step(step, ProgramStage::Ending, scope);
+            let mut most = |measure: PitchMeasure| {
+                let line = lower.pitch_length(measure);
+                Some(interval::interval(&lower.code, line, &self.world.ranges())?.1)
+            };
+            Some([most(PitchMeasure::HalfLength)?, most(PitchMeasure::HalfWidth)?])
+        })
+    }
+
     /// Why a condition never holds: the event that never happens, or the one thing that it looks
     /// at.
     pub(crate) fn why_never(&self, guard: Reg) -> Never {
@@ -144,7 +158,7 @@ impl Lower<'_, '_> {
             }
             _ => false,
         });
-        let places = if is_normalised { Because::Places } else { Because::Metres };
+        let places = if is_normalised { Because::Places } else { Because::Metres(self.reach()) };
         let all = [
             (reads(PLACES), Some(places)),
             (reads(&[Field::BallVx, Field::BallVy, Field::BallVz]), Some(Because::BallSpeed)),

@@ -8,7 +8,9 @@ use crate::lower::value::Repr;
 use crate::problem::Guess;
 use crate::problem::facts::{Instead, Plans as Facts};
 use setpiece_scenario::plan::{self, Comparison, Measure, Quantity};
-use setpiece_scenario::vocabulary::{MeasureWord, QuantityWord};
+use setpiece_scenario::vocabulary::{
+    EventKind, MeasureWord, Owner, PROPERTIES, QuantityWord, Type,
+};
 use setpiece_scenario::{LIMIT, ROUNDS, Reward, Scenario};
 
 /// What can be measured.
@@ -224,6 +226,12 @@ impl<'w> Planner<'_, 'w> {
         if scenario.endings.round.is_some() {
             known.push(ROUNDS);
         }
+        if let Some(seen) = seen(outcome).filter(|_| !known.contains(&outcome)) {
+            let (scenario, name) = (scenario.name.clone(), outcome.to_owned());
+            let known = known.iter().map(|known| (*known).to_owned()).collect();
+            self.report(at.span, Facts::NoOutcome { scenario, name, known, seen });
+            return None;
+        }
         self.known("outcome", at, &known, scenario)?;
         Some(outcome.to_owned())
     }
@@ -243,6 +251,15 @@ impl<'w> Planner<'_, 'w> {
         self.report(name.span, Facts::NoSuch { scenario, what, name: name.node.clone(), guess });
         None
     }
+}
+
+/// How a record notes what a match has under a name: a condition or an event.
+fn seen(name: &str) -> Option<String> {
+    let of_match = PROPERTIES.iter().filter(|property| property.owner == Owner::Match);
+    if of_match.filter(|property| property.ty == Type::Bool).any(|property| property.name == name) {
+        return Some(format!("ever({name})"));
+    }
+    EventKind::from_name(name).map(|kind| format!("count of {kind}"))
 }
 
 /// Whether a name is that of a record. (The name of a reward's term has a `/`, so it is a string.)

@@ -75,6 +75,22 @@ facts! {
             guess: Guess,
         } = Code::UnknownName =>
             say(format!("`{scenario}` has no {what} `{name}`"), "not known").guess(guess, "it has"),
+        /// A scenario has no such outcome, but its match has something of this name.
+        ///
+        /// - `known`: its outcomes;
+        /// - `seen`: how a record notes it.
+        NoOutcome {
+            scenario: String,
+            name: String,
+            known: Vec<String>,
+            seen: String,
+        } = Code::UnknownName => {
+            let known = known.join("`, `");
+            say(format!("`{scenario}` has no outcome `{name}`"), "no ending is called so")
+                .help(format!(
+                    "it has `{known}`; for what happens on the way write `record seen = {seen}` in the scenario, and here `expect max(record seen) == 0`"
+                ))
+        },
         /// The brackets of a measure hold something else.
         MeasureForm { name: String, form: &'static str } = Code::WrongArguments =>
             say(format!("`{name}` is not measured like this"), "").help(format!("write `{form}`")),

@@ -4,7 +4,8 @@ use super::facts;
 use crate::problem::Code;
 use crate::problem::said::say;
 use crate::source::Span;
-use setpiece_scenario::vocabulary::{EventKind, Rule, Team};
+use setpiece_scenario::PitchSize;
+use setpiece_scenario::vocabulary::{EventKind, PitchMeasure, Rule, Team};
 
 facts! {
     /// Facts about rewards, endings and observations.
@@ -111,8 +112,9 @@ pub(crate) enum Never {
 pub(crate) enum Because {
     /// Coordinates on the pitch.
     Places,
-    /// Coordinates in metres.
-    Metres,
+    /// Coordinates in metres; how far the pitch's goal lines and touchlines lie from the centre at
+    /// most, if that is known.
+    Metres(Option<[f64; 2]>),
     /// The ball's velocity.
     BallSpeed,
     /// A player's velocity.
@@ -165,8 +167,17 @@ impl Because {
             Because::Places => {
                 "x lies between about -1 and 1, y between -0.42 and 0.42; metres are `ball.metres.x > 20m`"
             }
-            Because::Metres => {
-                "on the usual pitch x lies between about -54m and 54m, y between -35m and 35m"
+            Because::Metres(None) => {
+                "on this pitch x lies between the goal lines, y between the touchlines"
+            }
+            Because::Metres(Some([x, y])) => {
+                let usual = PitchSize::USUAL;
+                let [length, width] = [PitchMeasure::HalfLength, PitchMeasure::HalfWidth];
+                let is_usual = x == usual.measure(length) && y == usual.measure(width);
+                let pitch = if is_usual { "the usual" } else { "this" };
+                return format!(
+                    "on {pitch} pitch x lies between about -{x:.0}m and {x:.0}m, y between -{y:.0}m and {y:.0}m"
+                );
             }
             Because::BallSpeed => "no ball flies as fast",
             Because::PlayerSpeed => "nobody runs as fast",

@@ -57,6 +57,35 @@ pub struct ScriptNames<'a> {
     pub terms: &'a [&'a str],
 }
 
+impl ScriptNames<'_> {
+    /// How a function reads what the text around a script calls by a name.
+    ///
+    /// - `position`: the name's, in the script.
+    fn read_as(&self, source: &str, position: Position, name: &str) -> Option<String> {
+        if self.params.contains(&name) {
+            return Some(format!("ctx.params.{name}"));
+        }
+        let is_named = self.others.contains(&name);
+        is_named.then(|| {
+            let before = source.get(..position_offset(source, position)).unwrap_or_default();
+            let head = before.rsplit_once("fn ").map_or("", |(_, function)| function);
+            let head = head.split(')').next().unwrap_or_default();
+            let mut words = head.split(|sign: char| !sign.is_alphanumeric() && sign != '_');
+            // What a hook without the state has, as `reset`, is its context.
+            let of = if words.any(|word| word == "now") { "now" } else { "ctx" };
+            format!("{of}.named.{name}")
+        })
+    }
+
+    /// What to write for a call of what the text around a script calls by a name.
+    fn called_as(&self, source: &str, position: Position, name: &str) -> Option<String> {
+        let read = self.read_as(source, position, name)?;
+        Some(format!(
+            "write `{read}.at(…)` of a table, `{read}.contains(…)` of a region, and `{read}` of a value"
+        ))
+    }
+}
+
 /// The most problems reported per script, because finding the place of each scans the script from
 /// its beginning.
 const FAULTS_MAX: usize = 100;
@@ -83,7 +112,7 @@ pub fn check_script(
         named.collect()
     };
     let mut faults = match host::read(source) {
-        Err(error) => vec![unread(source, hook, &error)],
+        Err(error) => vec![unread(source, hook, known, &error)],
         Ok(ast) => {
             let mut faults: Vec<ScriptFault> = check_hook(source, hook, &ast).into_iter().collect();
             faults.extend(check_reset(source, &ast));
@@ -96,7 +125,7 @@ pub fn check_script(
     for (at, (module, ast)) in modules.iter().zip(&asts).enumerate() {
         let source = module.source.as_str();
         let own = match ast {
-            Err(error) => vec![unread(source, hook, error)],
+            Err(error) => vec![unread(source, hook, known, error)],
             Ok(ast) => {
                 let aliases = aliases(&module.name, source, ast);
                 check_text(source, hook, *known, ast, aliases, Vec::new())
@@ -125,12 +154,14 @@ fn shared(ast: &AST) -> Vec<(String, usize)> {
 }
 
 /// Why a text can't be read.
-fn unread(source: &str, hook: &str, error: &ParseError) -> ScriptFault {
+fn unread(source: &str, hook: &str, known: &ScriptNames<'_>, error: &ParseError) -> ScriptFault {
     let start = position_offset(source, error.position());
     let (kind, help) = match error.err_type() {
         ParseErrorType::VariableUndefined(name) => {
             let arguments = hook_arguments(hook).unwrap_or_default().iter().map(|(name, _)| *name);
-            (ScriptFaultKind::Name, suggest(name, arguments.chain(["this"])))
+            let help =
+                known.read_as(source, error.position(), name).map(|read| format!("write `{read}`"));
+            (ScriptFaultKind::Name, help.or_else(|| suggest(name, arguments.chain(["this"]))))
         }
         ParseErrorType::ModuleUndefined(_) => (ScriptFaultKind::Name, Some(WRITTEN.to_owned())),
         _ => (ScriptFaultKind::Syntax, None),

@@ -302,7 +302,9 @@ impl<'a> Names<'a> {
         }
         if api::functions().all(|known| known != name) {
             let own = self.own_functions.iter().map(|own| own.0.as_str());
-            let help = suggest(name, api::functions().map(|known: &str| known).chain(own));
+            let known = api::functions().map(|known: &str| known).chain(own);
+            let called = self.known.called_as(self.source, position, name);
+            let help = called.or_else(|| suggest(name, known));
             self.push(position, format!("unknown function `{name}`"), help);
         }
     }
@@ -413,7 +415,11 @@ impl<'a> Names<'a> {
                 help = help.or_else(|| Some(NAMED_HELP.to_owned()));
                 format!("nothing that a script can read here is called `{name}`")
             }
-            Some(of) => format!("{} has no property `{name}`", of.words()),
+            Some(of) => {
+                let is_named = of == Subject::State && self.known.others.contains(&name);
+                help = is_named.then(|| format!("write `named.{name}`")).or(help);
+                format!("{} has no property `{name}`", of.words())
+            }
             None => format!("unknown property `{name}`"),
         };
         self.push(position, message, help);

@@ -203,7 +203,7 @@ fn an_observed_value_is_called_the_same_in_every_layout() {
                 end limit 20 steps
             }}"
         );
-        environment(&text).observed_names().to_vec()
+        environment(&text).observed_names().clone()
     };
     let names = ["count(p in them where p.x > 0)", "ball - me.x", "ball - me.y", "min(1, 2)"];
     assert_eq!(

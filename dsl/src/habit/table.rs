@@ -523,9 +523,4 @@ pub(super) const HABITS: &[Habit] = &[
         "repeat … | has¦in¦changes¦==¦!=¦<¦>¦<=¦>=¦and¦or¦{",
         "write `repeat until …`, or `repeat 3 times`",
     ),
-    row(
-        Team,
-        "^ | _ ROLE",
-        "a name stands before a colon: `{1}: {2} …`; how many is a number of digits, as in `2 {2}`",
-    ),
 ];

@@ -34,7 +34,10 @@ impl Reader<'_> {
             .map(Finding::new)
             .or_else(|| if outside { None } else { self.role_or_keyword(&wrong, word) })
             .or_else(|| self.reserved_name(&wrong, word).map(Finding::new))
-            .unwrap_or_else(|| Finding::new(self.expected(&wrong, wrong.form())))
+            .unwrap_or_else(|| {
+                let hint = wrong.named_role().unwrap_or_else(|| wrong.form());
+                Finding::new(self.expected(&wrong, hint))
+            })
     }
 
     /// A habit of another language, at the place where nothing fits or at the junk's beginning.
@@ -258,6 +261,17 @@ impl Wrong<'_> {
             (_, first, _) => self.context.form(first),
         };
         form.map_or(Hint::None, Hint::Form)
+    }
+
+    /// A word right before a role: the player's name, or their number by a parameter.
+    fn named_role(&self) -> Option<Hint> {
+        let at = self.token_at();
+        let (_, role) = self.tokens.get(at).filter(|(_, word)| Role::from_name(word).is_some())?;
+        let is_first = self.context == Context::Team && at == self.first + 1;
+        let (_, name) = self.tokens.get(self.first).filter(|_| is_first)?;
+        Some(Hint::Habit(format!(
+            "a name stands before a colon: `{name}: {role} …`; how many is a number of digits, as in `2 {role}`"
+        )))
     }
 
     /// A lone word could always have been an option's key or a state: the word is the news, not the

@@ -6,9 +6,9 @@
 //!
 //! - [`movement`] (with `stride` and [`pace`]), [`separation`] and [`mod@frame`] move bodies.
 //! - [`reach`] computes who is at the ball first.
-//! - [`touch`] (with `dribble` and `first_touch`), [`duel`], [`slide`], [`kick`] (with [`pass`] and
-//!   [`shot`]) and [`keeper`] play the ball, which may also [`bounce`] off a body. [`contact`]
-//!   decides what that means.
+//! - [`touch`] (with `dribble`, `dribble_motion` and `first_touch`), [`duel`], [`slide`], [`kick`]
+//!   (with [`pass`] and [`shot`]) and [`keeper`] play the ball, which may also [`bounce`] off a
+//!   body. [`contact`] decides what that means.
 //! - [`referee`], [`offside`] and [`foul`] let the [`whistle`] stop play, [`advantage`] lets it
 //!   run, and [`mod@restart`] resumes it.
 //! - [`set_piece`] and [`lineup`] decide who stands where, and [`switching`] which player each
@@ -22,6 +22,7 @@ mod carry;
 pub mod clock;
 pub mod contact;
 mod dribble;
+mod dribble_motion;
 pub mod duel;
 pub mod fatigue;
 mod first_touch;

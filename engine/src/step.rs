@@ -17,8 +17,7 @@ use setpiece_scenario::vocabulary::Action;
 /// Builds the match of a drawn start, ready for its first step.
 pub fn begin(drawn: &Drawn) -> Match {
     let mut game = begin::begin(drawn);
-    // Each agent's first action is for the player that the start gives it, wherever the ball is.
-    // (GRF's.)
+    // An agent is first shown the player of a certain place, wherever the ball is. (GRF's.)
     look_ahead(&mut game);
     game
 }
@@ -35,11 +34,21 @@ fn look_ahead(game: &mut Match) {
     reach::assess(game);
 }
 
+/// What comes before the actions of a match's first step: a start gives the ball's player to an
+/// agent who has already been shown another. (GRF's.)
+pub fn hand_over(game: &mut Match) {
+    switching::update(game);
+    begin::stagger(game);
+}
+
 /// Plays one step of 100 ms: `actions[i]` is slot i's, in the own frame of its team. Returns early
 /// if play stops (`Match::dead`), so that goals and balls out of play are judged where they
 /// happened.
 pub fn play(game: &mut Match, actions: &[Action], events: &mut Events, scratch: &mut Scratch) {
     let from = game.tick;
+    if from == 0 {
+        hand_over(game);
+    }
     if !game.dead {
         control::command(game, actions, events);
         scratch.laps().end(Phase::Bots);
@@ -55,9 +64,6 @@ pub fn play(game: &mut Match, actions: &[Action], events: &mut Events, scratch: 
         scratch.laps().end(Phase::Movement);
     }
     clock::end_step(game, events);
-    if from == 0 && !game.dead {
-        switching::after_first_step(game);
-    }
 }
 
 /// Continues after a judged step. If play was stopped, it is restarted (ball and players are

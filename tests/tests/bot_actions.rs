@@ -109,7 +109,7 @@ fn who_presses_what_the_bot_would_scores_about_as_it_does() {
 fn what_the_bot_would_press_is_what_is_recorded_when_it_plays() {
     let (mut environment, mut scratch) = (written(THREE), Scratch::default());
     let (mut kicks, mut compared) = (0, 0);
-    for index in 0..20 {
+    for index in 0..60 {
         environment.reset(Some(1), Some(index)).unwrap();
         while environment.is_running() {
             let before = environment.digest();

@@ -68,11 +68,14 @@ fn the_ball_of_a_start_is_pushed_off_at_once_from_close_by_and_else_at_a_moment_
         };
         (0..40).map(step).collect()
     };
-    let further = first_touch("academy_run_to_score", Action::BottomRight);
-    assert!(further.contains(&2) && further.contains(&3), "{further:?}");
-    assert!(further.iter().all(|step| (1..=4).contains(step)), "{further:?}");
-    for key in [Action::BottomRight, Action::Right] {
-        assert!(first_touch("academy_3_vs_1_with_keeper", key).iter().all(|&step| step == 0));
+    let near = "academy_3_vs_1_with_keeper";
+    assert!(first_touch(near, Action::Right).iter().all(|&step| step == 0));
+    // Who turns with the ball comes up to it first.
+    let turned = [(near, Action::BottomRight), ("academy_run_to_score", Action::BottomRight)];
+    for (scenario, key) in turned {
+        let steps = first_touch(scenario, key);
+        assert!(steps.contains(&2) && steps.contains(&3), "{scenario}: {steps:?}");
+        assert!(steps.iter().all(|step| (1..=4).contains(step)), "{scenario}: {steps:?}");
     }
 }
 
@@ -137,8 +140,8 @@ fn a_shot_asked_for_in_time_is_struck_first_time() {
     };
     let first_time = |steps: &[usize]| steps.iter().filter(|&&step| step <= 2).count();
     let (early, late) = (steps_to_shot(4, 0), steps_to_shot(0, 2));
-    assert!(first_time(&early) >= 15, "{early:?}");
-    assert!(first_time(&late) == 0 && late.len() > 30, "{late:?}");
+    assert!(first_time(&early) >= 12, "{early:?}");
+    assert!(first_time(&late) == 0 && late.len() > 20, "{late:?}");
 }
 
 /// A runner and a defender in their way; `difficulty` is the defender's.
@@ -193,7 +196,7 @@ fn a_defender_stops_for_a_ball_that_rolls_up() {
         let matches = played(&mut environment, *episode, |step| {
             if step == 1 { Action::Sprint } else { Action::Right }
         });
-        matches.iter().any(|game| game.players[12].body.lunge.is_some_and(|lunge| lunge.stops))
+        matches.iter().any(|game| game.players[12].body.lunge.is_some_and(|lunge| lunge.stops()))
     };
     let stopped = (0..20).filter(stops).count();
     assert!(stopped >= 10, "{stopped} of 20");
@@ -247,7 +250,7 @@ fn the_nearest_defender_comes_forward_to_the_ball_of_a_start() {
         start - matches.iter().take(15).map(|game| game.players[14].pos.x).fold(f32::MAX, f32::min)
     };
     let forward: Vec<f32> = (0..20).map(&mut forward).collect();
-    assert!(forward.iter().all(|metres| *metres > 0.8), "{forward:?}");
+    assert!(forward.iter().all(|metres| *metres > 0.6), "{forward:?}");
 }
 
 #[test]
@@ -317,7 +320,7 @@ fn the_swing_of_a_shot_brakes_the_runner() {
     let pace = |step: usize| matches[step].players[1].vel.length();
     let leaves = kicked_at(&matches, 12).unwrap();
     assert!(pace(11) > 4.8, "{}", pace(11));
-    assert!(pace(leaves + 1) < 4.3, "{} after the kick at {leaves}", pace(leaves + 1));
+    assert!(pace(leaves + 3) < 4.0, "{} after the kick at {leaves}", pace(leaves + 3));
     assert!(pace(leaves + 14) > 6.5, "{} later", pace(leaves + 14));
 }
 

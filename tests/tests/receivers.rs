@@ -113,7 +113,7 @@ fn the_passer_of_a_goal_is_paid() {
     let near = ASSISTED.replace("(0.72, 0.1)", "(0.86, 0)").replace("(0.7, 0.1)", "(0.84, 0)");
     let (assisted, _) = goals(ASSISTED);
     let (_, alone) = goals(&near);
-    assert!(assisted > 3 && alone > 3, "{assisted} goals with an assist, {alone} without");
+    assert!(assisted > 2 && alone > 2, "{assisted} goals with an assist, {alone} without");
 }
 
 /// Plays episodes and checks what they pay; how many had a goal with an assist, and one without.
@@ -121,7 +121,7 @@ fn goals(text: &str) -> (u32, u32) {
     let mut environment = environment(text);
     let mut scratch = Scratch::default();
     let (mut assisted, mut alone) = (0, 0);
-    for index in 0..80 {
+    for index in 0..160 {
         environment.reset(Some(5), Some(index)).unwrap();
         let mut history: Vec<Event> = Vec::new();
         while environment.is_running() {

@@ -96,7 +96,7 @@ fn hold(game: &mut Match, view: &TeamView, id: PlayerId) {
 fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
     let now = game.tick as i32;
     let lunge = game.player(id).body.lunge;
-    if lunge.is_some_and(|lunge| lunge.aim == Aim::Kick && lunge.at >= now) {
+    if lunge.is_some_and(|lunge| lunge.aim() == Some(Aim::Kick) && lunge.at >= now) {
         return;
     }
     let has_ball = view.owner == Some(id);

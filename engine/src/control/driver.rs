@@ -14,13 +14,11 @@ use setpiece_scenario::vocabulary::{Action, GameMode, Role};
 /// A lower pace counts as standing, share of a sprint; chosen.
 const STILL: f32 = 0.1;
 
-/// The share of their speed that a player on the ball keeps per stride while a kick is requested
-/// (GRF's), and strides per step.
+/// The share of the pace that they want that a player on the ball has while a kick is requested.
+/// (GRF's.)
 const BRAKED: f32 = 0.9;
-const STRIDES: f32 = 0.4;
-/// The same per step while the leg swings, and while it follows through. Measured.
-const SWINGING: f32 = 0.89;
-const FOLLOWING: f32 = 0.93;
+/// The share of their speed that they keep per step while a leg follows through. Measured.
+const FOLLOWING: f32 = 0.88;
 
 /// What an agent holds.
 #[derive(Clone, Copy, Debug)]
@@ -86,15 +84,14 @@ pub fn drive(
         plan.held = kind == Some(plan.kind);
         plan.dir = direction;
     }
-    let turns = (game.tick as i32) < body.turned_at;
-    let waits = body.kick.is_some() && game.play.set_piece.is_none() && !turns;
+    let waits = body.kick.is_some() && game.play.set_piece.is_none();
     let swings = body.kick.is_some_and(|plan| plan.swing.is_some()) && waits;
     let follows = (game.tick as i32) < body.follows_until;
     let kicks = follows || swings && has_ball;
     let wish = if kicks {
-        player.vel * if follows { FOLLOWING } else { SWINGING }
+        player.vel * if follows { FOLLOWING } else { 1.0 }
     } else if waits && has_ball {
-        braked(&player, direction)
+        braked(&player, direction, gait)
     } else {
         direction.unwrap_or(Vec2::ZERO) * gait
     };
@@ -140,12 +137,12 @@ pub fn drive(
 
 /// The velocity of a player on the ball while a kick is requested. They keep their line and brake,
 /// most if another direction is held. (GRF's.)
-fn braked(player: &Player, direction: Option<Vec2>) -> Vec2 {
-    let speed = player.vel.length();
-    let ahead = if speed > 1.0 { player.vel / speed } else { player.body.facing };
+fn braked(player: &Player, direction: Option<Vec2>, gait: f32) -> Vec2 {
+    let ahead = player.vel.normalize_or(player.body.facing);
     let along =
         direction.map_or(1.0, |direction| 0.5 + 0.5 * ahead.dot(direction).clamp(-1.0, 1.0));
-    ahead * (speed * libm::powf(BRAKED * (0.2 + 0.8 * libm::powf(along, 1.5)), STRIDES))
+    let most = gait * BRAKED * (0.2 + 0.8 * libm::powf(along, 1.5));
+    ahead * player.vel.length().min(most)
 }
 
 /// Presses the key of a kick. Returns whether that requests the kick, or changes the requested one.

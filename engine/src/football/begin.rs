@@ -14,12 +14,17 @@ use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{GameMode, PitchMeasure, Role, Rule, StartKind, Stat, Team};
 
-/// Ticks before the ball of a start can be touched; the stream of chance picks one. Measured.
-const FIRST_TICKS: std::ops::Range<f32> = 18.0..42.0;
 /// A player sets off at most this many ticks later than they could. Measured.
 const SET_OFF_TICKS: f32 = 18.0;
-/// A player this near to the ball of a start has it at once, metres; chosen.
-const AT_BALL_M: f32 = 0.75;
+/// How far players are put aside before the first step, metres: more than what they drift aside on
+/// a few metres of their run.
+const HAIR_M: f32 = 8.0e-6;
+/// The first at a ball nearer than this waits, metres. Measured.
+const NEAR_M: f32 = 1.3;
+/// Who goes for the ball of a start needs no tick to set off: as if they had spent these on it.
+const OFF_TICKS: i8 = 3;
+/// How many ticks after they set off a player can touch the ball of a start. Measured.
+const FIRST_TICKS: i32 = 18;
 
 /// Builds the match of a drawn start, before its first step is prepared.
 pub fn begin(drawn: &Drawn) -> Match {
@@ -38,10 +43,6 @@ pub fn begin(drawn: &Drawn) -> Match {
         body.facing = start.heading_rad.map_or(to_ball, crate::math::unit);
         player.body = body;
         player.heading_rad = start.heading_rad.unwrap_or_else(|| crate::math::heading(to_ball));
-    }
-    let first = FIRST_TICKS.start + (FIRST_TICKS.end - FIRST_TICKS.start) * noise::roll(&mut game);
-    for player in &mut game.players {
-        player.body.ready_at = first as i32;
     }
     lineup::assign_slots(&mut game);
     game.play.others = drawn.others;
@@ -121,19 +122,33 @@ pub(crate) fn blank(drawn: &Drawn) -> Match {
     }
 }
 
-/// Delays when each player sets off, by chance.
+/// Delays when each player sets off, by chance, and when they can touch the ball.
 ///
-/// Two players set off at once: the one who has the ball at their feet, and, of the team that is
-/// later at the ball, the one who goes for it. (Measured.)
+/// Who goes for the ball sets off at once, unless it lies right in front of the first at it.
+/// (Measured.)
 fn set_off(game: &mut Match) {
     let first = reach::first(game);
+    let ball = game.ball.pos.truncate();
     for id in game.order() {
         let waits = (noise::roll(game) * SET_OFF_TICKS) as i8;
-        let far =
-            game.player(id).pos.distance_squared(game.ball.pos.truncate()) > AT_BALL_M * AT_BALL_M;
         let goes = game.play.chaser[id.team().index()] == Some(id);
-        if far && (!goes || first == Some(id)) {
-            game.players[id.index()].body.lag_ticks = -waits;
+        let near = game.player(id).pos.distance_squared(ball) < NEAR_M * NEAR_M;
+        let waits = if goes && !(near && first == Some(id)) { 0 } else { waits };
+        let body = &mut game.players[id.index()].body;
+        body.lag_ticks = if goes { OFF_TICKS - waits } else { -waits };
+        body.ready_at = FIRST_TICKS + i32::from(waits);
+    }
+}
+
+/// Puts everybody but the agents' players a hair to one side, by chance.
+///
+/// It is invisible. But a player on the border between two pixels of a map falls into either, as in
+/// GRF, where rounding decides.
+pub fn stagger(game: &mut Match) {
+    for id in game.order() {
+        let aside = if noise::roll(game) < 0.5 { -HAIR_M } else { HAIR_M };
+        if !switching::controlled(game, id) {
+            game.players[id.index()].pos.y += aside * id.team().side() as f32;
         }
     }
 }

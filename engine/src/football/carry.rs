@@ -2,10 +2,11 @@
 //! opponents close by.
 
 use crate::football::dribble;
-use crate::football::pace::{DRIBBLE_MPS, RUN_MPS, SPRINT_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
+use crate::football::pace::{RUN_MPS, SPRINT_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::math;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::PitchSize;
 use setpiece_scenario::vocabulary::Stat;
 
 /// The power that turns the way to the next touch into the speed of this one. (GRF's.)
@@ -20,18 +21,28 @@ const ANNOYS_M: std::ops::Range<f32> = 0.5..1.5;
 const ANNOYED_M: f32 = 3.0;
 /// Where and when a runner meets the ball again. `FRONT_M`, `FRONT_S`: how far ahead, in metres and
 /// in seconds of the runner's speed. `AGAIN_S`: after how many seconds at rest, and how many more
-/// at a sprint. (GRF's.) `STEP_S`: how long the step of a touch lasts. `TOUCH_S`: the time from it
-/// to the next touch.
+/// at a sprint. (GRF's.) `STEP_S`: how long the step of a touch lasts. `NEXT_S`: the time from its
+/// end to the next touch.
 const FRONT_M: f32 = 0.34;
 const FRONT_S: f32 = 0.08;
 const AGAIN_S: [f32; 2] = [0.25, 0.6];
 const STEP_S: f32 = 0.12;
-const TOUCH_S: f32 = 0.2;
-/// How fast whoever stands comes out of the step of a touch, and how much less faster one does for
-/// each m/s of their run below that; by how much a runner speeds up in it, m/s. (GRF's gaits.)
-const OFF_MPS: f32 = DRIBBLE_MPS;
-const GETS_OFF: f32 = 0.5;
-const SPEEDS_UP_MPS: f32 = 1.0;
+const NEXT_S: f32 = 0.08;
+/// How fast whoever stands comes out of the step of a touch, and how long it then lasts; by how
+/// much a runner speeds up in it, m/s. (GRF's motions.)
+const OFF_MPS: f32 = 3.2;
+const OFF_S: f32 = 0.2;
+const SPEEDS_UP_MPS: f32 = 0.6;
+/// From which speed on a ball that is pushed on hops, m/s; how fast it then rises for each m/s
+/// above that; and at most, m/s. Fitted to how far sprinters' balls run: below that speed, backspin
+/// takes what the hop saves.
+const HOPS_FROM_MPS: f32 = 6.5;
+const HOP: f32 = 0.5;
+const HOP_MOST_MPS: f32 = 1.5;
+/// A player slower than this has come to a stand, m/s. The share of their body's way, beside the
+/// wanted one, in where the ball goes: of their own ball, and of another. (GRF's.)
+const STANDS_MPS: f32 = 1.8;
+const BY_BODY: [f32; 2] = [0.7, 0.9];
 /// How much faster than at the end of that step a walker and a sprinter want to be, m/s. (GRF's.)
 const HASTE_MPS: [f32; 2] = [0.6, 1.2];
 /// A sprinter pushes the ball harder by this share, in full from `FASTEST_MPS` on. (GRF's.)
@@ -51,8 +62,9 @@ pub(super) fn as_skilled(game: &Match, id: PlayerId, velocity: Vec2, speed: f32)
 pub(super) fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f32) -> Vec2 {
     let own = player.vel.dot(ahead).max(0.0);
     let wanted = speed.min(player.body.speed_top_mps);
-    let end =
-        (own + if own < OFF_MPS { OFF_MPS - GETS_OFF * own } else { SPEEDS_UP_MPS }).min(wanted);
+    let (end, step_s) =
+        if own < STANDS_MPS { (OFF_MPS, OFF_S) } else { (own + SPEEDS_UP_MPS, STEP_S) };
+    let end = end.min(wanted);
     let over = if speed > SPRINTS_FROM_MPS {
         HASTE_MPS[1]
     } else if speed > WALKS_FROM_MPS {
@@ -64,11 +76,71 @@ pub(super) fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f3
     let share = (pace / SPRINT_MPS).min(1.0);
     let until_s = AGAIN_S[0] + AGAIN_S[1] * share * share;
     let way =
-        ahead * (0.5 * (own + end) * STEP_S + pace * until_s + FRONT_M + FRONT_S * pace) - to_ball;
+        ahead * (0.5 * (own + end) * step_s + pace * until_s + FRONT_M + FRONT_S * pace) - to_ball;
     let fast = 1.0 + HARDER * ((pace - RUN_MPS) / (FASTEST_MPS - RUN_MPS)).clamp(0.0, 1.0);
     way.normalize_or_zero()
-        * libm::powf(way.length() / ((until_s + TOUCH_S) * CLOSE * 1.1), WAY_TO_PACE)
+        * libm::powf(way.length() / ((step_s + until_s + NEXT_S) * CLOSE * 1.1), WAY_TO_PACE)
         * fast
+}
+
+/// What a touch of a motion is for.
+pub(super) struct Carry {
+    /// The velocity that the player wanted when it began, world m/s.
+    pub(super) wish: Vec2,
+    /// The velocity with which they come out of it, world m/s.
+    pub(super) to: Vec2,
+    /// Ticks from the touch to its end.
+    pub(super) rest: u8,
+    /// Whether it is their first touch of this ball.
+    pub(super) first: bool,
+}
+
+/// The velocity of the touch of a motion, after which its player meets the ball again. (GRF's.)
+///
+/// `owns`: whether the ball was theirs already. `lines`: the pitch that the ball is kept on.
+pub(super) fn touched(
+    player: &Player,
+    to_ball: Vec2,
+    carry: &Carry,
+    owns: bool,
+    lines: Option<&PitchSize>,
+) -> Vec2 {
+    let Carry { wish, to, rest, first } = *carry;
+    let rest_s = f32::from(rest) * 0.01;
+    let (end, wanted) = (to.length(), wish.length().min(player.body.speed_top_mps));
+    let (way, out) = (wish.normalize_or(player.body.facing), to.normalize_or(player.body.facing));
+    let stands = end < STANDS_MPS;
+    // Who sets off from a standstill for another ball than their own doesn't hurry yet.
+    let sets_off = first && player.vel.length_squared() < STANDS_MPS * STANDS_MPS;
+    let over = match () {
+        () if stands || sets_off => 0.0,
+        () if wanted > SPRINTS_FROM_MPS => HASTE_MPS[1],
+        () if wanted > WALKS_FROM_MPS => HASTE_MPS[0],
+        () => 0.0,
+    };
+    let along = 0.5 + 0.5 * player.body.facing.dot(way);
+    let pace = wanted.max(end).min(end + over * along);
+    let by_body = if stands { 1.0 } else { BY_BODY[usize::from(!owns)] };
+    let share = (pace / SPRINT_MPS).min(1.0);
+    let until_s = AGAIN_S[0] + AGAIN_S[1] * share * share;
+    let place = (player.vel + to) * (0.5 * rest_s)
+        + (out * by_body + way * (1.0 - by_body)) * (pace * until_s)
+        + way * (FRONT_M + FRONT_S * pace);
+    let cut = lines.and_then(|pitch| dribble::within_lines(pitch, player.pos, place));
+    if let Some(cut) = cut {
+        return dribble::stops_at(cut - to_ball);
+    }
+    let place = place - to_ball;
+    let time_s = rest_s + until_s + NEXT_S;
+    let harder = 1.0 + HARDER * ((pace - RUN_MPS) / (FASTEST_MPS - RUN_MPS)).clamp(0.0, 1.0);
+    place.normalize_or_zero()
+        * libm::powf(place.length() / (time_s * CLOSE * 1.1), WAY_TO_PACE)
+        * harder
+}
+
+/// How fast a ball that is pushed on at this velocity rises, m/s.
+pub(super) fn hop_mps(velocity: Vec2) -> f32 {
+    ((velocity.length() - HOPS_FROM_MPS) * HOP).clamp(0.0, HOP_MOST_MPS)
 }
 
 /// Lengthens a touch so that the ball goes this much further, metres. (GRF's: the speed of a touch

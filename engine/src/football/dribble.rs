@@ -1,9 +1,10 @@
-//! The touches of a dribble: pushing the ball ahead, turning with it, and stopping it.
+//! The touches of a dribble that no motion leads to: a ball beside the player, or one that stops.
+//!
+//! `dribble_motion` has the others.
 
-use crate::football::pace::{SETS_OFF_MPS, SPRINTS_FROM_MPS};
+use crate::football::pace::SPRINTS_FROM_MPS;
 use crate::football::{carry, contact};
 use crate::state::event::Events;
-use crate::state::play::ticks_since;
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::PitchSize;
@@ -14,24 +15,11 @@ const FOOT_M: f32 = 0.65;
 pub(super) const SOLE_M: f32 = 1.0;
 /// A player who wants to be slower than this stops the ball, m/s.
 pub(super) const STOPS_MPS: f32 = 0.3;
-/// How far ahead the ball is at a touch (`CARRIED_M`), walking at `WALKS_MPS` and sprinting at
-/// `FAST_MPS`. Measured.
+/// How far ahead of a runner the ball is at a touch (`CARRIED_M`), walking at `WALKS_MPS` and
+/// sprinting at `FAST_MPS`. Measured.
 const WALKS_MPS: f32 = 5.1;
 const FAST_MPS: f32 = 7.5;
 const CARRIED_M: [f32; 2] = [0.36, 0.7];
-/// A ball that rolls slower than this share of the speed that is wanted is pushed on from so far
-/// away, by who walks and by who sprints, metres. Measured.
-const SLOW: f32 = 0.5;
-const EARLY_M: [f32; 2] = [0.72, 0.56];
-/// From how far whoever comes up to a sprint pushes the ball on, metres: below so many m/s, so many
-/// ticks after their last touch. Measured.
-const SPEEDING_M: f32 = 0.68;
-const SPEEDING_MPS: f32 = 6.8;
-const SPEEDING_TICKS: i32 = 45;
-/// For how many ticks a player who has pushed off the ball of a start follows it at that pace, and
-/// how many ticks later they touch it again at the soonest. Measured.
-const OFF_TICKS: i32 = 22;
-const OFF_AGAIN_TICKS: i32 = 31;
 /// How near to a line a dribbler will push the ball, metres.
 const LINE_CARE_M: f32 = 0.3;
 /// Agent-driven players keep the ball on the pitch until they are this close to a line, metres;
@@ -49,46 +37,22 @@ const TURN_MPS2: f32 = 14.0;
 const SHARP: f32 = 0.6;
 /// A turn with a smaller cosine is an about-turn; chosen.
 const ABOUT: f32 = -0.5;
-/// Ticks after a turning touch before a kick can begin. Fitted to how soon kicks leave after such a
+/// Ticks after a turning touch before anything else. Fitted to how soon kicks leave after such a
 /// touch.
 const TURNING_TICKS: i32 = 40;
 /// From this cosine on, the ball already rolls the way the player runs.
 const ALONG: f32 = 0.94;
-/// From which speed on a ball that is pushed on hops, m/s; how fast it then rises for each m/s
-/// above that; and at most, m/s. Fitted to how far sprinters' balls run: below that speed, backspin
-/// takes what the hop saves.
-const HOPS_FROM_MPS: f32 = 6.5;
-const HOP: f32 = 0.5;
-const HOP_MOST_MPS: f32 = 1.5;
 /// Deceleration of a stopping player (`STOP_MPS2`) and of a slow ball (`ROLL_MPS2`), m/s².
 const STOP_MPS2: f32 = 12.0;
 const ROLL_MPS2: f32 = 1.75;
 
-/// How near the ball must be for the dribbler's next touch, metres.
-///
-/// A player who stops reaches far with the sole. One who carries the ball lets it come. One who
-/// turns it doesn't wait.
-pub(super) fn foot_m(game: &Match, player: &Player) -> f32 {
-    let (ball, own, wish) = (game.ball.vel.truncate(), player.vel, player.body.dribble);
-    if wish.length_squared() < STOPS_MPS * STOPS_MPS
-        && own.length_squared() < SPRINTS_FROM_MPS * SPRINTS_FROM_MPS
-    {
-        return SOLE_M;
-    }
-    let along = ball.dot(own) > ALONG * ball.length() * own.length() && wish.dot(own) > 0.0;
-    if !along {
-        return FOOT_M;
-    }
-    let sprints = wish.length_squared() > SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
-    let waited = ticks_since(game.tick, player.body.touched_at) >= SPEEDING_TICKS;
-    if sprints && waited && own.length_squared() < SPEEDING_MPS * SPEEDING_MPS {
-        SPEEDING_M
-    } else if ball.length() < SLOW * wish.length() {
-        // A ball that is slow for where the run is to lead is pushed on early.
-        EARLY_M[usize::from(sprints)]
-    } else {
-        carried_m(own.length())
-    }
+/// How near the ball must be for a touch without a motion, metres. A player who stops reaches far
+/// with the sole.
+pub(super) fn foot_m(player: &Player) -> f32 {
+    let (own, wish) = (player.vel, player.body.dribble);
+    let stops = wish.length_squared() < STOPS_MPS * STOPS_MPS
+        && own.length_squared() < SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
+    if stops { SOLE_M } else { FOOT_M }
 }
 
 /// How far ahead of a runner at this speed the ball is at a touch, metres. Measured.
@@ -115,22 +79,13 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
     if speed < STOPS_MPS {
         return rest(game, events, id);
     }
-    let mut ahead = wish / speed;
+    let ahead = wish / speed;
     let rolling = ball_vel.length();
-    if rolling > 1.0 {
-        let cos = ball_vel.dot(ahead) / rolling;
-        if cos > ALONG
-            && to_ball.dot(ahead) > 0.15
-            && ball_vel.dot(ahead) > player.vel.dot(ahead) + 0.2
-        {
-            return false;
-        }
-        if speed > 6.0 && player.vel.length() > 5.5 && cos < 0.9 && cos > -0.6 {
-            // At a sprint the ball is turned in small angles.
-            let left = if ball_vel.perp_dot(ahead) < 0.0 { -0.45 } else { 0.45 };
-            let on = ball_vel / rolling;
-            ahead = Vec2::new(on.x - on.y * left, on.y + on.x * left).normalize_or_zero();
-        }
+    let rolls_on = ball_vel.dot(ahead) > ALONG * rolling
+        && to_ball.dot(ahead) > 0.15
+        && ball_vel.dot(ahead) > player.vel.dot(ahead) + 0.2;
+    if rolling > 1.0 && rolls_on {
+        return false;
     }
     let care = Care { lines: minds_lines(game, id), lies: rolling < LIES_MPS };
     let velocity = self::ahead(&player, to_ball, ahead, speed, &care);
@@ -144,30 +99,7 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId) -> bool
 /// Pushes the ball on as the player's skill allows. A fast one hops.
 fn push_on(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2, speed: f32) {
     let velocity = carry::as_skilled(game, id, velocity, speed);
-    let hop = ((velocity.length() - HOPS_FROM_MPS) * HOP).clamp(0.0, HOP_MOST_MPS);
-    contact::push(game, events, id, velocity, hop);
-}
-
-/// Pushes the ball of a start off, for a player who has no agent yet: they follow it at that pace
-/// for a while.
-pub(super) fn set_off(game: &mut Match, events: &mut Events, id: PlayerId) {
-    let player = *game.player(id);
-    let to_ball = game.ball.pos.truncate() - player.pos;
-    let speed = player.body.dribble.length();
-    let ahead = player.body.dribble.normalize_or(player.body.facing);
-    let velocity = carry::straight_on(&player, to_ball, ahead, speed);
-    push_on(game, events, id, velocity, speed);
-    let now = game.tick as i32;
-    let player = &mut game.players[id.index()];
-    player.vel = ahead * SETS_OFF_MPS;
-    player.body.ready_at = now + OFF_AGAIN_TICKS;
-}
-
-/// Whether a player still follows the ball of a start that they have pushed off: nothing else rests
-/// as long.
-pub(super) fn sets_off(player: &Player, now: i32) -> bool {
-    let (touched, ready) = (player.body.touched_at, player.body.ready_at);
-    ready == touched + OFF_AGAIN_TICKS && now < touched + OFF_TICKS
+    contact::push(game, events, id, velocity, carry::hop_mps(velocity));
 }
 
 /// Lays the ball where the player will come to a stand, a little ahead; false where it comes to
@@ -205,7 +137,7 @@ fn turns(player: &Player, ahead: Vec2) -> bool {
 pub(super) fn note_turn(game: &mut Match, id: PlayerId, ahead: Vec2) {
     let player = &mut game.players[id.index()];
     if turns(player, ahead) && player.vel.dot(ahead) > ABOUT * player.vel.length() {
-        player.body.turned_at = game.tick as i32 + TURNING_TICKS;
+        player.body.ready_at = player.body.ready_at.max(game.tick as i32 + TURNING_TICKS);
     }
 }
 
@@ -236,21 +168,24 @@ pub(super) fn ahead(
         let beside = (to_ball - ahead * to_ball.dot(ahead)) * BESIDE;
         return carry::straight_on(player, to_ball - beside, ahead, speed);
     }
-    let way = cut.unwrap_or(free) - to_ball;
+    if let Some(cut) = cut {
+        return stops_at(cut - to_ball);
+    }
+    let way = free - to_ball;
     let distance = way.length();
     let average = distance / time;
-    // Near a line the ball must stop there. Otherwise it rolls on until the player meets it.
-    let start = if cut.is_none() {
-        average + 0.5 * (1.7 + 0.06 * average * average) * time
-    } else {
-        libm::sqrtf(2.0 * 1.7 * distance)
-    };
+    let start = average + 0.5 * (1.7 + 0.06 * average * average) * time;
     if distance > 0.01 { way * (start / distance) } else { Vec2::ZERO }
+}
+
+/// The velocity of a ball that rolls this way and stops at its end.
+pub(super) fn stops_at(way: Vec2) -> Vec2 {
+    way.normalize_or_zero() * libm::sqrtf(2.0 * ROLL_MPS2 * way.length())
 }
 
 /// Shortens the way of a touch to stay on the pitch. None if it stays on the pitch, or leaves it
 /// only into a goal.
-fn within_lines(pitch: &PitchSize, pos: Vec2, way: Vec2) -> Option<Vec2> {
+pub(super) fn within_lines(pitch: &PitchSize, pos: Vec2, way: Vec2) -> Option<Vec2> {
     let [x, y] = [pitch.half_length(), pitch.half_width()].map(|half| half as f32 - LINE_CARE_M);
     let to = pos + way;
     let x = if to.y.abs() < pitch.goal_half_width() as f32 { x + 3.0 } else { x };

@@ -3,17 +3,19 @@
 //! A lunge is decided some ticks before the foot meets the ball. It aims at the place where the
 //! ball will be if nobody touches it. If somebody does, the foot arrives beside the ball.
 
+use crate::football::carry::Carry;
 use crate::football::pace::DRIBBLES_FROM_MPS;
 use crate::football::reach_motion::{
     BACK_DEG, KEEPER_POKES, KICKS, RUNNING_POKES, ReachMotion, STANDING_POKES, TAKES, TRAP, motions,
 };
 use crate::football::{
-    bounce, contact, first_touch, forecast, kick, noise, possession, reach, report, slide, touch,
+    bounce, contact, dribble_motion, first_touch, forecast, kick, noise, possession, reach, report,
+    slide, touch,
 };
 use crate::math;
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
-use crate::state::player::{Aim, Intent, Lunge};
+use crate::state::player::{Aim, Intent, Lunge, Motion};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, Role};
@@ -198,7 +200,8 @@ fn lunges(game: &mut Match, id: PlayerId, way: &ReachMotion, aim: Aim, seen: boo
     let now = game.tick as i32;
     let (at, place) = (now + way.ticks, ball.truncate());
     let (out, back) = (way.ticks as u8, (way.lasts - way.ticks) as u8);
-    player.body.lunge = Some(Lunge { at, out, back, place, aim, stops: way.stops });
+    player.body.lunge =
+        Some(Lunge { at, out, back, motion: Motion::Reach { aim, stops: way.stops, place } });
     player.body.ready_at = now + way.lasts;
     true
 }
@@ -242,14 +245,30 @@ fn brakes(velocity: Vec2, seconds: f32) -> Vec2 {
 /// Lets a foot arrive where the ball was expected.
 fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
     let ball = game.ball.pos;
-    let off = ball.truncate().distance(lunge.place) / MISSED_M;
-    let rival = game.on_ball().filter(|rival| rival.team() != id.team());
-    if off >= 1.0 || ball.z > 1.0 || !game.player(id).is_up() || game.play.hands.is_some() {
+    if ball.z > 1.0 || !game.player(id).is_up() || game.play.hands.is_some() {
         return;
     }
+    let (aim, place) = match lunge.motion {
+        Motion::Reach { aim, place, .. } => (aim, place),
+        Motion::Dribble { brakes, out_dmps, wish } => {
+            let to = dribble_motion::out(game.player(id), wish, out_dmps, brakes);
+            dribble_motion::touch(
+                game,
+                events,
+                id,
+                &Carry { wish, to, rest: lunge.back, first: game.last_touch != Some(id) },
+            );
+            return;
+        }
+    };
+    let off = ball.truncate().distance(place) / MISSED_M;
+    if off >= 1.0 {
+        return;
+    }
+    let rival = game.on_ball().filter(|rival| rival.team() != id.team());
     let left = math::smooth(math::smooth(off));
     let before = game.ball.vel;
-    if let (Aim::Kick, Some(plan)) = (lunge.aim, game.player(id).body.kick) {
+    if let (Aim::Kick, Some(plan)) = (aim, game.player(id).body.kick) {
         game.players[id.index()].body.kick = None;
         kick::launch(game, events, id, plan);
         game.ball.vel = game.ball.vel.lerp(before, left);
@@ -257,7 +276,7 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
         return;
     }
     let taken = first_touch::contested(game, id);
-    let velocity = if lunge.aim == Aim::Poke {
+    let velocity = if aim == Aim::Poke {
         let tackler = game.player(id);
         let away = (ball.truncate() - tackler.pos).normalize_or_zero();
         let poked = if tackler.role == Role::GK { KEEPER_MPS } else { POKED_MPS };
@@ -270,7 +289,7 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
         report::did(game, events, EventKind::Tackle, id, Some(rival));
     }
     contact::push(game, events, id, velocity.truncate(), velocity.z);
-    if lunge.aim == Aim::Poke {
+    if aim == Aim::Poke {
         // A poke is no deliberate kick: the keeper may pick it up.
         game.play.kicked_by = None;
     }

@@ -22,6 +22,10 @@ const SETTLED_MPS: f32 = 0.8;
 /// A trapped ball runs ahead at most this much faster than its player, m/s. Measured of standing
 /// players.
 const FOLLOWED_MPS: f32 = 3.6;
+/// A free ball is taken along for at most this pace (`FREE_MPS`), or for one that is so much faster
+/// than the player's own. Fitted to first touches at starts.
+const FREE_MPS: f32 = 5.5;
+const FASTER_MPS: f32 = 2.9;
 /// A ball met faster than this hops off the body that takes it, m/s; chosen.
 const HOPS_MPS: f32 = 8.0;
 /// Ticks until a player who has taken up such a ball plays it again; fitted.
@@ -74,7 +78,8 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     let hard = meeting > HOPS_MPS;
     let soft = match (wish.length_squared() > 0.25, hard) {
         (true, _) => {
-            let on = dribble::ahead(&player, to_ball, ahead, wish.length().min(5.5), &care);
+            let most = (player.vel.dot(ahead) + FASTER_MPS).max(FREE_MPS);
+            let on = dribble::ahead(&player, to_ball, ahead, wish.length().min(most), &care);
             // A hard one runs ahead no faster than the player can follow.
             if hard {
                 on.clamp_length_max(player.vel.dot(ahead).max(0.0) + FOLLOWED_MPS)

@@ -2,10 +2,11 @@
 //!
 //! `pass_target` chooses a pass's target. `pass` and `shot` decide how the ball leaves the foot.
 
-use crate::football::pace::{RUN_MPS, SPRINT_MPS};
+use crate::football::pace::DRIBBLES_FROM_MPS;
 use crate::football::pass::Struck;
 use crate::football::{
-    contact, forecast, noise, offside, pass, pass_target, report, shot, switching, whistle,
+    contact, dribble_motion, forecast, noise, offside, pass, pass_target, report, shot, switching,
+    whistle,
 };
 use crate::math;
 use crate::state::event::Events;
@@ -24,18 +25,20 @@ const CHARGE_TICKS: u8 = 50;
 const GAUGE_TICKS: u8 = 100;
 /// A plan ends if the ball has become this much harder to reach within a step, seconds. (GRF's.)
 const LOST_S: f32 = 0.7;
+/// The same for a ball that its player has pushed on; fitted.
+const OWN_LOST_S: f32 = 0.95;
 /// A swing that has missed the ball for this many ticks begins again; chosen.
 const MISSED_TICKS: i32 = 30;
 /// The ball must be this near for a kick, metres.
 pub const KICK_M: f32 = 0.85;
-/// A swing begins only if the ball will be this near to the player's path at the contact, metres;
-/// chosen.
-const BEGIN_M: f32 = 1.3;
-/// The share of their speed that a player keeps between the swing's start and the contact; chosen.
-const BEGIN_PACE: f32 = 0.7;
-/// How soon a sprinter shoots a ball that comes to the foot, ticks, and how near that is, metres.
-/// Fitted to how soon shots leave at many points of the stride.
-const QUICK_TICKS: i32 = 48;
+/// A swing begins only if the ball will be this near at the contact, metres: of a ground pass, a
+/// lofted pass and a shot. Fitted to when kicks leave.
+const PASSES_M: f32 = 0.85;
+const LOFTS_M: f32 = 1.0;
+const SHOOTS_M: f32 = 0.85;
+/// The same for a ball that somebody else has played; chosen.
+const COMES_M: f32 = 1.3;
+/// How near a fast ball must come to be struck without a first touch, metres; chosen.
 const REACH_M: f32 = 0.8;
 /// How soon a fast ball can be struck without a first touch, ticks. Fitted to how late that can be
 /// asked for.
@@ -53,7 +56,7 @@ const LOW_M: f32 = 0.5;
 /// How near the ball must be to a leg that is already on its way, metres; chosen.
 const STRETCH_M: f32 = 1.2;
 /// Ticks of a leg's follow-through after a kick. Measured.
-const FOLLOW_TICKS: i32 = 20;
+const FOLLOW_TICKS: i32 = 34;
 /// The highest ball that can be volleyed, metres.
 const VOLLEY_M: f32 = 1.2;
 
@@ -65,7 +68,7 @@ pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
         KickKind::High => SWING_TICKS[1],
         KickKind::Shot | KickKind::Clear => SWING_TICKS[2],
     };
-    let swing = Swing { ready_at: now + ticks, way: None, mate: None, runs: true };
+    let swing = begun(now + ticks);
     KickPlan { swing: Some(swing), until: now + PATIENCE_TICKS, ..asked(kind) }
 }
 
@@ -76,9 +79,13 @@ pub fn pressed(kind: KickKind, tick: u32) -> KickPlan {
 
 /// A set piece that a bot takes from now on.
 pub fn taken(kind: KickKind, mode: GameMode, tick: u32) -> KickPlan {
-    let swing =
-        Swing { ready_at: tick as i32 + run_up_ticks(mode), way: None, mate: None, runs: true };
+    let swing = begun(tick as i32 + run_up_ticks(mode));
     KickPlan { swing: Some(swing), until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
+}
+
+/// A bot's swing: where to is decided already.
+fn begun(ready_at: i32) -> Swing {
+    Swing { ready_at, way: None, mate: None, runs: true, end_dmps: Swing::RUN }
 }
 
 fn asked(kind: KickKind) -> KickPlan {
@@ -119,8 +126,9 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
             plan.until = now + PATIENCE_TICKS;
         }
         let meet_s = game.players[i].body.meet_s;
+        let later_s = if game.last_touch == Some(id) { OWN_LOST_S } else { LOST_S };
         let lost =
-            plan.swing.is_none() && meet_s > plan.meet_s + LOST_S && game.play.set_piece.is_none();
+            plan.swing.is_none() && meet_s > plan.meet_s + later_s && game.play.set_piece.is_none();
         plan.meet_s = meet_s;
         if now > plan.until || lost || !game.players[i].active {
             game.players[i].body.kick = None;
@@ -137,7 +145,16 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
                 plan.swing = None;
             }
             Some(_) => {}
-            None => plan.swing = first_time(game, id, &mut plan).or_else(|| begin(game, id, &plan)),
+            None => {
+                plan.swing = first_time(game, id, &mut plan).or_else(|| begin(game, id, &plan));
+                let body = &mut game.players[i].body;
+                if plan.swing.is_some()
+                    && body.lunge.is_some_and(|lunge| dribble_motion::has_only_begun(&lunge, now))
+                {
+                    // The swing takes the place of the motion that has only begun.
+                    (body.lunge, body.ready_at) = (None, now);
+                }
+            }
         }
         game.players[i].body.kick = Some(plan);
     }
@@ -151,34 +168,49 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     }
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
     let player = game.player(id);
-    if !at_hand && (must_take(game, id) || (game.tick as i32) < player.body.turned_at) {
+    // The motion of a touch isn't cut short.
+    if !at_hand && (must_take(game, id) || moves(game, id)) {
         return None;
     }
     let (way, mate) = meant(game, id, plan);
-    let ticks = match game.play.set_piece {
-        Some(set_piece) => run_up_ticks(set_piece.mode),
-        None if at_hand => at_hand_ticks(plan.kind),
+    let near_m = match plan.kind {
+        _ if game.last_touch != Some(id) => COMES_M,
+        KickKind::Short | KickKind::Long => PASSES_M,
+        KickKind::High => LOFTS_M,
+        KickKind::Shot | KickKind::Clear => SHOOTS_M,
+    };
+    let reaches =
+        |swing: &&SwingMotion| apart(game, id, swing).is_some_and(|apart| apart <= near_m);
+    let (ticks, end_dmps) = match game.play.set_piece {
+        Some(set_piece) => (run_up_ticks(set_piece.mode), Swing::RUN),
+        None if at_hand => (at_hand_ticks(plan.kind), Swing::RUN),
         None => {
-            let longest = swing_ticks(player, plan, way);
-            soonest(game, id, plan, longest).unwrap_or(longest)
+            let swing = swings(player, plan.kind, way).iter().find(reaches)?;
+            (swing.ticks, (swing.end(player.vel.length()) * 10.0) as u8)
         }
     };
-    let reaches = apart(game, id, ticks, BEGIN_PACE).is_some_and(|apart| apart <= BEGIN_M);
     let runs = at_hand || shot::runs(player);
-    (at_hand || reaches).then_some(Swing {
-        ready_at: game.tick as i32 + ticks,
-        way: Some(way),
-        mate,
-        runs,
-    })
+    Some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs, end_dmps })
+}
+
+/// Whether a player is in a motion that they can't leave for a kick.
+fn moves(game: &Match, id: PlayerId) -> bool {
+    let now = game.tick as i32;
+    game.player(id)
+        .body
+        .lunge
+        .is_some_and(|lunge| lunge.until() > now && !dribble_motion::has_only_begun(&lunge, now))
 }
 
 /// Whether a player must take the ball before the kick, or is still taking it: it comes fast, from
 /// somebody else. (Measured.)
 fn must_take(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
-    if game.last_touch == Some(id) {
+    if game.last_touch == Some(id) && player.body.lunge.is_none() {
         return (game.tick as i32) < player.body.ready_at;
+    }
+    if game.last_touch == Some(id) {
+        return false;
     }
     let meeting = game.ball.vel.truncate() - player.vel;
     meeting.length_squared() > TAKES_MPS * TAKES_MPS
@@ -213,27 +245,19 @@ fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swi
         way: Some(way),
         mate,
         runs,
+        end_dmps: Swing::RUN,
     })
 }
 
-/// How far a player will be from the ball after this many ticks, metres. None for a ball that will
-/// be too high. `pace`: the share of their speed that they keep.
-fn apart(game: &Match, id: PlayerId, ticks: i32, pace: f32) -> Option<f32> {
-    let there = game.play.forecast.at(game.tick + ticks as u32);
+/// How far a player will be from the ball at the contact of a swing, metres. None for a ball that
+/// will be too high.
+fn apart(game: &Match, id: PlayerId, swing: &SwingMotion) -> Option<f32> {
+    let there = game.play.forecast.at(game.tick + swing.ticks as u32);
     let player = game.player(id);
-    let place = player.pos + player.vel * (ticks as f32 * 0.01 * pace);
-    (there.z <= LOW_M).then(|| place.distance(there.truncate()))
-}
-
-/// Ticks after which a shooting sprinter reaches the ball, if that is sooner than catching up with
-/// a ball just pushed.
-fn soonest(game: &Match, id: PlayerId, plan: &KickPlan, longest: i32) -> Option<i32> {
-    if plan.kind != KickKind::Shot || game.player(id).vel.length() < RUN_MPS {
-        return None;
-    }
-    (QUICK_TICKS..longest)
-        .step_by(2)
-        .find(|&ticks| apart(game, id, ticks, 1.0).is_some_and(|apart| apart < REACH_M))
+    let pace = player.vel.length();
+    let mean = 0.5 * (pace + swing.end(pace));
+    let run = player.vel.normalize_or_zero() * (mean * swing.ticks as f32 * 0.01);
+    (there.z <= LOW_M).then(|| (player.pos + run).distance(there.truncate()))
 }
 
 /// What a kick aims at now: the way from the ball, world metres, and the teammate.
@@ -272,35 +296,60 @@ fn at_hand_ticks(kind: KickKind) -> i32 {
     if matches!(kind, KickKind::Short | KickKind::Long) { 34 } else { 24 }
 }
 
-/// Ticks of a swing at a rolling ball. Fitted to the measured steps after which kicks leave.
-///
-/// A runner at full speed must catch the ball first, less so the longer they have braked for it. A
-/// pass across or behind the body needs a turn.
-fn swing_ticks(player: &Player, plan: &KickPlan, way: Vec2) -> i32 {
-    let speed = player.vel.length();
-    let walks = (speed / RUN_MPS).min(1.0);
-    let braked = (f32::from(plan.gauge_ticks) - 10.0) / 30.0;
-    let sprints = ((speed - RUN_MPS) / (SPRINT_MPS - RUN_MPS)).clamp(0.0, 1.0)
-        * (1.0 - braked).clamp(0.0, 1.0);
-    // [standing, walking, sprinting, less for a leg that is back already]
-    let [stand, walk, sprint, back] = match plan.kind {
-        KickKind::Short | KickKind::Long => [34.0, 28.0, 38.0, 0.0],
-        KickKind::High => [24.0, 22.0, 26.0, 5.0],
-        KickKind::Shot | KickKind::Clear => [25.0, 24.0, 54.0, 10.0],
-    };
-    let straight = stand + (walk - stand) * walks + (sprint - walk) * sprints
-        - if plan.held { back * walks } else { 0.0 };
+/// A swing at a rolling ball. Measured of GRF's motions.
+struct SwingMotion {
+    ticks: i32,
+    /// How fast the player is at the contact, m/s, and how much of their run counts in it.
+    end_mps: f32,
+    share: f32,
+}
+
+impl SwingMotion {
+    /// How fast a player at this pace is at the contact, m/s.
+    fn end(&self, pace: f32) -> f32 {
+        self.end_mps + self.share * pace
+    }
+}
+
+const fn swing(ticks: i32, end_mps: f32, share: f32) -> SwingMotion {
+    SwingMotion { ticks, end_mps, share }
+}
+
+/// Swings by what they lead to, best first: from a standstill; on; half aside; aside; back.
+const PASSES: [&[SwingMotion]; 5] = [
+    &[swing(34, 0.3, 0.0)],
+    &[swing(15, 2.0, 0.68), swing(27, 3.5, 0.0), swing(36, 5.7, 0.0)],
+    &[swing(20, 3.5, 0.1), swing(27, 3.5, 0.1), swing(36, 5.7, 0.0)],
+    &[swing(30, 4.4, 0.0), swing(36, 5.7, 0.0)],
+    &[swing(36, 5.7, 0.0)],
+];
+const LOFTS: [&[SwingMotion]; 5] = [
+    &[swing(25, 1.4, 0.0)],
+    &[swing(12, 1.5, 0.68), swing(27, 2.7, 0.0), swing(36, 1.7, 0.0)],
+    &[swing(14, 3.9, 0.0), swing(29, 2.2, 0.0), swing(36, 1.7, 0.0)],
+    &[swing(29, 2.2, 0.0), swing(36, 1.7, 0.0)],
+    &[swing(36, 1.7, 0.0)],
+];
+const SHOTS: [&[SwingMotion]; 5] = [
+    &[swing(25, 0.0, 0.0)],
+    &[swing(17, 3.7, 0.34)],
+    &[swing(17, 3.7, 0.34), swing(28, 3.9, 0.0)],
+    &[swing(28, 3.9, 0.0)],
+    &[swing(36, 1.7, 0.0)],
+];
+/// Up to which angles to the run a kick leads on, half aside and aside, degrees; chosen.
+const SWINGS_DEG: [f32; 3] = [35.0, 70.0, 135.0];
+
+/// The swings that a kick may take.
+fn swings(player: &Player, kind: KickKind, way: Vec2) -> &'static [SwingMotion] {
+    let stands = player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS;
     let degrees = pass::off_run(player, way);
-    let turn = match plan.kind {
-        KickKind::Shot | KickKind::Clear => {
-            15.0 * walks * ((degrees - 30.0) / 60.0).clamp(0.0, 1.0)
-        }
-        _ => {
-            (15.0 * walks + 6.0 * sprints) * ((degrees - 40.0) / 15.0).clamp(0.0, 1.0)
-                + 2.0 * ((degrees - 60.0) / 120.0).clamp(0.0, 1.0)
-        }
-    };
-    (straight + turn) as i32
+    let aside = if stands { 0 } else { 1 + SWINGS_DEG.iter().filter(|to| degrees >= **to).count() };
+    match kind {
+        KickKind::Short | KickKind::Long => PASSES[aside],
+        KickKind::High => LOFTS[aside],
+        KickKind::Shot | KickKind::Clear => SHOTS[aside],
+    }
 }
 
 /// Whether the ball is at the player's foot and may be kicked.

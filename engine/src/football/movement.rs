@@ -3,11 +3,12 @@
 //! Decides where each player's body goes. What one player wants to run is computed here;
 //! [`super::stride`] moves four at once. `control` decides where a player wants to go.
 
-use crate::football::dribble::{self, LIES_MPS, SOLE_M};
-use crate::football::pace::{DT, SETS_OFF_MPS, SPRINTS_FROM_MPS, WITH_BALL};
+use crate::football::dribble::{LIES_MPS, SOLE_M};
+use crate::football::dribble_motion;
+use crate::football::pace::{DT, SPRINTS_FROM_MPS, WITH_BALL};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
-use crate::state::player::{Intent, Pose};
+use crate::state::player::{Intent, Lunge, Motion, Pose, Swing};
 use crate::state::{Match, Player, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::Vec2;
@@ -22,11 +23,6 @@ const STOPPING_M: f32 = 1.1;
 
 /// How fast a player comes out of a motion for which they have stopped, m/s. Measured of GRF's.
 const STOPPED_MPS: f32 = 0.8;
-
-/// How near a player has come who waits at the ball of a start, metres: to play it elsewhere, and
-/// straight on; chosen.
-const AT_M: f32 = 0.75;
-const RIGHT_AT_M: f32 = 0.4;
 
 /// The players who do more in a tick than run.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,8 +42,6 @@ pub fn advance(game: &mut Match) -> Busy {
     let ball = game.ball.pos.truncate();
     let ball_vel = game.ball.vel.truncate();
     let (owner, rim) = (game.owner, game.rim());
-    // Until the ball of a start can be touched, a player who has reached it stands there.
-    let starts = game.last_touch.is_none();
     let now = game.tick as i32;
     let frozen = game.play.set_piece.map(|set_piece| set_piece.taker);
     let mut runners: ArrayVec<PlayerId, PLAYERS_MAX> = ArrayVec::new();
@@ -85,19 +79,36 @@ pub fn advance(game: &mut Match) -> Busy {
                 continue;
             }
         }
+        if let Some(lunge) = player.body.lunge
+            && let Motion::Dribble { brakes, out_dmps, wish } = lunge.motion
+        {
+            let to = dribble_motion::out(player, wish, out_dmps, brakes);
+            carry_ball(player, wish, to, lunge.until() - now);
+            go(player, rim);
+            continue;
+        }
         let has_ball = owner == Some(id);
+        if has_ball
+            && let Some(swing) = player.body.kick.and_then(|plan| plan.swing)
+            && swing.end_dmps != Swing::RUN
+            && swing.ready_at > now
+        {
+            let ahead = player.vel.normalize_or(player.body.facing);
+            let end = ahead * (f32::from(swing.end_dmps) * 0.1);
+            player.vel += (end - player.vel) / (swing.ready_at - now) as f32;
+            player.body.lag_ticks = 0;
+            go(player, rim);
+            continue;
+        }
         let (want, pace) = match player.body.intent {
             _ if frozen.is_some_and(|taker| taker != id) => (Vec2::ZERO, NO_POINT),
-            _ if let Some(lunge) = player.body.lunge.filter(|lunge| lunge.stops) => {
+            _ if let Some(lunge) = player.body.lunge.filter(Lunge::stops) => {
                 let most = if lunge.at < now { STOPPED_MPS } else { 0.0 };
                 (player.body.dribble.clamp_length_max(most), NO_POINT)
             }
             Intent::Stand => (Vec2::ZERO, NO_POINT),
             Intent::Run(velocity) => (velocity, NO_POINT),
             Intent::Go(to, speed) => (to - player.pos, speed),
-            Intent::Ball(_) if starts && now < player.body.ready_at && is_at(player, ball) => {
-                (Vec2::ZERO, NO_POINT)
-            }
             Intent::Ball(speed) => (go_for_ball(player, ball, ball_vel, has_ball, speed), NO_POINT),
         };
         let (row, at) = (runners.len() / WIDTH, runners.len() % WIDTH);
@@ -106,7 +117,7 @@ pub fn advance(game: &mut Match) -> Busy {
         }
         let four = &mut fours[row];
         (four.want_x[at], four.want_y[at], four.pace[at]) = (want.x, want.y, pace);
-        take(four, at, player, has_ball, now);
+        take(four, at, player, has_ball);
         runners.push(id);
     }
     stride::run(&mut fours, ball, rim);
@@ -116,27 +127,12 @@ pub fn advance(game: &mut Match) -> Busy {
     busy
 }
 
-/// Whether a player has reached the ball of a start. A player who plays it straight on goes right
-/// up to it.
-fn is_at(player: &Player, ball: Vec2) -> bool {
-    let to_ball = ball - player.pos;
-    let wish = player.body.dribble;
-    let straight = wish != Vec2::ZERO && wish.dot(to_ball) > 0.9 * wish.length() * to_ball.length();
-    to_ball.length() < if straight { RIGHT_AT_M } else { AT_M }
-}
-
 /// Puts a player into their lane.
-fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool, now: i32) {
+fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool) {
     let body = &player.body;
     (four.x[at], four.y[at]) = (player.pos.x, player.pos.y);
     (four.vx[at], four.vy[at]) = (player.vel.x, player.vel.y);
-    four.top[at] = if dribble::sets_off(player, now) {
-        SETS_OFF_MPS
-    } else if has_ball {
-        WITH_BALL * body.speed_top_mps
-    } else {
-        body.speed_top_mps
-    };
+    four.top[at] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };
     four.lag[at] = f32::from(body.lag_ticks);
     four.turn[at] = 0.85 + 0.2 * player.skill(Stat::Agility);
     let burst = 0.9 + 0.13 * body.stats[Stat::Acceleration.index()];
@@ -156,7 +152,8 @@ fn give(four: &Four, at: usize, player: &mut Player) {
 
 /// Moves a player along their velocity, no further than the rim.
 fn go(player: &mut Player, rim: Vec2) {
-    player.pos = (player.pos + player.vel * DT).clamp(-rim, rim);
+    let aside = Vec2::new(player.vel.y, -player.vel.x) * stride::ASIDE;
+    player.pos = (player.pos + (player.vel + aside) * DT).clamp(-rim, rim);
 }
 
 /// The velocity that brings a player to the ball and keeps them with it.
@@ -171,7 +168,9 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
     }
     if has_ball || distance < 1.2 {
         let behind = if wish.length_squared() > 0.25 {
-            wish.normalize_or_zero() * 0.35
+            // Who will turn with the ball stays behind it until then.
+            let turns = has_ball && dribble_motion::turns(player);
+            (if turns { player.vel } else { wish }).normalize_or_zero() * 0.35
         } else {
             to_ball * (0.4 / distance.max(0.4))
         };
@@ -215,6 +214,17 @@ fn slow_down(player: &mut Player, brake: f32) {
 fn stumble(player: &mut Player, to_mps: f32) {
     let end = player.body.facing * to_mps;
     player.vel += (end - player.vel) / f32::from(player.body.pose_ticks.max(1));
+}
+
+/// Brings the body of a dribbler closer to how it comes out of the motion of its touch.
+fn carry_ball(player: &mut Player, wish: Vec2, to: Vec2, ticks: i32) {
+    let left = 1.0 / ticks.max(1) as f32;
+    player.vel += (to - player.vel) * left;
+    let wish = wish.normalize_or(player.body.facing);
+    let facing = player.body.facing;
+    let half_way = if facing.dot(wish) < -0.9 { wish.perp() } else { wish };
+    player.body.facing = (facing + (half_way - facing) * (2.0 * left).min(1.0)).normalize_or(wish);
+    player.body.lag_ticks = 0;
 }
 
 /// Counts down a pose and then changes to the next one.

@@ -6,8 +6,6 @@ pub const DRIBBLE_MPS: f32 = 3.5;
 pub const RUN_MPS: f32 = 5.0;
 /// The speed that a sprinting player asks for, m/s: above everyone's top speed.
 pub const SPRINT_MPS: f32 = 8.0;
-/// Speed of a player right after they have pushed the ball of a start off, m/s. Measured.
-pub const SETS_OFF_MPS: f32 = 2.4;
 /// Speed with the dribble key and the ball, m/s. Measured.
 pub const DRIBBLE_WITH_BALL_MPS: f32 = 4.1;
 /// Speed without sprint with the ball, m/s. Measured.

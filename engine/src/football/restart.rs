@@ -139,7 +139,6 @@ fn calm(game: &mut Match) {
         player.body.intent = Intent::Stand;
         player.body.touched_at = NEVER;
         player.body.ready_at = NEVER;
-        player.body.turned_at = NEVER;
         player.body.mind.mark = None;
         player.body.mind.run_until_step = 0;
         player.body.mind.decide_at_step = game.step;

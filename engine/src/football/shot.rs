@@ -39,7 +39,7 @@ const EASIEST_MPS: f32 = 3.5;
 const LEFT_MPS: f32 = 3.8;
 /// Above this speed running makes aiming no harder, m/s. Fitted to how far shots on the run go
 /// astray.
-const RUN_MPS: f32 = 6.0;
+const RUN_MPS: f32 = 4.4;
 /// Difficulty of the easiest shot. Fitted to the measured directions.
 const LEAST_HARD: f32 = 0.07;
 /// How much a hard shot is pulled towards the run, for each radian between them, and at most

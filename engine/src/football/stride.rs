@@ -23,7 +23,7 @@ const STRAIGHT: f32 = 0.996;
 
 /// The share of their run by which players drift to their left. It is invisible, but it matches
 /// GRF's rounding: places on the border between two pixels of a map fall into the same pixel.
-const ASIDE: f32 = 1.0e-6;
+pub(super) const ASIDE: f32 = 1.0e-6;
 
 /// The pace of a player who doesn't run to a point.
 pub(super) const NO_POINT: f32 = -1.0;

@@ -8,7 +8,7 @@
 use crate::state::{AgentSlot, Match, PlayerId};
 use arrayvec::ArrayVec;
 use glam::Vec2;
-use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
+use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
 use setpiece_scenario::{Ai, Others};
 
@@ -63,18 +63,6 @@ pub fn update(game: &mut Match) {
         let awaited = pass_to.is_some_and(|to| to.team() == team && controlled(game, to));
         if !awaited && SOONER * game.player(chaser).body.meet_s < fastest {
             hand_to(game, chaser);
-        }
-    }
-}
-
-/// Switches players after the first step of a start. A key that is still down is pressed again for
-/// the next player.
-pub fn after_first_step(game: &mut Match) {
-    let before: ArrayVec<_, PLAYERS_MAX> = game.agents.iter().map(|slot| slot.player).collect();
-    update(game);
-    for (slot, before) in game.agents.iter_mut().zip(before) {
-        if slot.player != before {
-            slot.key = None;
         }
     }
 }

@@ -4,21 +4,16 @@
 //! for an owned ball, and `keeper` hands. `contact` and `offside` decide what a touch means
 //! (passes, offside).
 
-use crate::football::{dribble, first_touch, kick};
+use crate::football::{dribble, dribble_motion, first_touch, kick};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
-use crate::state::player::{Intent, KickKind, Pose};
-use crate::state::{AgentSlot, Match, Player, PlayerId, Squad};
-use glam::Vec2;
+use crate::state::player::{Intent, Pose};
+use crate::state::{Match, PlayerId, Squad};
 use setpiece_scenario::Ai;
-use setpiece_scenario::vocabulary::{Rule, Team};
+use setpiece_scenario::vocabulary::Rule;
 
 /// A ball higher than this isn't at its owner's foot yet, metres.
 pub(super) const FOOT_HIGH_M: f32 = 0.5;
-/// The ticks in which a player standing at the ball of a start pushes it straight on. Measured.
-const PUSH_OFF_TICKS: std::ops::Range<u32> = 9..18;
-/// From how far at most, metres. Measured.
-const PUSH_OFF_M: f32 = 0.76;
 /// Nobody further from the ball has to do with it in a tick, metres: a foot reaches 1.1, a fast
 /// ball that meets a body less than 1.3.
 pub(super) const NEAR_M: f32 = 1.3;
@@ -60,6 +55,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     if game.dead || game.play.hands.is_some() || game.play.set_piece.is_some() {
         return;
     }
+    dribble_motion::begin(game, near);
     let ball = game.ball.pos;
     let flat = ball.truncate();
     let owner = game.on_ball().filter(|&id| plays_on(game, id));
@@ -78,11 +74,12 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
         }
         if owner == Some(id) {
             // The owner's own touch comes first. If the owner lets the ball be, a rival may try.
-            let foot = dribble::foot_m(game, player);
+            let foot = dribble::foot_m(player);
             let reaches = distance <= foot * foot && ball.z < FOOT_HIGH_M;
             if reaches
                 && wants_ball(game, id)
                 && !swings(game, id)
+                && !dribble_motion::waits(game, id)
                 && dribble::touch(game, events, id)
             {
                 return;
@@ -95,14 +92,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     let near = libm::sqrtf(distance);
     let contested = owner.is_some_and(|rival| rival.team() != id.team());
     if !contested && near <= first_touch::reach_m(game, id) && !about_to_kick(game, id) {
-        if !PUSH_OFF_TICKS.contains(&game.tick)
-            || !waits_at_ball(game, game.player(id))
-            || game.is_driven(id)
-        {
-            first_touch::take(game, events, id);
-        } else if !is_kick_pressed(game, id.team()) {
-            dribble::set_off(game, events, id);
-        }
+        first_touch::take(game, events, id);
     }
 }
 
@@ -120,7 +110,7 @@ fn plays_on(game: &Match, id: PlayerId) -> bool {
 /// Whether a player would play the nearby ball.
 fn wants_ball(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
-    if (game.tick as i32) < player.body.ready_at && !pushes_off(game, player) {
+    if (game.tick as i32) < player.body.ready_at {
         return false;
     }
     if player.ai == Ai::Lazy && !game.is_driven(id) {
@@ -159,40 +149,6 @@ fn swings(game: &Match, id: PlayerId) -> bool {
     let swing = game.player(id).body.kick.and_then(|plan| plan.swing);
     !game.is_driven(id)
         && swing.is_some_and(|swing| swing.ready_at - (game.tick as i32) < SWING_TICKS)
-}
-
-/// Whether a player stands at the ball of a start and only has to push it straight on, which
-/// happens at once.
-fn pushes_off(game: &Match, player: &Player) -> bool {
-    let wish = player.body.dribble;
-    let to_ball = game.ball.pos.truncate() - player.pos;
-    PUSH_OFF_TICKS.contains(&game.tick)
-        && waits_at_ball(game, player)
-        && wish.dot(to_ball) > 0.9 * wish.length() * to_ball.length()
-        && wish != Vec2::ZERO
-}
-
-/// Whether an agent who may be given a player at the start already presses a kick: then the ball is
-/// left for it. (Measured.)
-fn is_kick_pressed(game: &Match, team: Team) -> bool {
-    let mut slots = game.agents.iter().filter(|slot| slot.team == team && !slot.fixed);
-    slots.any(|slot| {
-        let played = slot.player.and_then(|id| game.play.acting[id.index()].played);
-        played.and_then(KickKind::of).is_some()
-    })
-}
-
-/// Whether the ball of a start would be left for the kick that this agent presses now.
-pub fn is_left_for(game: &Match, slot: &AgentSlot) -> bool {
-    let mut team = game.team(slot.team);
-    let is_free = |id| slot.player != Some(id);
-    game.step == 0 && !slot.fixed && team.any(|(id, mate)| is_free(id) && waits_at_ball(game, mate))
-}
-
-/// Whether a player stands at the ball of a start, so near that one step takes them to it.
-pub fn waits_at_ball(game: &Match, player: &Player) -> bool {
-    let to_ball = game.ball.pos.truncate() - player.pos;
-    game.last_touch.is_none() && to_ball.length_squared() < PUSH_OFF_M * PUSH_OFF_M
 }
 
 /// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as

@@ -2,7 +2,7 @@
 
 use super::{ObserveError, slot};
 use crate::control::driver;
-use crate::football::{switching, touch};
+use crate::football::switching;
 use crate::state::Match;
 use crate::state::player::KickKind;
 use setpiece_scenario::vocabulary::{Action, StickyAction};
@@ -30,9 +30,7 @@ pub fn action_mask(game: &Match, agent: usize) -> Result<[bool; Action::FULL_SET
     let held = |sticky: StickyAction| slot.sticky >> sticky.index() & 1 == 1;
     let directions = &StickyAction::ALL[..StickyAction::Sprint.index()];
     // A key that is down may stay down; it must be released before it can act again.
-    let left = touch::is_left_for(game, &slot);
-    let kick =
-        |kind: KickKind| left || slot.key == Some(kind) || driver::may_arm(game, player, kind);
+    let kick = |kind: KickKind| slot.key == Some(kind) || driver::may_arm(game, player, kind);
     for (action, open) in Action::ALL.iter().zip(&mut mask) {
         *open = match action {
             Action::Idle | Action::BuiltinAi => true,

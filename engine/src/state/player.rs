@@ -111,8 +111,6 @@ pub struct Body {
     pub touched_at: i32,
     /// Tick before which they may not try for the ball.
     pub ready_at: i32,
-    /// Tick before which they begin no kick, because they are still turning with the ball.
-    pub turned_at: i32,
     /// Tick until which a leg that has kicked follows through.
     pub follows_until: i32,
     /// A leg that is out for the ball.
@@ -225,6 +223,13 @@ pub struct Swing {
     pub mate: Option<PlayerId>,
     /// Whether the player was running when it began.
     pub runs: bool,
+    /// How fast a player on the ball is at its end, 0.1 m/s; [`Swing::RUN`] leaves it to their run.
+    pub end_dmps: u8,
+}
+
+impl Swing {
+    /// The end of a swing on which the player runs as they want.
+    pub const RUN: u8 = u8::MAX;
 }
 
 /// What a foot does with a ball that it reaches for.
@@ -238,6 +243,29 @@ pub enum Aim {
     Kick,
 }
 
+/// What a leg is out for.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub enum Motion {
+    /// A ball that somebody else may have.
+    Reach {
+        /// What the foot does there.
+        aim: Aim,
+        /// Whether the player stops for it.
+        stops: bool,
+        /// Where the ball will be then, world metres.
+        place: Vec2,
+    },
+    /// The next touch of the player's own ball.
+    Dribble {
+        /// Whether they come out of it along their old run.
+        brakes: bool,
+        /// How fast they come out of it, 0.1 m/s.
+        out_dmps: u8,
+        /// The velocity that they wanted when it began, world m/s.
+        wish: Vec2,
+    },
+}
+
 /// A leg on its way to the ball, and back.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Lunge {
@@ -247,15 +275,24 @@ pub struct Lunge {
     pub out: u8,
     /// How many ticks after that the player is free again.
     pub back: u8,
-    /// Where the ball will be then, world metres.
-    pub place: Vec2,
-    /// What the foot does there.
-    pub aim: Aim,
-    /// Whether the player stops for it.
-    pub stops: bool,
+    /// What for.
+    pub motion: Motion,
 }
 
 impl Lunge {
+    /// What the foot does with a ball that it reaches for.
+    pub fn aim(&self) -> Option<Aim> {
+        match self.motion {
+            Motion::Reach { aim, .. } => Some(aim),
+            Motion::Dribble { .. } => None,
+        }
+    }
+
+    /// Whether the player stops for it.
+    pub fn stops(&self) -> bool {
+        matches!(self.motion, Motion::Reach { stops: true, .. })
+    }
+
     /// The tick in which the leg went out.
     pub fn from(&self) -> i32 {
         self.at - i32::from(self.out)
@@ -302,7 +339,6 @@ impl Body {
             lag_ticks: 0,
             touched_at: NEVER,
             ready_at: NEVER,
-            turned_at: NEVER,
             follows_until: NEVER,
             lunge: None,
             meet: Vec2::ZERO,

@@ -4,7 +4,7 @@ use crate::Bench;
 use crate::layouts::{Layout, drawn, set_level};
 use glam::Vec2;
 use setpiece_engine::football::contact;
-use setpiece_engine::state::player::{Aim, Lunge};
+use setpiece_engine::state::player::{Aim, Lunge, Motion};
 use setpiece_engine::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Action, EventKind, Qualifier, Role, Rule};
 
@@ -215,25 +215,39 @@ fn an_agent_gets_the_player_at_the_ball_after_the_first_step() {
 }
 
 #[test]
-fn whoever_waits_at_the_ball_of_a_start_pushes_it_off_and_follows_it_before_they_run() {
+fn whoever_waits_at_the_ball_of_a_start_pushes_it_on_and_sets_off_after_it() {
     let mut start = drawn(Layout::EmptyGoalClose, 0);
     start.players[1].as_mut().unwrap().pos.x = start.ball_pos.x - 0.7;
     let mut bench = Bench::of(&start);
-    bench.game.players[1].body.ready_at = 25;
     let at = |bench: &Bench| (bench.game.ball.vel.x, bench.game.player(PlayerId(1)).vel.x);
     bench.step(Action::Right);
-    let (ball, _) = at(&bench);
-    assert!((2.3..3.0).contains(&ball), "the ball is pushed off at {ball} m/s");
-    for _ in 0..2 {
-        bench.step(Action::Sprint);
-        let (_, runs) = at(&bench);
-        assert!((2.2..2.6).contains(&runs), "the player follows at {runs} m/s");
-    }
-    for _ in 0..6 {
-        bench.step(Action::Right);
+    let (ball, runs) = at(&bench);
+    assert!((3.0..4.2).contains(&ball), "the ball is pushed on at {ball} m/s");
+    assert!((0.5..2.5).contains(&runs), "the player follows at {runs} m/s");
+    for step in 0..10 {
+        bench.step(if step == 0 { Action::Sprint } else { Action::Right });
     }
     let (_, runs) = at(&bench);
     assert!(runs > 5.0, "the player sprints at {runs} m/s");
+}
+
+#[test]
+fn who_turns_with_the_ball_keeps_it_close_and_hardly_slows_down() {
+    let mut bench = Bench::new(Layout::RunToScore, 0);
+    for _ in 0..14 {
+        bench.step(Action::Right);
+    }
+    let mut slowest = f32::MAX;
+    for _ in 0..9 {
+        bench.step(Action::TopRight);
+        let player = bench.game.player(PlayerId(1));
+        let gap = player.pos.distance(bench.game.ball.pos.truncate());
+        assert!(gap < 0.8, "the ball is {gap} m away");
+        slowest = slowest.min(player.vel.length());
+    }
+    assert!(slowest > 3.4, "the player slows down to {slowest} m/s");
+    let run = bench.game.player(PlayerId(1)).vel;
+    assert!((run.y / run.x + 1.0).abs() < 0.2, "the run leads to the top right: {run}");
 }
 
 #[test]
@@ -241,11 +255,9 @@ fn a_defender_reaches_for_the_ball_that_a_sprinter_pushes_ahead() {
     let mut bench = Bench::new(Layout::ThreeVersusOne, 0);
     let stopped = (0..40).any(|_| {
         bench.step(Action::Sprint);
-        bench
-            .game
-            .players
-            .iter()
-            .any(|player| player.body.lunge.is_some_and(|lunge| lunge.aim != Aim::Poke))
+        bench.game.players.iter().any(|player| {
+            player.body.lunge.is_some_and(|lunge| lunge.aim().is_some_and(|aim| aim != Aim::Poke))
+        })
     });
     assert!(stopped, "nobody reaches for the ball of a sprinter");
 }
@@ -255,7 +267,8 @@ fn a_leg_far_from_the_ball_is_drawn_back_in_its_time() {
     let mut bench = Bench::new(Layout::Eleven, 3);
     let far = PlayerId(0);
     let (at, place) = (bench.game.tick as i32 + 5, Vec2::ZERO);
-    let lunge = Lunge { at, out: 5, back: 3, place, aim: Aim::Poke, stops: false };
+    let motion = Motion::Reach { aim: Aim::Poke, stops: false, place };
+    let lunge = Lunge { at, out: 5, back: 3, motion };
     bench.game.players[far.index()].body.lunge = Some(lunge);
     bench.step(Action::BuiltinAi);
     assert_eq!(bench.game.player(far).body.lunge, None);

@@ -3,7 +3,7 @@
 use crate::control::bot::formation::mindset;
 use crate::control::bot::{TeamView, dribbling, odds};
 use crate::football::pace::SPRINT_MPS;
-use crate::football::{kick, noise, touch};
+use crate::football::{kick, noise};
 use crate::math::{self, ease, share};
 use crate::state::play::ticks_since;
 use crate::state::player::{Intent, KickKind, KickPlan};
@@ -56,8 +56,6 @@ const SWING_S: f32 = 0.1;
 /// Ticks after a touch of a dribble, and after taking the ball down, until a player can begin
 /// something else. (Measured of GRF's motions.)
 const REST_TICKS: [i32; 2] = [20, 26];
-/// How fast a player wants to set off who stands at the ball of a start, m/s. Measured.
-const SETS_OFF_MPS: f32 = 2.8;
 /// Ticks after which a kick that did not come off is thought over; chosen.
 const MIND_TICKS: i32 = 80;
 
@@ -79,13 +77,6 @@ pub fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
         Some(act) => perform(game, view, id, act),
         None => game.players[id.index()].body.kick = None,
     }
-}
-
-/// The velocity that a player wants who stands at the ball of a start.
-pub fn set_off(game: &Match, id: PlayerId) -> Option<Vec2> {
-    let player = game.player(id);
-    let ahead = (game.ball.pos.truncate() - player.pos).normalize_or(player.body.facing);
-    touch::waits_at_ball(game, player).then_some(ahead * SETS_OFF_MPS)
 }
 
 /// Whether a player sticks to the kick they have in mind: a clearance is thought over until the leg

@@ -112,8 +112,7 @@ fn chance(game: &Match, id: PlayerId, rival: PlayerId) -> f32 {
 /// Goes for a ball that is the team's to have.
 pub fn fetch(game: &mut Match, view: &TeamView, id: PlayerId) {
     let player = *game.player(id);
-    let way = on_ball::set_off(game, id)
-        .or_else(|| away(game, view, id))
+    let way = away(game, view, id)
         .unwrap_or_else(|| (player.body.meet - player.pos).clamp_length_max(2.0));
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);

@@ -11,6 +11,7 @@ use setpiece::engine::physics::constants::{BALL_RADIUS, FRAME_RADIUS, NET_HALF, 
 use setpiece::engine::state::event::Events;
 use setpiece::engine::state::player::Pose;
 use setpiece::engine::state::{Match, PlayerId};
+use setpiece::engine::step;
 use setpiece::scenario::pitch::PLAYERS_MAX;
 use setpiece::scenario::vocabulary::{Action, PitchMeasure, Rule};
 
@@ -54,6 +55,9 @@ impl TickMemory {
             game.play.acting.iter_mut().zip(&step.judged.play.acting).enumerate()
         {
             acting.chosen = done.played.filter(|_| !left.contains(&PlayerId(i as u8)));
+        }
+        if game.tick == 0 {
+            step::hand_over(&mut game);
         }
         control::command(&mut game, step.actions, &mut events);
         while game.tick < step.judged.tick {

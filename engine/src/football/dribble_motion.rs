@@ -1,0 +1,293 @@
+//! The touches of a dribble: motions in which one touch sends the ball the way that the player
+//! wants.
+//!
+//! The body commits itself: until the end of the motion its velocity changes evenly from that of
+//! the run to that of the motion's end. The touch comes on the way. (GRF's motions.)
+
+use crate::football::carry::{self, Carry};
+use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
+use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS, WITH_BALL};
+use crate::football::{contact, noise, possession, touch};
+use crate::math;
+use crate::state::event::Events;
+use crate::state::player::{Lunge, Motion};
+use crate::state::{Match, Player, PlayerId, Squad};
+use glam::Vec2;
+
+/// A touch of a dribble.
+///
+/// Measured of GRF's motions with the keys of random turns: 1,100 touches of a player alone.
+pub(super) struct DribbleMotion {
+    /// The lowest speed for this motion, m/s.
+    from_mps: f32,
+    /// Up to which angle between the run and the way that the player wants, degrees.
+    to_degrees: f32,
+    /// Ticks until the touch, and until the player is free again.
+    ticks: i32,
+    lasts: i32,
+    /// Where it leads.
+    out: MotionEnd,
+    /// How far ahead of a straight run the ball may be at the touch, metres, and how much less far
+    /// for each m/s of the run.
+    ahead_m: [f32; 2],
+    less_m: f32,
+}
+
+/// How a player comes out of a motion.
+#[derive(Clone, Copy)]
+enum MotionEnd {
+    /// The way that they want, at this speed, m/s.
+    Turned(f32),
+    /// Along their old run, at this speed, m/s.
+    Braked(f32),
+    /// On, a bit closer to the pace that they want.
+    On,
+    /// On, by a small angle towards the way that they want.
+    Bent,
+}
+
+const fn motion(
+    from_mps: f32,
+    to_degrees: f32,
+    [ticks, lasts]: [i32; 2],
+    out: MotionEnd,
+    ahead_m: [f32; 2],
+) -> DribbleMotion {
+    DribbleMotion { from_mps, to_degrees, ticks, lasts, out, ahead_m, less_m: 0.0 }
+}
+
+/// A motion that leads on, of who walks.
+const fn walk(ticks: [i32; 2], ahead_m: [f32; 2], less_m: f32) -> DribbleMotion {
+    DribbleMotion { less_m, ..motion(DRIBBLES_FROM_MPS, ON_DEG, ticks, MotionEnd::On, ahead_m) }
+}
+
+/// Angles up to which a motion leads on, and turns by 45, 90, 135 and 180 degrees.
+const ON_DEG: f32 = 32.0;
+const HALF_DEG: f32 = 67.0;
+const SQUARE_DEG: f32 = 112.0;
+const BACK_DEG: f32 = 157.0;
+const ABOUT_DEG: f32 = 180.0;
+
+/// The touches: fastest gait first, and those of a gait by their angles.
+const TOUCHES: [DribbleMotion; 12] = [
+    motion(SPRINTS_FROM_MPS, ON_DEG, [12, 25], MotionEnd::On, [0.2, 0.64]),
+    motion(SPRINTS_FROM_MPS, SQUARE_DEG, [14, 40], MotionEnd::Bent, [0.2, 0.76]),
+    motion(SPRINTS_FROM_MPS, ABOUT_DEG, [22, 59], MotionEnd::Braked(0.8), [0.45, 1.0]),
+    walk([12, 26], [0.05, 0.78], 0.055),
+    motion(DRIBBLES_FROM_MPS, HALF_DEG, [10, 41], MotionEnd::Turned(4.2), [0.05, 0.75]),
+    motion(DRIBBLES_FROM_MPS, SQUARE_DEG, [19, 53], MotionEnd::Turned(4.0), [0.0, 0.8]),
+    motion(DRIBBLES_FROM_MPS, BACK_DEG, [20, 47], MotionEnd::Braked(0.6), [0.15, 0.83]),
+    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [12, 75], MotionEnd::Turned(2.2), [0.2, 0.8]),
+    motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(3.2), [0.1, 0.74]),
+    motion(0.0, HALF_DEG, [7, 36], MotionEnd::Turned(3.3), [0.1, 0.45]),
+    motion(0.0, SQUARE_DEG, [8, 32], MotionEnd::Turned(3.1), [0.1, 0.45]),
+    motion(0.0, ABOUT_DEG, [13, 55], MotionEnd::Turned(2.5), [0.1, 0.74]),
+];
+/// The same for who walks and wants to sprint: on, and by 45 degrees.
+const SPEEDING: [DribbleMotion; 2] = [
+    walk([15, 26], [0.0, 0.62], 0.02),
+    motion(DRIBBLES_FROM_MPS, HALF_DEG, [27, 50], MotionEnd::Turned(5.1), [0.1, 0.74]),
+];
+/// The same for who wants to stand: walking, and sprinting.
+const STOPPING: [DribbleMotion; 2] = [
+    motion(SPRINTS_FROM_MPS, ABOUT_DEG, [12, 25], MotionEnd::Braked(4.1), [0.2, 0.7]),
+    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [12, 37], MotionEnd::Braked(0.0), [0.05, 0.7]),
+];
+/// How far beside a straight run the ball may be at the touch, metres. Measured.
+const ASIDE_M: f32 = 0.2;
+/// For how many ticks a motion can be left for another one (GRF's), and up to which cosine of what
+/// is wanted then.
+const AGAIN_TICKS: i32 = 8;
+const CHANGED: f32 = 0.9;
+/// How near the ball must still be at the touch, metres.
+const REACH_M: f32 = 1.1;
+/// By how much a sprinter's touch strays, radians. Fitted to how far sprinters get off their line.
+const STRAY_RAD: f32 = 0.006;
+/// How far to one side a standing player begins a touch, metres, and by which angle every ball goes
+/// to the other side, radians. It is invisible, but it matches GRF's rounding on the border between
+/// two pixels of a map.
+const OFF_ASIDE_M: f32 = 1.5e-6;
+const ASIDE_RAD: f32 = -2.0e-6;
+/// What a motion that leads on does to the pace. Fitted to GRF's motions.
+///
+/// - `NEARER`: the share of what a walker lacks.
+/// - `SPEEDS_UP`: the end of one who walks and wants to sprint: base and share of their speed, and
+///   at most, m/s.
+/// - `SPRINTS_MPS`: of one who sprints, at least.
+const NEARER: f32 = 0.75;
+const SPEEDS_UP: [f32; 3] = [2.76, 0.66, 5.9];
+const SPRINTS_MPS: f32 = 7.1;
+/// By how much a sprinter turns with one touch, radians, and how fast they come out of it, m/s.
+const BEND_RAD: f32 = 0.39;
+const BENT_MPS: f32 = 6.7;
+
+/// Begins the motion of the player who plays the ball next. `near`: who may be in reach.
+pub(super) fn begin(game: &mut Match, near: Squad) {
+    let Some(id) = next(game, near) else { return };
+    let player = game.player(id);
+    let Some(motion) = wanted(player) else { return };
+    let ball = game.play.forecast.at(game.tick + motion.ticks as u32);
+    let run = run(player);
+    if ball.z >= touch::FOOT_HIGH_M || !fits(player, ball.truncate(), run, motion) {
+        return;
+    }
+    let wish = wish(player, run, motion);
+    let (mps, brakes) = match motion.out {
+        MotionEnd::Turned(mps) => (mps, false),
+        MotionEnd::Braked(mps) => (mps, true),
+        MotionEnd::On => (on_mps(player, wish.length()), false),
+        MotionEnd::Bent => (BENT_MPS, false),
+    };
+    let at = game.tick as i32 + motion.ticks;
+    let (out, back) = (motion.ticks as u8, (motion.lasts - motion.ticks) as u8);
+    let motion = Motion::Dribble { brakes, out_dmps: (mps * 10.0).round() as u8, wish };
+    let stands = player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS;
+    if stands {
+        game.players[id.index()].pos += run.perp() * OFF_ASIDE_M;
+    }
+    let body = &mut game.players[id.index()].body;
+    body.lunge = Some(Lunge { at, out, back, motion });
+    body.ready_at = at + i32::from(back);
+}
+
+/// The velocity with which a player comes out of a motion.
+pub(super) fn out(player: &Player, wish: Vec2, out_dmps: u8, brakes: bool) -> Vec2 {
+    let way = if brakes { player.vel } else { wish };
+    way.normalize_or(player.body.facing) * (f32::from(out_dmps) * 0.1)
+}
+
+/// The velocity that a motion is for: a sprinter's turn is cut into small ones.
+fn wish(player: &Player, run: Vec2, motion: &DribbleMotion) -> Vec2 {
+    let wish = player.body.dribble;
+    if !matches!(motion.out, MotionEnd::Bent) {
+        return wish;
+    }
+    let turn = math::unit(if run.perp_dot(wish) < 0.0 { -BEND_RAD } else { BEND_RAD });
+    turn.rotate(run) * wish.length()
+}
+
+/// How fast a player comes out of a motion that leads on.
+fn on_mps(player: &Player, wanted: f32) -> f32 {
+    let pace = player.vel.length();
+    let most = wanted.min(WITH_BALL * player.body.speed_top_mps);
+    if pace >= SPRINTS_FROM_MPS {
+        pace.max(SPRINTS_MPS).min(most)
+    } else if wanted > SPRINTS_FROM_MPS {
+        let [base, share, end] = SPEEDS_UP;
+        (base + share * pace).min(end)
+    } else {
+        pace + (most - pace) * NEARER
+    }
+}
+
+/// Whether the ball is where the motion meets it.
+fn fits(player: &Player, ball: Vec2, run: Vec2, motion: &DribbleMotion) -> bool {
+    let place = ball - player.pos - player.vel * (motion.ticks as f32 * 0.01);
+    let [near_m, far_m] = motion.ahead_m;
+    let far_m = far_m - motion.less_m * player.vel.length();
+    (near_m..far_m).contains(&place.dot(run)) && place.perp_dot(run).abs() <= ASIDE_M
+}
+
+/// Who plays the ball next: its owner, or whoever is nearest to a ball that lies.
+fn next(game: &Match, near: Squad) -> Option<PlayerId> {
+    let now = game.tick as i32;
+    let lies = || game.ball.vel.length_squared() < LIES_MPS * LIES_MPS;
+    let id = match game.on_ball() {
+        Some(owner) => owner,
+        None if lies() => first(game, near)?,
+        None => return None,
+    };
+    let player = game.player(id);
+    let ready = now >= player.body.ready_at || game.last_touch.is_none();
+    let kicks = player.body.kick.is_some_and(|plan| plan.swing.is_some());
+    let free = match player.body.lunge {
+        None => ready,
+        Some(lunge) => begins_again(player, &lunge, now),
+    };
+    (near.has(id) && player.is_up() && free && !kicks).then_some(id)
+}
+
+/// Whether a player who wants something else by now may begin the motion again. (GRF's.)
+fn begins_again(player: &Player, lunge: &Lunge, now: i32) -> bool {
+    let Motion::Dribble { wish, .. } = lunge.motion else { return false };
+    let (new, old) = (player.body.dribble, wish);
+    now <= lunge.from() + AGAIN_TICKS && new.dot(old) < CHANGED * new.length() * old.length()
+}
+
+/// Whether a motion has only begun, so that a kick may take its place. (GRF's.)
+pub(super) fn has_only_begun(lunge: &Lunge, now: i32) -> bool {
+    matches!(lunge.motion, Motion::Dribble { .. }) && now <= lunge.from() + AGAIN_TICKS
+}
+
+/// The player nearest to a ball that lies, if they would play it.
+fn first(game: &Match, near: Squad) -> Option<PlayerId> {
+    let ball = game.ball.pos.truncate();
+    let gap = |id: PlayerId| game.player(id).pos.distance_squared(ball);
+    let nearest =
+        game.order_of(near).reduce(|best, id| if gap(id) < gap(best) { id } else { best })?;
+    let wish = game.player(nearest).body.dribble;
+    (touch::contests(game, nearest) && wish.length_squared() >= STOPS_MPS * STOPS_MPS)
+        .then_some(nearest)
+}
+
+/// The direction of a player's run, or where they face if they stand.
+fn run(player: &Player) -> Vec2 {
+    if player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS {
+        player.body.facing
+    } else {
+        player.vel.normalize_or(player.body.facing)
+    }
+}
+
+/// The motion that a player wants. None for one who stands and wants to.
+fn wanted(player: &Player) -> Option<&'static DribbleMotion> {
+    let (wish, pace) = (player.body.dribble, player.vel.length());
+    if wish.length_squared() < STOPS_MPS * STOPS_MPS {
+        return STOPPING.iter().find(|motion| pace >= motion.from_mps);
+    }
+    let cos = wish.normalize_or_zero().dot(run(player)).clamp(-1.0, 1.0);
+    let degrees = libm::acosf(cos).to_degrees();
+    let gait = TOUCHES.iter().map(|motion| motion.from_mps).find(|from| pace >= *from)?;
+    let of_gait = |motion: &&DribbleMotion| motion.from_mps == gait && degrees <= motion.to_degrees;
+    let speeds = wish.length_squared() > SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
+    // Who already walks fast turns before they speed up.
+    let speeding = || {
+        SPEEDING
+            .iter()
+            .find(of_gait)
+            .filter(|motion| speeds && (motion.to_degrees <= ON_DEG || pace < WALKS_FROM_MPS))
+    };
+    speeding().or_else(|| TOUCHES.iter().find(of_gait))
+}
+
+/// Whether a player who has the ball will turn with it: until then they stay behind it.
+pub(super) fn turns(player: &Player) -> bool {
+    wanted(player).is_some_and(|motion| motion.to_degrees > ON_DEG)
+}
+
+/// Whether the ball is ahead of a player, so that their motion will meet it.
+pub(super) fn waits(game: &Match, id: PlayerId) -> bool {
+    let player = game.player(id);
+    let Some(motion) = wanted(player) else { return false };
+    let place = game.ball.pos.truncate() - player.pos - player.vel * (motion.ticks as f32 * 0.01);
+    let run = run(player);
+    place.dot(run) > motion.ahead_m[0] && place.perp_dot(run).abs() < ASIDE_M
+}
+
+/// The touch of a motion: sends the ball the way that its player wanted.
+pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId, carry: &Carry) {
+    let player = *game.player(id);
+    let to_ball = game.ball.pos.truncate() - player.pos;
+    // The foot misses a ball that somebody else has played since.
+    let theirs = game.on_ball().is_some_and(|owner| owner != id);
+    if theirs || to_ball.length_squared() > REACH_M * REACH_M {
+        return;
+    }
+    let owns = possession::has_ball(game, id);
+    let velocity = carry::touched(&player, to_ball, carry, owns, dribble::minds_lines(game, id));
+    let velocity = carry::as_skilled(game, id, velocity, carry.wish.length());
+    let sprints = carry.wish.length_squared() > SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
+    let stray = if sprints { noise::bell(game) * STRAY_RAD } else { ASIDE_RAD };
+    let velocity = math::unit(stray).rotate(velocity);
+    contact::push(game, events, id, velocity, carry::hop_mps(velocity));
+}

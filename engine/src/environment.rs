@@ -231,6 +231,7 @@ impl Environment {
             });
         }
         scratch.laps().start();
+        step::hand_over(&mut self.game);
         let before = self.events.as_slice().get(..self.judged).unwrap_or_default();
         if let Err(error) = self.actors.choose(&mut self.game, before, actions) {
             self.running = false;

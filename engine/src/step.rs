@@ -14,7 +14,7 @@ use crate::state::event::Events;
 use setpiece_scenario::pitch::TICKS_PER_STEP;
 use setpiece_scenario::vocabulary::Action;
 
-/// Builds the match of a drawn start, ready for its first step.
+/// Builds the match of a drawn start. [`hand_over`] comes before its first step.
 pub fn begin(drawn: &Drawn) -> Match {
     let mut game = begin::begin(drawn);
     // An agent is first shown the player of a certain place, wherever the ball is. (GRF's.)
@@ -34,11 +34,13 @@ fn look_ahead(game: &mut Match) {
     reach::assess(game);
 }
 
-/// What comes before the actions of a match's first step: a start gives the ball's player to an
-/// agent who has already been shown another. (GRF's.)
+/// What comes before anybody chooses what to do in a match's first step: a start gives the ball's
+/// player to an agent that has already been shown another (GRF's). No-op in later steps.
 pub fn hand_over(game: &mut Match) {
-    switching::update(game);
-    begin::stagger(game);
+    if game.tick == 0 && !game.dead {
+        switching::update(game);
+        begin::stagger(game);
+    }
 }
 
 /// Plays one step of 100 ms: `actions[i]` is slot i's, in the own frame of its team. Returns early
@@ -46,9 +48,6 @@ pub fn hand_over(game: &mut Match) {
 /// happened.
 pub fn play(game: &mut Match, actions: &[Action], events: &mut Events, scratch: &mut Scratch) {
     let from = game.tick;
-    if from == 0 {
-        hand_over(game);
-    }
     if !game.dead {
         control::command(game, actions, events);
         scratch.laps().end(Phase::Bots);

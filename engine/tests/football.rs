@@ -61,6 +61,7 @@ impl Bench {
         if self.game.step > 0 {
             step::prepare(&mut self.game);
         }
+        step::hand_over(&mut self.game);
         step::play(&mut self.game, &[action], &mut self.events, &mut self.scratch);
     }
 

@@ -296,12 +296,14 @@ fn behaviours_play_and_two_policies_stand_side_by_side() {
         let at = |step: usize, axis: usize| {
             episode["scenes"][step]["players"][player][axis].as_f64().unwrap()
         };
-        (at(20, 0) - at(0, 0)).hypot(at(20, 1) - at(0, 1))
+        let steps = 0..episode["scenes"].as_array().unwrap().len();
+        let gap = |step| (at(step, 0) - at(0, 0)).hypot(at(step, 1) - at(0, 1));
+        steps.take(40).map(gap).fold(0.0, f64::max)
     };
-    // Who waits is pushed at most; who is no agent's plays as ever.
+    // A player who waits is pushed at most; one without an agent plays as ever.
     assert!(moved(&first, 0) < 1.5, "{}", moved(&first, 0));
     assert!(moved(&second, 0) > 3.0, "{}", moved(&second, 0));
-    assert!(moved(&first, 1) > 1.0, "{}", moved(&first, 1));
+    assert!(moved(&first, 1) > 2.0, "{}", moved(&first, 1));
 }
 
 #[test]

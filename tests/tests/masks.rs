@@ -36,6 +36,7 @@ fn after(game: &Match, agent: usize, action: Action, scratch: &mut Scratch) -> M
     let mut copy = game.clone();
     let actions: Vec<Action> =
         (0..game.agents.len()).map(|i| if i == agent { action } else { Action::Idle }).collect();
+    step::hand_over(&mut copy);
     step::play(&mut copy, &actions, &mut Events::new(), scratch);
     for acting in &mut copy.play.acting {
         *acting = Acting::default();

@@ -259,7 +259,7 @@ fn bots_play_football_on_pitches_of_every_size() {
                 touches += events.iter().filter(|kind| **kind == EventKind::Touch).count();
             });
         }
-        assert!(touches > 200, "{pitch}: {touches}");
+        assert!(touches > 460, "{pitch}: {touches}");
         assert!(goals > 0 || pitch.contains("1m,"), "{pitch}: no goal in 28 minutes");
     }
 }

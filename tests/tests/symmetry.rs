@@ -121,6 +121,8 @@ fn play(start: &Drawn, seed: u64, steps: u32, seen: &mut Vec<EventKind>) {
             actions[left..].iter().chain(&actions[..left]).copied().collect();
         events.clear();
         turned_events.clear();
+        step::hand_over(&mut there);
+        step::hand_over(&mut back);
         step::play(&mut there, &actions, &mut events, &mut scratch);
         step::play(&mut back, &swapped, &mut turned_events, &mut scratch);
         seen.extend(events.as_slice().iter().map(|event| event.kind));

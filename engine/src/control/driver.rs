@@ -62,11 +62,7 @@ pub fn drive(
     let has_ball = game.owner == Some(id) || game.controller() == Some(id);
     let (direction, gait) = held.run(id.team().side() as f32, has_ball);
     let power = held.steer.map_or(0.0, |steer| steer.power);
-    // In the first step of a start only a keeper reacts to a kick. (Measured: it goes to the
-    // keeper, whoever is controlled.)
-    let starts =
-        game.step == 0 && game.play.set_piece.is_none() && game.player(id).role != Role::GK;
-    let kind = KickKind::of(action).filter(|_| !starts);
+    let kind = KickKind::of(action).filter(|_| hears_kicks(game, id));
     let key = match kind {
         Some(kind) if held.key == Some(kind) => held.key,
         Some(kind) => press(game, id, kind, direction, power).then_some(kind),
@@ -169,6 +165,12 @@ fn press(game: &mut Match, id: PlayerId, kind: KickKind, dir: Option<Vec2>, powe
     true
 }
 
+/// Whether a player reacts to the key of a kick: in the first step of a start only a keeper does.
+/// (Measured: it goes to the keeper, whoever is controlled.)
+fn hears_kicks(game: &Match, id: PlayerId) -> bool {
+    game.tick > 0 || game.play.set_piece.is_some() || game.player(id).role == Role::GK
+}
+
 /// The distance of a steered pass at full power, metres; chosen.
 fn reach_m(kind: KickKind) -> f32 {
     match kind {
@@ -187,7 +189,9 @@ pub fn may_arm(game: &Match, id: PlayerId, kind: KickKind) -> bool {
         return plan.kind == kind || ends && plan.swing.is_none() && game.play.set_piece.is_none();
     }
     let thrown = game.play.set_piece.is_some_and(|set_piece| set_piece.mode == GameMode::ThrowIn);
-    may_play(game, id) && !(thrown && matches!(kind, KickKind::High | KickKind::Shot))
+    hears_kicks(game, id)
+        && may_play(game, id)
+        && !(thrown && matches!(kind, KickKind::High | KickKind::Shot))
 }
 
 /// Whether a slide can be requested: opponents must have the ball, or be about to.

@@ -11,6 +11,7 @@ use crate::start::Drawn;
 use crate::state::event::Event;
 use crate::state::{AgentSlot, Match, PlayerId};
 use crate::statistics::Statistics;
+use crate::step;
 use arrayvec::ArrayVec;
 use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::Action;
@@ -90,6 +91,7 @@ impl Environment {
     /// Decides on a copy: neither the match nor its random numbers change.
     pub fn bot_actions(&self) -> ArrayVec<Action, PLAYERS_MAX> {
         let mut game = self.game.clone();
+        step::hand_over(&mut game);
         if self.started && !self.actors.is_empty() {
             let handed = [Action::BuiltinAi; PLAYERS_MAX];
             // A failing script is reported by the step itself. Here its player is treated as the

@@ -18,12 +18,13 @@ use setpiece_scenario::vocabulary::{GameMode, PitchMeasure, Role, Rule, StartKin
 const SET_OFF_TICKS: f32 = 18.0;
 /// How far players are put aside before the first step, metres: more than what they drift aside on
 /// a few metres of their run.
-const HAIR_M: f32 = 8.0e-6;
+const STAGGER_M: f32 = 8.0e-6;
 /// The first at a ball nearer than this waits, metres. Measured.
 const NEAR_M: f32 = 1.3;
-/// Who goes for the ball of a start needs no tick to set off: as if they had spent these on it.
+/// A player who goes for the ball of a start needs no ticks to set off, besides the delay.
 const OFF_TICKS: i8 = 3;
-/// How many ticks after they set off a player can touch the ball of a start. Measured.
+/// How many ticks after they set off a player can touch the ball of a start without a motion.
+/// Measured.
 const FIRST_TICKS: i32 = 18;
 
 /// Builds the match of a drawn start, before its first step is prepared.
@@ -124,8 +125,8 @@ pub(crate) fn blank(drawn: &Drawn) -> Match {
 
 /// Delays when each player sets off, by chance, and when they can touch the ball.
 ///
-/// Who goes for the ball sets off at once, unless it lies right in front of the first at it.
-/// (Measured.)
+/// The player of a team who goes for the ball sets off at once. If the ball is near, the first at
+/// it is an exception. (Measured.)
 fn set_off(game: &mut Match) {
     let first = reach::first(game);
     let ball = game.ball.pos.truncate();
@@ -140,13 +141,13 @@ fn set_off(game: &mut Match) {
     }
 }
 
-/// Puts everybody but the agents' players a hair to one side, by chance.
+/// Puts everybody but the agents' players a few micrometres to one side, by chance.
 ///
 /// It is invisible. But a player on the border between two pixels of a map falls into either, as in
 /// GRF, where rounding decides.
 pub fn stagger(game: &mut Match) {
     for id in game.order() {
-        let aside = if noise::roll(game) < 0.5 { -HAIR_M } else { HAIR_M };
+        let aside = if noise::roll(game) < 0.5 { -STAGGER_M } else { STAGGER_M };
         if !switching::controlled(game, id) {
             game.players[id.index()].pos.y += aside * id.team().side() as f32;
         }

@@ -132,8 +132,8 @@ fn turns(player: &Player, ahead: Vec2) -> bool {
 
 /// Records that a player has touched the ball along `ahead`.
 ///
-/// A player who turns with the ball finishes the turn before a kick. An about-turn is the
-/// exception: the kick cuts it short.
+/// A player who turns with the ball finishes the turn before anything else. An about-turn is the
+/// exception: it can be cut short.
 pub(super) fn note_turn(game: &mut Match, id: PlayerId, ahead: Vec2) {
     let player = &mut game.players[id.index()];
     if turns(player, ahead) && player.vel.dot(ahead) > ABOUT * player.vel.length() {

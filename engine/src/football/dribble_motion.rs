@@ -13,6 +13,7 @@ use crate::state::event::Events;
 use crate::state::player::{Lunge, Motion};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::Vec2;
+use setpiece_scenario::Ai;
 
 /// A touch of a dribble.
 ///
@@ -83,12 +84,12 @@ const TOUCHES: [DribbleMotion; 12] = [
     motion(0.0, SQUARE_DEG, [8, 32], MotionEnd::Turned(3.1), [0.1, 0.45]),
     motion(0.0, ABOUT_DEG, [13, 55], MotionEnd::Turned(2.5), [0.1, 0.74]),
 ];
-/// The same for who walks and wants to sprint: on, and by 45 degrees.
+/// The same for a player who walks and wants to sprint: on, and by 45 degrees.
 const SPEEDING: [DribbleMotion; 2] = [
     walk([15, 26], [0.0, 0.62], 0.02),
     motion(DRIBBLES_FROM_MPS, HALF_DEG, [27, 50], MotionEnd::Turned(5.1), [0.1, 0.74]),
 ];
-/// The same for who wants to stand: walking, and sprinting.
+/// The same for a player who wants to stand: sprinting, and walking.
 const STOPPING: [DribbleMotion; 2] = [
     motion(SPRINTS_FROM_MPS, ABOUT_DEG, [12, 25], MotionEnd::Braked(4.1), [0.2, 0.7]),
     motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [12, 37], MotionEnd::Braked(0.0), [0.05, 0.7]),
@@ -204,14 +205,16 @@ fn next(game: &Match, near: Squad) -> Option<PlayerId> {
         None => ready,
         Some(lunge) => begins_again(player, &lunge, now),
     };
-    (near.has(id) && player.is_up() && free && !kicks).then_some(id)
+    let plays = player.ai != Ai::Lazy || game.is_driven(id);
+    (near.has(id) && player.is_up() && free && plays && !kicks).then_some(id)
 }
 
 /// Whether a player who wants something else by now may begin the motion again. (GRF's.)
 fn begins_again(player: &Player, lunge: &Lunge, now: i32) -> bool {
     let Motion::Dribble { wish, .. } = lunge.motion else { return false };
-    let (new, old) = (player.body.dribble, wish);
-    now <= lunge.from() + AGAIN_TICKS && new.dot(old) < CHANGED * new.length() * old.length()
+    // A sprinter's turn is cut into small ones: what they want by now is cut too.
+    let new = wanted(player).map_or(Vec2::ZERO, |motion| self::wish(player, run(player), motion));
+    now <= lunge.from() + AGAIN_TICKS && new.dot(wish) < CHANGED * new.length() * wish.length()
 }
 
 /// Whether a motion has only begun, so that a kick may take its place. (GRF's.)
@@ -279,7 +282,10 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId, carry: 
     let player = *game.player(id);
     let to_ball = game.ball.pos.truncate() - player.pos;
     // The foot misses a ball that somebody else has played since.
-    let theirs = game.on_ball().is_some_and(|owner| owner != id);
+    let since = player.body.lunge.map_or(0, |lunge| lunge.from());
+    let theirs = game
+        .last_touch
+        .is_some_and(|last| last != id && game.player(last).body.touched_at >= since);
     if theirs || to_ball.length_squared() > REACH_M * REACH_M {
         return;
     }

@@ -83,6 +83,11 @@ pub fn taken(kind: KickKind, mode: GameMode, tick: u32) -> KickPlan {
     KickPlan { swing: Some(swing), until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
 
+/// A speed in 0.1 m/s, below [`Swing::RUN`].
+fn dmps(mps: f32) -> u8 {
+    (mps * 10.0).round().clamp(0.0, f32::from(Swing::RUN - 1)) as u8
+}
+
 /// A bot's swing: where to is decided already.
 fn begun(ready_at: i32) -> Swing {
     Swing { ready_at, way: None, mate: None, runs: true, end_dmps: Swing::RUN }
@@ -134,6 +139,13 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
             game.players[i].body.kick = None;
             continue;
         }
+        let body = &mut game.players[i].body;
+        if plan.swing.is_some_and(|swing| swing.way.is_none())
+            && body.lunge.is_some_and(|lunge| dribble_motion::has_only_begun(&lunge, now))
+        {
+            // A bot's swing takes the place of the motion that has only begun.
+            (body.lunge, body.ready_at) = (None, now);
+        }
         match plan.swing {
             Some(swing) if now >= swing.ready_at && !kicked && can_kick(game, id) => {
                 game.players[i].body.kick = None;
@@ -168,7 +180,7 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     }
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
     let player = game.player(id);
-    // The motion of a touch isn't cut short.
+    // The motion of a touch is only left at its beginning.
     if !at_hand && (must_take(game, id) || moves(game, id)) {
         return None;
     }
@@ -186,7 +198,7 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
         None if at_hand => (at_hand_ticks(plan.kind), Swing::RUN),
         None => {
             let swing = swings(player, plan.kind, way).iter().find(reaches)?;
-            (swing.ticks, (swing.end(player.vel.length()) * 10.0) as u8)
+            (swing.ticks, dmps(swing.end(player.vel.length())))
         }
     };
     let runs = at_hand || shot::runs(player);
@@ -206,11 +218,8 @@ fn moves(game: &Match, id: PlayerId) -> bool {
 /// somebody else. (Measured.)
 fn must_take(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
-    if game.last_touch == Some(id) && player.body.lunge.is_none() {
-        return (game.tick as i32) < player.body.ready_at;
-    }
     if game.last_touch == Some(id) {
-        return false;
+        return player.body.lunge.is_none() && (game.tick as i32) < player.body.ready_at;
     }
     let meeting = game.ball.vel.truncate() - player.vel;
     meeting.length_squared() > TAKES_MPS * TAKES_MPS

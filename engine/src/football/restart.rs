@@ -135,6 +135,8 @@ fn calm(game: &mut Match) {
         player.body.pose_ticks = 0;
         player.body.lag_ticks = 0;
         player.body.kick = None;
+        player.body.lunge = None;
+        player.body.follows_until = NEVER;
         player.body.dribble = Vec2::ZERO;
         player.body.intent = Intent::Stand;
         player.body.touched_at = NEVER;

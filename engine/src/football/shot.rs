@@ -39,7 +39,7 @@ const EASIEST_MPS: f32 = 3.5;
 const LEFT_MPS: f32 = 3.8;
 /// Above this speed running makes aiming no harder, m/s. Fitted to how far shots on the run go
 /// astray.
-const RUN_MPS: f32 = 4.4;
+const HARDEST_MPS: f32 = 4.4;
 /// Difficulty of the easiest shot. Fitted to the measured directions.
 const LEAST_HARD: f32 = 0.07;
 /// How much a hard shot is pulled towards the run, for each radian between them, and at most
@@ -143,7 +143,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     // A swing that began before the run strikes the ball from a step.
     let steps = plan.swing.is_some_and(|swing| !swing.runs);
     let pace = if steps { STEP_MPS } else { pace };
-    let hard = hard_at(if steps { pace } else { player.vel.length().clamp(STEP_MPS, RUN_MPS) });
+    let hard = hard_at(if steps { pace } else { player.vel.length().clamp(STEP_MPS, HARDEST_MPS) });
     let harder = libm::powf(hard, 0.7);
     let lifts = libm::powf(hard_at(pace.min(LEFT_MPS)), 0.7);
 

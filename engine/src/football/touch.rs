@@ -1,8 +1,8 @@
 //! Who plays a ball within reach.
 //!
-//! `dribble` handles the touches of a dribble, `first_touch` those of a free ball, `duel` fights
-//! for an owned ball, and `keeper` hands. `contact` and `offside` decide what a touch means
-//! (passes, offside).
+//! `dribble_motion` and `dribble` handle the touches of a dribble, `first_touch` those of a free
+//! ball, `duel` fights for an owned ball, and `keeper` hands. `contact` and `offside` decide what a
+//! touch means (passes, offside).
 
 use crate::football::{dribble, dribble_motion, first_touch, kick};
 use crate::state::event::Events;
@@ -101,10 +101,12 @@ pub(super) fn contests(game: &Match, id: PlayerId) -> bool {
     (game.player(id).ai != Ai::Lazy || game.is_driven(id)) && game.last_touch != Some(id)
 }
 
-/// Whether the last owner can play the ball on. Not right after a poke at a rival's ball: then it
-/// is free.
+/// Whether the last owner can play the ball on, or is in the motion of their next touch. Not right
+/// after a poke at a rival's ball: then it is free.
 fn plays_on(game: &Match, id: PlayerId) -> bool {
-    game.tick as i32 >= game.player(id).body.ready_at
+    let body = &game.player(id).body;
+    let dribbles = body.lunge.is_some_and(|lunge| lunge.aim().is_none());
+    dribbles || game.tick as i32 >= body.ready_at
 }
 
 /// Whether a player would play the nearby ball.

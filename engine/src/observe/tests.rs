@@ -168,6 +168,9 @@ fn the_mask_leaves_what_can_matter() {
     let mut game = game();
     game.ball.pos = game.players[1].pos.extend(0.11);
     game.last_touch = game.owner;
+    // No kick is heard in the first step of a start.
+    assert!(!action_mask(&game, 0).unwrap()[Action::Shot.index()]);
+    game.tick = 10;
     game.agents[0].sticky = 1 << StickyAction::Right.index() | 1 << StickyAction::Sprint.index();
     let mask = action_mask(&game, 0).unwrap();
     let open = |action: Action| mask[action.index()];

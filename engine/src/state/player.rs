@@ -109,11 +109,11 @@ pub struct Body {
     pub lag_ticks: i8,
     /// Tick of their last touch.
     pub touched_at: i32,
-    /// Tick before which they may not try for the ball.
+    /// Tick before which they may not try for the ball: the end of a motion or of a rest.
     pub ready_at: i32,
     /// Tick until which a leg that has kicked follows through.
     pub follows_until: i32,
-    /// A leg that is out for the ball.
+    /// A leg that is out for the ball: a rival's, a free one or their own.
     pub lunge: Option<Lunge>,
     /// Where they can first meet the ball.
     pub meet: Vec2,

@@ -206,12 +206,15 @@ fn a_kick_pressed_before_the_ball_comes_is_the_first_touch() {
 }
 
 #[test]
-fn an_agent_gets_the_player_at_the_ball_after_the_first_step() {
+fn an_agents_first_action_goes_to_the_player_at_the_ball() {
     let mut bench = Bench::new(Layout::EmptyGoalClose, 0);
     assert_eq!(bench.game.agents[0].player, Some(PlayerId(0)), "the start gives it the keeper");
-    bench.step(Action::Right);
-    bench.step(Action::Right);
+    bench.step(Action::Left);
     assert_eq!(bench.game.agents[0].player, Some(PlayerId(1)));
+    for _ in 0..4 {
+        bench.step(Action::Idle);
+    }
+    assert!(bench.game.ball.vel.x < 0.0, "the ball goes where the first key said");
 }
 
 #[test]

@@ -45,19 +45,17 @@ impl TickMemory {
         scratch: &mut Scratch,
     ) -> Result<(), LabError> {
         let mut game = before.clone();
+        step::hand_over(&mut game);
         let mut events = Events::new();
         // A player that an agent has switched away from is the bot's for this step, even if
         // scripted.
         let switched =
-            before.agents.iter().zip(step.actions).filter(|(_, action)| **action == Action::Switch);
+            game.agents.iter().zip(step.actions).filter(|(_, action)| **action == Action::Switch);
         let left: Vec<PlayerId> = switched.filter_map(|(slot, _)| slot.player).collect();
         for (i, (acting, done)) in
             game.play.acting.iter_mut().zip(&step.judged.play.acting).enumerate()
         {
             acting.chosen = done.played.filter(|_| !left.contains(&PlayerId(i as u8)));
-        }
-        if game.tick == 0 {
-            step::hand_over(&mut game);
         }
         control::command(&mut game, step.actions, &mut events);
         while game.tick < step.judged.tick {

@@ -10,9 +10,9 @@ use crate::state::play::{Play, Restart};
 use crate::state::player::Body;
 use crate::state::{AgentSlot, Match, Player, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{GameMode, PitchMeasure, Role, Rule, StartKind, Stat, Team};
+use setpiece_scenario::{Ai, Others};
 
 /// A player sets off at most this many ticks later than they could. Measured.
 const SET_OFF_TICKS: f32 = 18.0;
@@ -21,7 +21,9 @@ const SET_OFF_TICKS: f32 = 18.0;
 const STAGGER_M: f32 = 8.0e-6;
 /// The first at a ball nearer than this waits, metres. Measured.
 const NEAR_M: f32 = 1.3;
-/// A player who goes for the ball of a start needs no ticks to set off, besides the delay.
+/// A player who goes for the ball of a start needs no ticks to set off, besides the delay, if it is
+/// nearer than this, metres. Measured at starts of the Academy, and far from the ball.
+const FAR_M: f32 = 8.0;
 const OFF_TICKS: i8 = 3;
 /// How many ticks after they set off a player can touch the ball of a start without a motion.
 /// Measured.
@@ -133,22 +135,24 @@ fn set_off(game: &mut Match) {
     for id in game.order() {
         let waits = (noise::roll(game) * SET_OFF_TICKS) as i8;
         let goes = game.play.chaser[id.team().index()] == Some(id);
-        let near = game.player(id).pos.distance_squared(ball) < NEAR_M * NEAR_M;
+        let gap = game.player(id).pos.distance_squared(ball);
+        let near = gap < NEAR_M * NEAR_M;
         let waits = if goes && !(near && first == Some(id)) { 0 } else { waits };
         let body = &mut game.players[id.index()].body;
-        body.lag_ticks = if goes { OFF_TICKS - waits } else { -waits };
+        body.lag_ticks = if goes && gap < FAR_M * FAR_M { OFF_TICKS - waits } else { -waits };
         body.ready_at = FIRST_TICKS + i32::from(waits);
     }
 }
 
-/// Puts everybody but the agents' players a few micrometres to one side, by chance.
+/// Puts the bot's players a few micrometres to one side, by chance.
 ///
 /// It is invisible. But a player on the border between two pixels of a map falls into either, as in
 /// GRF, where rounding decides.
 pub fn stagger(game: &mut Match) {
     for id in game.order() {
         let aside = if noise::roll(game) < 0.5 { -STAGGER_M } else { STAGGER_M };
-        if !switching::controlled(game, id) {
+        let bots = game.player(id).ai == Ai::Bot && game.play.others == Others::Bot;
+        if bots && !switching::controlled(game, id) {
             game.players[id.index()].pos.y += aside * id.team().side() as f32;
         }
     }

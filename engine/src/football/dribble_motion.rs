@@ -89,10 +89,11 @@ const SPEEDING: [DribbleMotion; 2] = [
     walk([15, 26], [0.0, 0.62], 0.02),
     motion(DRIBBLES_FROM_MPS, HALF_DEG, [27, 50], MotionEnd::Turned(5.1), [0.1, 0.74]),
 ];
-/// The same for a player who wants to stand: sprinting, and walking.
+/// The same for a player who wants to stand: sprinting, and walking. How long they last is fitted
+/// to how soon players stop.
 const STOPPING: [DribbleMotion; 2] = [
-    motion(SPRINTS_FROM_MPS, ABOUT_DEG, [12, 25], MotionEnd::Braked(4.1), [0.2, 0.7]),
-    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [12, 37], MotionEnd::Braked(0.0), [0.05, 0.7]),
+    motion(SPRINTS_FROM_MPS, ABOUT_DEG, [12, 45], MotionEnd::Braked(4.1), [0.2, 0.9]),
+    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [12, 22], MotionEnd::Braked(0.0), [0.05, 0.7]),
 ];
 /// How far beside a straight run the ball may be at the touch, metres. Measured.
 const ASIDE_M: f32 = 0.2;
@@ -214,7 +215,10 @@ fn begins_again(player: &Player, lunge: &Lunge, now: i32) -> bool {
     let Motion::Dribble { wish, .. } = lunge.motion else { return false };
     // A sprinter's turn is cut into small ones: what they want by now is cut too.
     let new = wanted(player).map_or(Vec2::ZERO, |motion| self::wish(player, run(player), motion));
-    now <= lunge.from() + AGAIN_TICKS && new.dot(wish) < CHANGED * new.length() * wish.length()
+    let stands = |wish: Vec2| wish.length_squared() < STOPS_MPS * STOPS_MPS;
+    let changed =
+        stands(new) != stands(wish) || new.dot(wish) < CHANGED * new.length() * wish.length();
+    now <= lunge.from() + AGAIN_TICKS && changed
 }
 
 /// Whether a motion has only begun, so that a kick may take its place. (GRF's.)

@@ -84,8 +84,10 @@ pub fn drive(
     let swings = body.kick.is_some_and(|plan| plan.swing.is_some()) && waits;
     let follows = (game.tick as i32) < body.follows_until;
     let kicks = follows || swings && has_ball;
-    let wish = if kicks {
-        player.vel * if follows { FOLLOWING } else { 1.0 }
+    let wish = if follows {
+        player.vel * FOLLOWING
+    } else if kicks {
+        player.vel
     } else if waits && has_ball {
         braked(&player, direction, gait)
     } else {

@@ -15,6 +15,9 @@ const WAY_TO_PACE: f32 = 0.7;
 /// and what full skill adds (GRF's). `CLOSE`: the divisor for which the speeds here hold.
 const CLOSEST: [f32; 2] = [0.38, 0.02];
 const CLOSE: f32 = 0.394;
+/// What that divisor is multiplied by: a touch is a little softer than the way asks for. Fitted to
+/// the speeds of touches.
+const SOFTER: f32 = 1.1;
 /// Opponents within these distances annoy a dribbler; the most annoyed sends the ball `ANNOYED_M`
 /// further, metres. (GRF's.)
 const ANNOYS_M: std::ops::Range<f32> = 0.5..1.5;
@@ -65,22 +68,11 @@ pub(super) fn straight_on(player: &Player, to_ball: Vec2, ahead: Vec2, speed: f3
     let (end, step_s) =
         if own < STANDS_MPS { (OFF_MPS, OFF_S) } else { (own + SPEEDS_UP_MPS, STEP_S) };
     let end = end.min(wanted);
-    let over = if speed > SPRINTS_FROM_MPS {
-        HASTE_MPS[1]
-    } else if speed > WALKS_FROM_MPS {
-        HASTE_MPS[0]
-    } else {
-        0.0
-    };
-    let pace = wanted.clamp(end, end + over);
-    let share = (pace / SPRINT_MPS).min(1.0);
-    let until_s = AGAIN_S[0] + AGAIN_S[1] * share * share;
+    let pace = wanted.clamp(end, end + haste_mps(speed));
+    let until_s = again_s(pace);
     let way =
         ahead * (0.5 * (own + end) * step_s + pace * until_s + FRONT_M + FRONT_S * pace) - to_ball;
-    let fast = 1.0 + HARDER * ((pace - RUN_MPS) / (FASTEST_MPS - RUN_MPS)).clamp(0.0, 1.0);
-    way.normalize_or_zero()
-        * libm::powf(way.length() / ((step_s + until_s + NEXT_S) * CLOSE * 1.1), WAY_TO_PACE)
-        * fast
+    sent(way, step_s + until_s + NEXT_S, pace)
 }
 
 /// What a touch of a motion is for.
@@ -112,17 +104,11 @@ pub(super) fn touched(
     let stands = end < STANDS_MPS;
     // Who sets off from a standstill for another ball than their own doesn't hurry yet.
     let sets_off = first && player.vel.length_squared() < STANDS_MPS * STANDS_MPS;
-    let over = match () {
-        () if stands || sets_off => 0.0,
-        () if wanted > SPRINTS_FROM_MPS => HASTE_MPS[1],
-        () if wanted > WALKS_FROM_MPS => HASTE_MPS[0],
-        () => 0.0,
-    };
+    let over = if stands || sets_off { 0.0 } else { haste_mps(wanted) };
     let along = 0.5 + 0.5 * player.body.facing.dot(way);
     let pace = wanted.max(end).min(end + over * along);
     let by_body = if stands { 1.0 } else { BY_BODY[usize::from(!owns)] };
-    let share = (pace / SPRINT_MPS).min(1.0);
-    let until_s = AGAIN_S[0] + AGAIN_S[1] * share * share;
+    let until_s = again_s(pace);
     let place = (player.vel + to) * (0.5 * rest_s)
         + (out * by_body + way * (1.0 - by_body)) * (pace * until_s)
         + way * (FRONT_M + FRONT_S * pace);
@@ -130,11 +116,32 @@ pub(super) fn touched(
     if let Some(cut) = cut {
         return dribble::stops_at(cut - to_ball);
     }
-    let place = place - to_ball;
-    let time_s = rest_s + until_s + NEXT_S;
+    sent(place - to_ball, rest_s + until_s + NEXT_S, pace)
+}
+
+/// How much faster than at the end of a touch whoever wants this speed wants to be, m/s.
+fn haste_mps(wanted: f32) -> f32 {
+    if wanted > SPRINTS_FROM_MPS {
+        HASTE_MPS[1]
+    } else if wanted > WALKS_FROM_MPS {
+        HASTE_MPS[0]
+    } else {
+        0.0
+    }
+}
+
+/// How long a runner at this pace lets the ball run, from the end of one touch to the start of the
+/// next, seconds.
+fn again_s(pace: f32) -> f32 {
+    let share = (pace / SPRINT_MPS).min(1.0);
+    AGAIN_S[0] + AGAIN_S[1] * share * share
+}
+
+/// The velocity that takes the ball this way, metres, in this time for a runner at this pace.
+fn sent(way: Vec2, time_s: f32, pace: f32) -> Vec2 {
     let harder = 1.0 + HARDER * ((pace - RUN_MPS) / (FASTEST_MPS - RUN_MPS)).clamp(0.0, 1.0);
-    place.normalize_or_zero()
-        * libm::powf(place.length() / (time_s * CLOSE * 1.1), WAY_TO_PACE)
+    way.normalize_or_zero()
+        * libm::powf(way.length() / (time_s * CLOSE * SOFTER), WAY_TO_PACE)
         * harder
 }
 

@@ -31,11 +31,10 @@ const OWN_LOST_S: f32 = 0.95;
 const MISSED_TICKS: i32 = 30;
 /// The ball must be this near for a kick, metres.
 pub const KICK_M: f32 = 0.85;
-/// A swing begins only if the ball will be this near at the contact, metres: of a ground pass, a
-/// lofted pass and a shot. Fitted to when kicks leave.
-const PASSES_M: f32 = 0.85;
+/// A swing begins only if the ball will be this near at the contact, metres, and of a lofted pass
+/// this near. Fitted to when kicks leave.
+const SWINGS_M: f32 = 0.85;
 const LOFTS_M: f32 = 1.0;
-const SHOOTS_M: f32 = 0.85;
 /// The same for a ball that somebody else has played; chosen.
 const COMES_M: f32 = 1.3;
 /// How near a fast ball must come to be struck without a first touch, metres; chosen.
@@ -187,9 +186,8 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     let (way, mate) = meant(game, id, plan);
     let near_m = match plan.kind {
         _ if game.last_touch != Some(id) => COMES_M,
-        KickKind::Short | KickKind::Long => PASSES_M,
         KickKind::High => LOFTS_M,
-        KickKind::Shot | KickKind::Clear => SHOOTS_M,
+        _ => SWINGS_M,
     };
     let reaches =
         |swing: &&SwingMotion| apart(game, id, swing).is_some_and(|apart| apart <= near_m);

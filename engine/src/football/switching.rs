@@ -3,8 +3,8 @@
 //! Fixed slots keep their player. Other slots follow the ball: to the teammate who reaches it much
 //! sooner, to its owner, to the receiver of a pass, to the taker of a set piece. A match begins
 //! with certain places of the team, keepers included, and its first step with the player at the
-//! ball. A restart begins with the players nearest to
-//! the ball. During play no slot changes to a keeper.
+//! ball. A restart begins with the players nearest to the ball. During play no slot changes to a
+//! keeper.
 
 use crate::state::{AgentSlot, Match, PlayerId};
 use arrayvec::ArrayVec;

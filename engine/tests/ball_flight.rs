@@ -92,7 +92,7 @@ fn a_long_high_pass_flies_as_measured() {
         6.45, 6.13, 5.72, 5.25, 4.70, 4.08, 3.40, 2.65, 1.83, 0.95,
     ];
     let ours =
-        steps(Ball { pos: Vec3::new(0.0, 0.0, 0.57), ..kicked(32.9, 11.3, 17.0) }, speeds.len());
+        steps(Ball { pos: Vec3::new(0.0, 0.0, 0.57), ..kicked(32.9, 11.3, 18.8) }, speeds.len());
     assert_speeds(&ours, &speeds);
     assert_heights(&ours, &heights);
 }

@@ -12,7 +12,7 @@ use setpiece::engine::state::PlayerId;
 use setpiece::scenario::{Action, Verdict};
 use setpiece_tests::environment as written;
 
-const EPISODES: u64 = 40;
+const EPISODES: u64 = 100;
 const KICKS: [Action; 4] = [Action::ShortPass, Action::LongPass, Action::HighPass, Action::Shot];
 
 /// Three agents, whose players never change, against two.

@@ -358,3 +358,105 @@ fn who_is_handed_to_the_bot_holds_no_key() {
     let held = |step: usize| matches[step].players[1].body.kick.is_some_and(|plan| plan.held);
     assert!(held(11) && !held(12));
 }
+
+/// A runner with the ball at their feet, and a mate 40 m ahead.
+const LONG_WAY: &str = "
+    team left { CM at (-0.5, 0) CM at (0.25, 0) { ai: lazy } }
+    team right { GK at (1, 0) { ai: lazy } }
+    ball at (-0.48, 0)";
+
+#[test]
+fn a_rolling_ball_is_passed_harder_than_a_resting_one() {
+    let mut environment = written(LONG_WAY);
+    let runs = |step| if step == 8 { Action::ShortPass } else { Action::Right };
+    let stands = |step| match step {
+        0..8 => Action::Right,
+        8..20 => Action::ReleaseDirection,
+        20 => Action::ShortPass,
+        _ => Action::Idle,
+    };
+    let mut fastest = |key: &dyn Fn(usize) -> Action, episode: u64| {
+        let matches = played(&mut environment, episode, key);
+        matches.iter().fold(0.0f32, |most, game| most.max(game.ball.vel.truncate().length()))
+    };
+    let (rolling, resting) = (0..8).fold((0.0, 0.0), |(rolling, resting), episode| {
+        (rolling + fastest(&runs, episode) / 8.0, resting + fastest(&stands, episode) / 8.0)
+    });
+    assert!(rolling > 30.0 && resting < 28.5, "{rolling} m/s rolling, {resting} m/s resting");
+}
+
+#[test]
+fn a_sprinters_pass_needs_no_new_touch() {
+    let mut environment = written(LONG_WAY);
+    let key = |press: usize| {
+        move |step| match step {
+            0 => Action::Sprint,
+            _ if step == press => Action::HighPass,
+            _ => Action::Right,
+        }
+    };
+    let fast = |game: &Match| game.ball.vel.truncate().length();
+    for episode in 0..8 {
+        let free = played(&mut environment, episode, key(usize::MAX));
+        let touch = (14..22).find(|&step| fast(&free[step]) > fast(&free[step - 1]) + 0.5).unwrap();
+        let matches = played(&mut environment, episode, key(touch + 1));
+        let leaves = kicked_at(&matches, touch + 1).unwrap();
+        assert!(leaves <= touch + 5, "touched in step {touch}, kicked in step {leaves}");
+    }
+}
+
+#[test]
+fn a_shot_behind_the_back_goes_to_the_goal() {
+    // The shooter faces the ball that comes to them, away from the goal.
+    let mut environment = written(
+        "team left { CM at (0.35, 0.12) CF at (0.7, 0) }
+         team right { GK at (0.9, 0.38) { ai: lazy } }
+         ball at (0.365, 0.115)
+         agents { left: all }",
+    );
+    let mut scratch = Scratch::default();
+    let mut shots = Vec::new();
+    for episode in 0..24 {
+        environment.reset(Some(1), Some(episode)).unwrap();
+        let mut asked = false;
+        for step in 0..50 {
+            let game = environment.state();
+            let near = game.players[1].pos.distance(game.ball.pos.truncate()) < 14.0;
+            let asks = step > 8 && near && !asked;
+            asked |= asks;
+            let first = match step {
+                0..8 => Action::TopRight,
+                8 => Action::ShortPass,
+                _ => Action::Idle,
+            };
+            let second = if asks { Action::Shot } else { Action::Idle };
+            environment.step(&[first, second], &mut scratch).unwrap();
+            let ball = environment.state().ball.vel.truncate();
+            if ball.length() > 10.5 && environment.state().last_touch == Some(PlayerId(1)) {
+                shots.push(ball.y.atan2(ball.x).to_degrees());
+                break;
+            }
+        }
+    }
+    let at_goal = shots.iter().filter(|degrees| degrees.abs() < 30.0).count();
+    assert!(shots.len() >= 12 && 4 * at_goal >= 3 * shots.len(), "{shots:?}");
+}
+
+#[test]
+fn who_sets_off_next_to_the_ball_touches_it_once_they_run() {
+    let mut environment = written(
+        "team left { CF at (24.75m, 0m) } team right { GK at (0.9, 0.38) { ai: lazy } }
+         ball at (25.57m, 0m)",
+    );
+    let key = |step| if step == 0 { Action::Sprint } else { Action::Right };
+    let mut running = 0;
+    for episode in 0..12 {
+        let matches = played(&mut environment, episode, key);
+        let speeds: Vec<f32> = matches.iter().map(|game| game.ball.vel.length()).collect();
+        let touches: Vec<usize> =
+            (1..16).filter(|&step| speeds[step] > speeds[step - 1] + 0.5).collect();
+        assert!(touches[1] - touches[0] >= 4, "{touches:?}");
+        running += u32::from(speeds[touches[0]] > 3.7);
+    }
+    assert!(running >= 8, "{running} of 12");
+}

@@ -58,13 +58,15 @@ pub fn ball_is_theirs(game: &Match, id: PlayerId) -> bool {
 /// None if there is no time to spare, or if the ball is already there. (GRF's.)
 ///
 /// Of all meetings it takes the one most like the held direction, with a slight preference for the
-/// one nearest to the ball's path.
+/// one nearest to the ball's path. Whoever is about to kick takes the soonest.
 pub fn meeting(game: &Match, id: PlayerId, wish: Vec2) -> Option<(Vec2, f32)> {
     let player = game.player(id);
     let rival = game.play.chaser[id.team().other().index()]
         .map_or(9.0, |rival| game.player(rival).body.meet_s);
     let soonest_s = player.body.meet_s;
-    if soonest_s < TOUCH_S || (rival + ADDED_S) < HASTE * (soonest_s + ADDED_S) {
+    let kicks = player.body.kick.is_some();
+    let spare = kicks || rival + ADDED_S >= HASTE * (soonest_s + ADDED_S);
+    if soonest_s < TOUCH_S || !spare {
         return None;
     }
     let ball = game.ball.pos.truncate();
@@ -111,7 +113,7 @@ pub fn meeting(game: &Match, id: PlayerId, wish: Vec2) -> Option<(Vec2, f32)> {
             ));
         }
         // Later meetings run after the ball, or keep it waiting.
-        if to.dot(comes) > 0.0 || soonest_s < SOONEST * time_s {
+        if kicks || to.dot(comes) > 0.0 || soonest_s < SOONEST * time_s {
             break;
         }
     }

@@ -106,8 +106,7 @@ pub fn drive(
         direction.is_some_and(|ahead| ahead.dot(game.ball.pos.truncate() - player.pos) > 0.0);
     let stands =
         !has_ball && !meets && player.body.kick.is_none() && reach::comes_to(game, &player);
-    let spare = fetch && !has_ball && player.body.kick.is_none();
-    let meeting = if spare { assist::meeting(game, id, wish) } else { None };
+    let meeting = if fetch && !has_ball { assist::meeting(game, id, wish) } else { None };
     let body = &mut game.players[id.index()].body;
     body.dribble = wish;
     body.intent = if kicks {

@@ -184,7 +184,9 @@ fn on_mps(player: &Player, wanted: f32) -> f32 {
 
 /// Whether the ball is where the motion meets it.
 fn fits(player: &Player, ball: Vec2, run: Vec2, motion: &DribbleMotion) -> bool {
-    let place = ball - player.pos - player.vel * (motion.ticks as f32 * 0.01);
+    // Somebody who sets off reaches the ball from where they are.
+    let on_s = if motion.from_mps > 0.0 { motion.ticks as f32 * 0.01 } else { 0.0 };
+    let place = ball - player.pos - player.vel * on_s;
     let [near_m, far_m] = motion.ahead_m;
     let far_m = far_m - motion.less_m * player.vel.length();
     (near_m..far_m).contains(&place.dot(run)) && place.perp_dot(run).abs() <= ASIDE_M
@@ -276,7 +278,8 @@ pub(super) fn turns(player: &Player) -> bool {
 pub(super) fn waits(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     let Some(motion) = wanted(player) else { return false };
-    let place = game.ball.pos.truncate() - player.pos - player.vel * (motion.ticks as f32 * 0.01);
+    let ball = game.play.forecast.at(game.tick + motion.ticks as u32).truncate();
+    let place = ball - player.pos - player.vel * (motion.ticks as f32 * 0.01);
     let run = run(player);
     place.dot(run) > motion.ahead_m[0] && place.perp_dot(run).abs() < ASIDE_M
 }

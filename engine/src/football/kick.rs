@@ -31,18 +31,15 @@ const OWN_LOST_S: f32 = 0.95;
 const MISSED_TICKS: i32 = 30;
 /// The ball must be this near for a kick, metres.
 pub const KICK_M: f32 = 0.85;
-/// A swing begins only if the ball will be this near at the contact, metres, and of a lofted pass
-/// this near. Fitted to when kicks leave.
-const SWINGS_M: f32 = 0.85;
-const LOFTS_M: f32 = 1.0;
-/// The same for a ball that somebody else has played; chosen.
+/// The swing at a ball that somebody else has played reaches this far, metres; chosen.
 const COMES_M: f32 = 1.3;
 /// How near a fast ball must come to be struck without a first touch, metres; chosen.
 const REACH_M: f32 = 0.8;
 /// How soon a fast ball can be struck without a first touch, ticks. Fitted to how late that can be
 /// asked for.
 const FIRST_TIME_TICKS: std::ops::Range<i32> = 14..28;
-/// Striking without a first touch: the highest ball, metres, and how often it succeeds for short,
+/// Striking without a first touch: the highest ball (`LOW_M` for a shot behind the back), metres,
+/// and how often it succeeds for short,
 /// long and high passes and shots. Measured.
 const FIRST_TIME_M: f32 = 0.9;
 const FIRST_TIME: [f32; 4] = [0.75, 0.5, 0.2, 0.85];
@@ -53,7 +50,13 @@ const TAKES_MPS: f32 = 8.0;
 /// A swing begins only for a ball at most this high at the contact, metres; chosen.
 const LOW_M: f32 = 0.5;
 /// How near the ball must be to a leg that is already on its way, metres; chosen.
-const STRETCH_M: f32 = 1.2;
+const STRETCH_M: f32 = 1.3;
+/// How much of its spin a ball keeps when it is kicked. (GRF's.)
+const KEPT_SPIN: f32 = 0.1;
+/// How much topspin the grass gives to a ball that is kicked off it, rad/s, and up to which height,
+/// metres. Fitted to how high passes fly.
+const GRASS_SPIN: f32 = 6.0;
+const ON_GRASS_M: f32 = 0.2;
 /// Ticks of a leg's follow-through after a kick. Measured.
 const FOLLOW_TICKS: i32 = 34;
 /// The highest ball that can be volleyed, metres.
@@ -184,13 +187,11 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
         return None;
     }
     let (way, mate) = meant(game, id, plan);
-    let near_m = match plan.kind {
-        _ if game.last_touch != Some(id) => COMES_M,
-        KickKind::High => LOFTS_M,
-        _ => SWINGS_M,
+    let comes = game.last_touch != Some(id);
+    let reaches = |swing: &&SwingMotion| {
+        let reach_m = if comes { COMES_M } else { swing.reach_m };
+        apart(game, id, swing).is_some_and(|apart| apart <= reach_m)
     };
-    let reaches =
-        |swing: &&SwingMotion| apart(game, id, swing).is_some_and(|apart| apart <= near_m);
     let (ticks, end_dmps) = match game.play.set_piece {
         Some(set_piece) => (run_up_ticks(set_piece.mode), Swing::RUN),
         None if at_hand => (at_hand_ticks(plan.kind), Swing::RUN),
@@ -231,10 +232,13 @@ fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swi
         return None;
     }
     let player = game.player(id);
+    let (way, mate) = meant(game, id, plan);
+    let turns = plan.kind == KickKind::Shot && pass::is_behind(player, way);
+    let high_m = if turns { LOW_M } else { FIRST_TIME_M };
     let meets = |ticks: &i32| {
         let there = game.play.forecast.at(game.tick + *ticks as u32);
         let place = player.pos + player.vel * (*ticks as f32 * 0.01);
-        there.z <= FIRST_TIME_M && place.distance_squared(there.truncate()) < REACH_M * REACH_M
+        there.z <= high_m && place.distance_squared(there.truncate()) < REACH_M * REACH_M
     };
     let ticks = FIRST_TIME_TICKS.step_by(2).find(meets)?;
     let [short, long, high, shot] = FIRST_TIME;
@@ -245,7 +249,6 @@ fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swi
         KickKind::Shot | KickKind::Clear => shot,
     };
     plan.taken = !noise::happens(game, often);
-    let (way, mate) = meant(game, id, plan);
     let runs = shot::runs(game.player(id));
     (!plan.taken).then_some(Swing {
         ready_at: game.tick as i32 + ticks,
@@ -309,6 +312,8 @@ struct SwingMotion {
     /// How fast the player is at the contact, m/s, and how much of their run counts in it.
     end_mps: f32,
     share: f32,
+    /// How far from the player the ball may be at the contact, metres. Fitted to when kicks leave.
+    reach_m: f32,
 }
 
 impl SwingMotion {
@@ -318,34 +323,39 @@ impl SwingMotion {
     }
 }
 
-const fn swing(ticks: i32, end_mps: f32, share: f32) -> SwingMotion {
-    SwingMotion { ticks, end_mps, share }
+const fn swing(ticks: i32, [end_mps, share]: [f32; 2], reach_m: f32) -> SwingMotion {
+    SwingMotion { ticks, end_mps, share, reach_m }
 }
 
-/// Swings by what they lead to, best first: from a standstill; on; half aside; aside; back.
-const PASSES: [&[SwingMotion]; 5] = [
-    &[swing(34, 0.3, 0.0)],
-    &[swing(15, 2.0, 0.68), swing(27, 3.5, 0.0), swing(36, 5.7, 0.0)],
-    &[swing(20, 3.5, 0.1), swing(27, 3.5, 0.1), swing(36, 5.7, 0.0)],
-    &[swing(30, 4.4, 0.0), swing(36, 5.7, 0.0)],
-    &[swing(36, 5.7, 0.0)],
+/// Swings by what they lead to, best first: from a standstill; on; a bit aside; half aside; aside;
+/// back.
+const PASSES: [&[SwingMotion]; 6] = [
+    &[swing(34, [0.3, 0.0], 0.85)],
+    &[swing(15, [2.0, 0.68], 1.0), swing(27, [3.5, 0.0], 0.85), swing(36, [5.7, 0.0], 0.85)],
+    &[swing(20, [3.5, 0.1], 1.2), swing(27, [3.5, 0.1], 0.85), swing(36, [5.7, 0.0], 0.85)],
+    &[swing(20, [3.5, 0.1], 0.85), swing(27, [3.5, 0.1], 0.85), swing(36, [5.7, 0.0], 0.85)],
+    &[swing(30, [4.4, 0.0], 0.85), swing(36, [5.7, 0.0], 0.85)],
+    &[swing(36, [5.7, 0.0], 0.85)],
 ];
-const LOFTS: [&[SwingMotion]; 5] = [
-    &[swing(25, 1.4, 0.0)],
-    &[swing(12, 1.5, 0.68), swing(27, 2.7, 0.0), swing(36, 1.7, 0.0)],
-    &[swing(14, 3.9, 0.0), swing(29, 2.2, 0.0), swing(36, 1.7, 0.0)],
-    &[swing(29, 2.2, 0.0), swing(36, 1.7, 0.0)],
-    &[swing(36, 1.7, 0.0)],
+const LOFTS: [&[SwingMotion]; 6] = [
+    &[swing(25, [1.4, 0.0], 1.0)],
+    &[swing(12, [1.5, 0.68], 1.3), swing(27, [2.7, 0.0], 1.0), swing(36, [1.7, 0.0], 1.0)],
+    &[swing(14, [3.9, 0.0], 1.23), swing(29, [2.2, 0.0], 1.0), swing(36, [1.7, 0.0], 1.0)],
+    &[swing(14, [3.9, 0.0], 1.23), swing(29, [2.2, 0.0], 1.0), swing(36, [1.7, 0.0], 1.0)],
+    &[swing(29, [2.2, 0.0], 1.0), swing(36, [1.7, 0.0], 1.0)],
+    &[swing(36, [1.7, 0.0], 1.0)],
 ];
-const SHOTS: [&[SwingMotion]; 5] = [
-    &[swing(25, 0.0, 0.0)],
-    &[swing(17, 3.7, 0.34)],
-    &[swing(17, 3.7, 0.34), swing(28, 3.9, 0.0)],
-    &[swing(28, 3.9, 0.0)],
-    &[swing(36, 1.7, 0.0)],
+const SHOTS: [&[SwingMotion]; 6] = [
+    &[swing(25, [0.0, 0.0], 0.85)],
+    &[swing(17, [3.7, 0.34], 0.85)],
+    &[swing(17, [3.7, 0.34], 0.85), swing(28, [3.9, 0.0], 0.85)],
+    &[swing(17, [3.7, 0.34], 0.85), swing(28, [3.9, 0.0], 0.85)],
+    &[swing(28, [3.9, 0.0], 0.85)],
+    &[swing(36, [1.7, 0.0], 0.85)],
 ];
-/// Up to which angles to the run a kick leads on, half aside and aside, degrees; chosen.
-const SWINGS_DEG: [f32; 3] = [35.0, 70.0, 135.0];
+/// Up to which angles to the run a kick leads on, a bit aside, half aside and aside, degrees;
+/// chosen.
+const SWINGS_DEG: [f32; 4] = [35.0, 48.0, 70.0, 135.0];
 
 /// The swings that a kick may take.
 fn swings(player: &Player, kind: KickKind, way: Vec2) -> &'static [SwingMotion] {
@@ -477,7 +487,10 @@ fn send(game: &mut Match, id: PlayerId, struck: Struck) {
     let turned = if id.team() == game.play.early { 1.0 } else { -1.0 };
     game.ball.pos.z = game.ball.pos.z.max(0.13);
     game.ball.vel = struck.velocity;
-    game.ball.spin = (struck.spin.truncate() * turned).extend(struck.spin.z);
+    let way = struck.velocity.truncate().normalize_or_zero();
+    let grass = if game.ball.pos.z < ON_GRASS_M { GRASS_SPIN } else { 0.0 };
+    let rolls = game.ball.spin.truncate() * KEPT_SPIN + way.perp() * grass;
+    game.ball.spin = (struck.spin.truncate() * turned + rolls).extend(struck.spin.z);
 }
 
 /// How awkward the kick is, 0..1. A fast, high or distant ball adds to it (less for good

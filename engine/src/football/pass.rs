@@ -12,22 +12,22 @@ use setpiece_scenario::vocabulary::Stat;
 
 /// Speed of the hardest ground pass at a resting ball, m/s. Measured.
 const GROUND_MPS: f32 = 27.6;
-/// The most that running adds to it, m/s. Measured.
-const STRIDE_MPS: f32 = 1.4;
+/// The most that running adds to it, m/s (measured), and how much of the ball's speed does
+/// (GRF's).
+const STRIDE_MPS: f32 = 2.0;
+const MOMENTUM: f32 = 0.5;
 /// Speed of the hardest pass behind the player's back, m/s. Measured.
 const HEEL_MPS: f32 = 16.8;
 /// Speed of the hardest lofted pass behind the player's back, m/s. Measured.
 const HIGH_HEEL_MPS: f32 = 33.0;
-/// What a charged pass in stride gains, m/s, and from which gauge on. Measured.
-const CHARGE_MPS: f32 = 2.5;
-const CHARGED: f32 = 0.35;
 /// The most that a pass to the side loses, m/s. Measured.
 const ASIDE_LESS_MPS: f32 = 2.0;
 /// How much faster the ball rises when played to the side, and behind the back, m/s. Measured.
 const ASIDE_UP_MPS: f32 = 0.3;
 const HEEL_UP_MPS: f32 = 0.4;
-/// From this angle to the run on, a pass is played with the heel, degrees; chosen.
-const HEEL_DEG: f32 = 135.0;
+/// From this angle to the run on, a kick goes behind the back, and a pass is played with the heel,
+/// degrees; chosen.
+const BEHIND_DEG: f32 = 135.0;
 /// Topspin of a ground pass and backspin of a lofted one, rad/s per m/s, and the speed up to which
 /// they grow. (GRF's ratios; fitted to the measured heights.)
 const TOPSPIN_PER_MPS: f32 = 4.0;
@@ -70,8 +70,7 @@ pub fn struck(
     let degrees = off_run(&player, way);
     let strides = (player.vel.length() / 2.0).min(1.0);
     let aside = (degrees / 30.0).min(1.0);
-    let heel = degrees > HEEL_DEG;
-    let charge = (plan.gauge() / CHARGED).min(1.0);
+    let heel = is_behind(&player, way);
     let (level, up) = if kind == KickKind::High {
         // A pass to the side is struck a little harder.
         let rise = 0.45 - 0.15 * distance / 60.0;
@@ -84,7 +83,10 @@ pub fn struck(
         let most = match (by_hand, heel) {
             (true, _) => 15.0,
             (_, true) => HEEL_MPS,
-            _ => GROUND_MPS - ASIDE_LESS_MPS * aside + (STRIDE_MPS + CHARGE_MPS * charge) * strides,
+            _ => {
+                let rolls = game.ball.vel.truncate().length();
+                GROUND_MPS - ASIDE_LESS_MPS * aside + STRIDE_MPS * strides + MOMENTUM * rolls
+            }
         };
         let level = wanted.min(most);
         let lifted = ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
@@ -126,6 +128,11 @@ pub fn thrown(game: &mut Match, id: PlayerId, way: Vec2) -> Struck {
 fn across(velocity: Vec3) -> Vec3 {
     let flat = velocity.truncate().normalize_or_zero();
     Vec3::new(flat.y, -flat.x, 0.0)
+}
+
+/// Whether a way leads behind a player's back.
+pub fn is_behind(player: &Player, way: Vec2) -> bool {
+    off_run(player, way) > BEHIND_DEG
 }
 
 /// The angle between the way a player runs (or faces) and another way, degrees.

@@ -112,6 +112,8 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
     let from = game.ball.pos.truncate();
     let way = (aim(game, id, plan) - from).normalize_or(Vec2::new(id.team().side() as f32, 0.0));
     let run = if player.vel.length() > 1.0 { player.vel.normalize() } else { player.body.facing };
+    // Whoever shoots backwards has turned round in the swing.
+    let run = if pass::is_behind(&player, way) { way } else { run };
     // A standing player takes a step, and a sprinter brakes for the ball.
     let pace = player.vel.length().clamp(STEP_MPS, BRAKED_MPS);
     let off = math::atan2(run.perp_dot(way), run.dot(way)).abs();

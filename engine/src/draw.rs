@@ -261,7 +261,7 @@ impl Drawer {
         draws: DrawKey,
         faults: &'a mut u32,
     ) -> Machine<'a> {
-        let (plan, regs) = self.regs.parts();
+        let (plan, regs, points) = self.regs.parts();
         Machine {
             input: Input {
                 now: None,
@@ -279,6 +279,7 @@ impl Drawer {
             crew: Crew::one(None),
             plan,
             regs,
+            points,
             cells: &mut [],
             terms: &mut [],
             faults,

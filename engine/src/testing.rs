@@ -76,7 +76,7 @@ pub(crate) fn run(
     let mut regs = Registers::of(program);
     let mut lanes: Vec<[f64; 1]> = cells.iter().map(|cell| [*cell]).collect();
     let (mut terms, mut faults) = (vec![[0.0]; 4], 0);
-    let (plan, values) = regs.parts();
+    let (plan, values, points) = regs.parts();
     let mut machine = Machine {
         input: Input {
             now: Some(Sight::Kept(now)),
@@ -94,6 +94,7 @@ pub(crate) fn run(
         plan,
         crew: Crew::one(Some(PlayerId(1))),
         regs: values,
+        points,
         cells: &mut lanes,
         terms: &mut terms,
         faults: &mut faults,

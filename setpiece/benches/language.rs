@@ -20,8 +20,9 @@ use setpiece::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece::engine::judge::script::Scripts;
 use setpiece::engine::judge::{Given, Judge};
 use setpiece::engine::state::event::{Event, Events};
-use setpiece::scenario::{Action, Bindings, EventKind, Qualifier, Team};
+use setpiece::scenario::{Action, Bindings, EventKind, Qualifier, Scenario, Team};
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Duration;
 
 fn compiled(text: &str) -> Loaded {
@@ -88,6 +89,9 @@ const CONTROL: &str = "reward r {
         ) as \"a\"
     }";
 
+/// The same for seven players who run on first, in the example: for three agents, with a record.
+const PITCH_CONTROL: &str = include_str!("../../examples/pitch_control.pitch");
+
 /// Twenty operations: operators, assignments, calls and properties.
 const SCRIPT_WITH_HELPERS: &str = "reward script rhai \"\"\"
         fn reward(ctx, now, prev, events) {
@@ -116,18 +120,22 @@ fn judging(c: &mut Criterion<CpuTime>, name: &str, rewards: &str, agents: &str) 
         "table threat over pitch = [[0, 0.1, 0.3], [0, 0.2, 0.4]]
         scenario s extends 11_vs_11_stochastic {{ remove reward scoring  agents {{ {agents} }}  {rewards} }}"
     );
-    let scenario = compiled(&text).scenario;
+    judging_scenario(c, name, &compiled(&text).scenario, 300);
+}
+
+/// The same for the rewards of a scenario, with its own agents, after this many steps.
+fn judging_scenario(c: &mut Criterion<CpuTime>, name: &str, scenario: &Arc<Scenario>, steps: u32) {
     let mut environment = Environment::new(scenario.clone(), EnvironmentOptions::default())
         .unwrap_or_else(|error| panic!("{name}: {error}"));
     environment.reset(Some(1), None).unwrap_or_else(|error| panic!("{error}"));
     let mut scratch = Scratch::default();
     let actions = vec![Action::BuiltinAi; environment.n_agents()];
-    for _ in 0..300 {
+    for _ in 0..steps {
         environment.step(&actions, &mut scratch).unwrap_or_else(|error| panic!("{error}"));
     }
-    let scripts = Scripts::compile(&scenario).unwrap_or_else(|error| panic!("{error}"));
+    let scripts = Scripts::compile(scenario).unwrap_or_else(|error| panic!("{error}"));
     let n_agents = environment.n_agents();
-    let mut judge = Judge::new(&scenario, scenario.rewards.clone().into(), scripts, n_agents);
+    let mut judge = Judge::new(scenario, scenario.rewards.clone().into(), scripts, n_agents);
     let game = environment.state();
     let params = &environment.bindings().0;
     let given = Given { seed: 1, index: 0, params, lets: &[], round: 1, rounds: 1, round_start: 0 };
@@ -167,6 +175,7 @@ fn judges(c: &mut Criterion<CpuTime>) {
     judging(c, "judge/grid_of_192_places", GRID, "left: 1");
     judging(c, "judge/table_on_192_places", TABLE_ON_GRID, "left: 1");
     judging(c, "judge/control_of_192_places", CONTROL, "left: 1");
+    judging_scenario(c, "judge/example_of_192_places", &compiled(PITCH_CONTROL).scenario, 20);
     judging(c, "judge/script_with_helpers", SCRIPT_WITH_HELPERS, "left: 1");
     judging(c, "judge/script_with_getters", SCRIPT_WITH_GETTERS, "left: 1");
 }

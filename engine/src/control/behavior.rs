@@ -151,7 +151,7 @@ impl Actors {
                 continue;
             }
             let plan = &plans[actor.plan];
-            let (program, regs) = self.regs[actor.plan].parts();
+            let (program, regs, points) = self.regs[actor.plan].parts();
             let machine = Machine {
                 input: Input {
                     events,
@@ -160,6 +160,7 @@ impl Actors {
                 crew: Crew::one(Some(id)),
                 plan: program,
                 regs,
+                points,
                 cells: &mut actor.cells,
                 terms: &mut [],
                 faults: &mut self.faults,

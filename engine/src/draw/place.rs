@@ -30,15 +30,19 @@ pub(super) enum PlaceFault {
     /// A number that play can't continue from. Texts have narrower bounds, but files may hold
     /// anything.
     Bounds,
+    /// Two players have the place of one. Texts that allow it aren't compiled, but files may hold
+    /// anything.
+    Seat,
 }
 
 impl PlaceFault {
-    pub(super) const ALL: [PlaceFault; 5] = [
+    pub(super) const ALL: [PlaceFault; 6] = [
         PlaceFault::Number,
         PlaceFault::Ball,
         PlaceFault::Player,
         PlaceFault::Gap,
         PlaceFault::Bounds,
+        PlaceFault::Seat,
     ];
 
     /// The requirement in words.
@@ -53,6 +57,7 @@ impl PlaceFault {
             PlaceFault::Bounds => {
                 "the ball's height, speed and spin, and players' speeds and headings are within their bounds"
             }
+            PlaceFault::Seat => "of players who take part instead of each other, one does at most",
         }
     }
 }
@@ -83,10 +88,14 @@ impl Drawer {
         // The earlier players: where they stand, whether that was drawn, and whether others may
         // stand there too.
         let mut placed: ArrayVec<(Vec2, bool, bool), PLAYERS_MAX> = ArrayVec::new();
+        let mut last = None;
         for team in Team::ALL {
-            for (_, slot) in scenario.team(*team).filter(|(id, slot)| {
+            for (id, slot) in scenario.team(*team).filter(|(id, slot)| {
                 roster.present.get(*id) == Some(&true) && self.is_active(&slot.start)
             }) {
+                if last.replace(id) == Some(id) {
+                    return Some(PlaceFault::Seat);
+                }
                 let own = &slot.start;
                 let at = self.point((own.x, own.y));
                 let velocity = own.velocity.map_or(Vec2::ZERO, |velocity| self.point(velocity));

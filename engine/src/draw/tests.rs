@@ -1,7 +1,7 @@
 use super::*;
 use crate::testing::scenario;
 use setpiece_scenario::vocabulary::Role;
-use setpiece_scenario::{BinaryOp, Distribution, Instr, Require, SideAgents};
+use setpiece_scenario::{BinaryOp, Distribution, Instr, PlayerSlot, Require, SideAgents};
 
 fn push(scenario: &mut Scenario, instr: Instr) -> Reg {
     scenario.start.program.code.push(instr);
@@ -128,6 +128,21 @@ fn random_players_stay_on_the_pitch_and_apart() {
     // Fixed places may coincide.
     let fixed = scenario(&[(Team::Left, Role::CF, 1.0, 1.0), (Team::Left, Role::CF, 1.0, 1.0)]);
     assert!(draw(&fixed, 1, 0).is_ok());
+}
+
+#[test]
+fn of_players_who_share_a_place_one_takes_part() {
+    let mut scenario = striker(-20.0, 20.0);
+    let other = PlayerSlot { instead: true, ..scenario.players[0].clone() };
+    let others = std::iter::repeat_n(other, 30);
+    scenario.players.splice(1..1, others);
+    let refused = draw(&scenario, 1, 0).unwrap_err();
+    assert!(refused.requirement.contains("instead of each other"), "{refused}");
+    let absent = push(&mut scenario, Instr::Const(0.0));
+    for player in &mut scenario.players[1..31] {
+        player.start.active = Some(absent);
+    }
+    assert!(draw(&scenario, 1, 0).is_ok());
 }
 
 #[test]

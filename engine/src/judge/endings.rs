@@ -183,12 +183,13 @@ impl EndingJudge {
     }
 
     fn machine<'a>(&'a mut self, input: &Input<'a>) -> Machine<'a> {
-        let (plan, regs) = self.regs.parts();
+        let (plan, regs, points) = self.regs.parts();
         Machine {
             input: *input,
             crew: Crew::one(None),
             plan,
             regs,
+            points,
             cells: &mut self.cells,
             terms: &mut [],
             faults: &mut self.faults,

@@ -2,27 +2,27 @@
 //!
 //! [`setpiece_scenario::program`] defines the meaning of every instruction. A program runs for
 //! several players of a team at once, each in a separate lane. Every register and cell holds `W`
-//! numbers, and what is the same for all is computed once. A [`Machine`] borrows all it needs, so
-//! running allocates nothing; registers and cells belong to the caller. Programs must have passed
-//! [`setpiece_scenario::verify`].
+//! numbers, and what is the same for all is computed once. In the same way a loop over numbers, for
+//! the points of a grid, runs for [`POINTS`] of them at a time. A [`Machine`] borrows all it needs,
+//! so running allocates nothing; registers and cells belong to the caller. Programs must have
+//! passed [`setpiece_scenario::verify`].
 
 mod chance;
+mod each;
 mod fold;
 mod plan;
 
 use crate::in_place::clone_in_place;
-use crate::judge::view::{Sight, ids, player_number, team_number, team_of_number};
+use crate::judge::view::{Sight, player_number, team_number, team_of_number};
 use crate::state::PlayerId;
 use crate::state::event::Event;
-use fold::Folding;
-pub use plan::Plan;
-use plan::{ALWAYS, Loop, Op, PlanStep};
+use plan::{ALWAYS, Op, PlanStep};
+pub use plan::{POINTS, Plan};
 pub use setpiece_scenario::operators::truth;
 use setpiece_scenario::pitch::STEPS_PER_S;
 use setpiece_scenario::program::PAY_MAX;
 use setpiece_scenario::vocabulary::{EventField, EventKind, Field, Qualifier, Team};
-use setpiece_scenario::{BinaryOp, EventFilter, Instr, Over, Program, Reg, UnaryOp, When, Who};
-use std::array;
+use setpiece_scenario::{BinaryOp, EventFilter, Instr, Program, Reg, UnaryOp, When, Who};
 use std::sync::Arc;
 
 /// The input of a program.
@@ -79,6 +79,8 @@ pub struct Machine<'a, const W: usize = 1> {
     pub plan: &'a Plan,
     /// Its registers.
     pub regs: &'a mut [[f64; W]],
+    /// The same for loops whose lanes are numbers; empty if there are none.
+    pub points: &'a mut [[f64; POINTS]],
     /// The program's memory cells.
     pub cells: &'a mut [[f64; W]],
     /// The payments of each term; [`Instr::Give`] adds here.
@@ -105,21 +107,28 @@ pub struct DrawKey {
 pub struct Registers<const W: usize = 1> {
     plan: Arc<Plan>,
     values: Vec<[f64; W]>,
+    points: Vec<[f64; POINTS]>,
 }
 
 clone_in_place! {
-    Registers<const W: usize> { plan, values }
+    Registers<const W: usize> { plan, values, points }
 }
 
 impl<const W: usize> Registers<W> {
     /// Creates registers for a verified program.
     pub fn of(program: &Program) -> Registers<W> {
-        Registers { plan: Arc::new(Plan::of(program)), values: vec![[0.0; W]; program.code.len()] }
+        let plan = Plan::of(program, W);
+        let n = program.code.len();
+        Registers {
+            values: vec![[0.0; W]; n],
+            points: vec![[0.0; POINTS]; if plan.has_points() { n } else { 0 }],
+            plan: Arc::new(plan),
+        }
     }
 
-    /// The parts that a [`Machine`] needs.
-    pub fn parts(&mut self) -> (&Plan, &mut [[f64; W]]) {
-        (&self.plan, &mut self.values)
+    /// The parts that a [`Machine`] needs: its plan, registers and points.
+    pub fn parts(&mut self) -> (&Plan, &mut [[f64; W]], &mut [[f64; POINTS]]) {
+        (&self.plan, &mut self.values, &mut self.points)
     }
 }
 
@@ -161,11 +170,14 @@ impl<const W: usize> Machine<'_, W> {
     #[inline]
     fn lanes<const N: usize>(&self, reg: Reg) -> [f64; N] {
         let all = &self.regs[reg.index()];
-        array::from_fn(|lane| all[lane])
+        each_lane(|lane| all[lane])
     }
 
-    fn truths(&self, reg: Reg) -> [bool; W] {
-        self.lanes::<W>(reg).map(truth)
+    /// Whether a register holds, in the first `N` lanes.
+    #[inline]
+    fn truths<const N: usize>(&self, reg: Reg) -> [bool; N] {
+        let all = &self.regs[reg.index()];
+        each_lane(|lane| truth(all[lane]))
     }
 
     /// The lanes in which an effect happens.
@@ -177,8 +189,8 @@ impl<const W: usize> Machine<'_, W> {
         if guard == ALWAYS {
             return self.crew.seated;
         }
-        let holds = self.truths(Reg(guard));
-        array::from_fn(|lane| self.crew.seated[lane] & holds[lane])
+        let holds = self.truths::<W>(Reg(guard));
+        each_lane(|lane| self.crew.seated[lane] & holds[lane])
     }
 
     /// Runs instructions in order.
@@ -186,20 +198,20 @@ impl<const W: usize> Machine<'_, W> {
         let plan = self.plan;
         for step in steps {
             match step.op {
-                Op::Add => self.two(step, BinaryOp::Add),
-                Op::Sub => self.two(step, BinaryOp::Sub),
-                Op::Mul => self.two(step, BinaryOp::Mul),
-                Op::Div => self.two(step, BinaryOp::Div),
-                Op::Min => self.two(step, BinaryOp::Min),
-                Op::Max => self.two(step, BinaryOp::Max),
-                Op::Hypot => self.two(step, BinaryOp::Hypot),
-                Op::Lt => self.two(step, BinaryOp::Lt),
-                Op::Le => self.two(step, BinaryOp::Le),
-                Op::Gt => self.two(step, BinaryOp::Gt),
-                Op::Ge => self.two(step, BinaryOp::Ge),
-                Op::Eq => self.two(step, BinaryOp::Eq),
-                Op::And => self.two(step, BinaryOp::And),
-                Op::Or => self.two(step, BinaryOp::Or),
+                Op::Add => self.two(step, |a, b| BinaryOp::Add.apply(a, b)),
+                Op::Sub => self.two(step, |a, b| BinaryOp::Sub.apply(a, b)),
+                Op::Mul => self.two(step, |a, b| BinaryOp::Mul.apply(a, b)),
+                Op::Div => self.two(step, |a, b| BinaryOp::Div.apply(a, b)),
+                Op::Min => self.two(step, |a, b| BinaryOp::Min.apply(a, b)),
+                Op::Max => self.two(step, |a, b| BinaryOp::Max.apply(a, b)),
+                Op::Hypot => self.two(step, |a, b| BinaryOp::Hypot.apply(a, b)),
+                Op::Lt => self.two(step, |a, b| BinaryOp::Lt.apply(a, b)),
+                Op::Le => self.two(step, |a, b| BinaryOp::Le.apply(a, b)),
+                Op::Gt => self.two(step, |a, b| BinaryOp::Gt.apply(a, b)),
+                Op::Ge => self.two(step, |a, b| BinaryOp::Ge.apply(a, b)),
+                Op::Eq => self.two(step, |a, b| BinaryOp::Eq.apply(a, b)),
+                Op::And => self.two(step, |a, b| BinaryOp::And.apply(a, b)),
+                Op::Or => self.two(step, |a, b| BinaryOp::Or.apply(a, b)),
                 Op::Not => self.one(step, |a| UnaryOp::Not.apply(a, |_| false)),
                 Op::Neg => self.one(step, |a| UnaryOp::Neg.apply(a, |_| false)),
                 Op::Select => self.select(step),
@@ -236,6 +248,10 @@ impl<const W: usize> Machine<'_, W> {
                         self.each::<W>(each, at)
                     };
                 }
+                Op::Points => {
+                    let value = self.each_point(&plan.loops[step.a as usize], step.at as usize);
+                    self.regs[step.at as usize] = [value; W];
+                }
             }
         }
     }
@@ -249,23 +265,23 @@ impl<const W: usize> Machine<'_, W> {
     fn one(&mut self, step: &PlanStep, f: impl Fn(f64) -> f64) {
         let a = self.regs[step.a as usize];
         self.regs[step.at as usize] =
-            if W == 1 || !step.uniform { array::from_fn(|lane| f(a[lane])) } else { [f(a[0]); W] };
+            if W == 1 || !step.uniform { each_lane(|lane| f(a[lane])) } else { [f(a[0]); W] };
     }
 
     #[inline]
-    fn two(&mut self, step: &PlanStep, op: BinaryOp) {
+    fn two(&mut self, step: &PlanStep, f: impl Fn(f64, f64) -> f64) {
         let (a, b) = (&self.regs[step.a as usize], &self.regs[step.b as usize]);
         self.regs[step.at as usize] = if W == 1 || !step.uniform {
-            array::from_fn(|lane| op.apply(a[lane], b[lane]))
+            each_lane(|lane| f(a[lane], b[lane]))
         } else {
-            [op.apply(a[0], b[0]); W]
+            [f(a[0], b[0]); W]
         };
     }
 
     fn select(&mut self, step: &PlanStep) {
         let [c, a, b] = [step.a, step.b, step.c].map(|reg| self.regs[reg as usize]);
         self.regs[step.at as usize] =
-            array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] });
+            each_lane(|lane| if truth(c[lane]) { a[lane] } else { b[lane] });
     }
 
     /// The rare instructions.
@@ -301,25 +317,25 @@ impl<const W: usize> Machine<'_, W> {
             }
             Instr::Binary(op, a, b) => {
                 let (a, b) = (self.lanes::<N>(*a), self.lanes::<N>(*b));
-                array::from_fn(|lane| op.apply(a[lane], b[lane]))
+                each_lane(|lane| op.apply(a[lane], b[lane]))
             }
             Instr::Select(c, a, b) => {
                 let (c, a, b) = (self.lanes::<N>(*c), self.lanes::<N>(*a), self.lanes::<N>(*b));
-                array::from_fn(|lane| if truth(c[lane]) { a[lane] } else { b[lane] })
+                each_lane(|lane| if truth(c[lane]) { a[lane] } else { b[lane] })
             }
             Instr::Table { table, x, y, linear } => {
                 let (x, y) = (self.lanes::<N>(*x), self.lanes::<N>(*y));
                 let Some(table) = self.plan.tables.get(*table as usize) else {
                     return [f64::NAN; N];
                 };
-                array::from_fn(|lane| {
+                each_lane(|lane| {
                     let (x, y) = (x[lane], y[lane]);
                     if *linear { table.between(x, y) } else { table.at(x, y) }
                 })
             }
             Instr::Terminated => [f64::from(u8::from(input.terminated)); N],
             Instr::Us => [input.us.index() as f64; N],
-            Instr::Me => array::from_fn(|lane| self.crew.players[lane]),
+            Instr::Me => each_lane(|lane| self.crew.players[lane]),
             Instr::Load { field, of, when } => {
                 let seen = match when {
                     When::Now => input.now,
@@ -334,7 +350,7 @@ impl<const W: usize> Machine<'_, W> {
             Instr::Event(field) => [event.map_or(f64::NAN, |event| event_field(event, *field)); N],
             Instr::Cell(cell) => {
                 let cell = &self.cells[*cell as usize];
-                array::from_fn(|lane| cell[lane])
+                each_lane(|lane| cell[lane])
             }
             Instr::Random { key, from } => [self.draw(*key, from); N],
             // `at` runs instructions with memory, effects and loops.
@@ -382,18 +398,18 @@ impl<const W: usize> Machine<'_, W> {
     fn temporal(&mut self, instr: &Instr) -> [f64; W] {
         match instr {
             Instr::Held { of, seconds, cell } => {
-                let (holds, seconds) = (self.truths(*of), self.lanes::<W>(*seconds));
+                let (holds, seconds) = (self.truths::<W>(*of), self.lanes::<W>(*seconds));
                 let runs = &mut self.cells[*cell as usize];
-                array::from_fn(|lane| {
+                each_lane(|lane| {
                     runs[lane] = if holds[lane] { runs[lane] + 1.0 } else { 0.0 };
                     let steps = libm::round(seconds[lane] * STEPS_PER_S).max(1.0);
                     (runs[lane] >= steps && !seconds[lane].is_nan()).into()
                 })
             }
             Instr::Ever { of, cell } => {
-                let holds = self.truths(*of);
+                let holds = self.truths::<W>(*of);
                 let held = &mut self.cells[*cell as usize];
-                array::from_fn(|lane| {
+                each_lane(|lane| {
                     if holds[lane] {
                         held[lane] = 1.0;
                     }
@@ -401,9 +417,9 @@ impl<const W: usize> Machine<'_, W> {
                 })
             }
             Instr::Since { of, cell } => {
-                let holds = self.truths(*of);
+                let holds = self.truths::<W>(*of);
                 let counts = &mut self.cells[*cell as usize];
-                array::from_fn(|lane| {
+                each_lane(|lane| {
                     let count = &mut counts[lane];
                     if holds[lane] {
                         *count = 1.0;
@@ -414,9 +430,9 @@ impl<const W: usize> Machine<'_, W> {
                 })
             }
             Instr::Until { of, release, cell } => {
-                let (holds, released) = (self.truths(*of), self.truths(*release));
+                let (holds, released) = (self.truths::<W>(*of), self.truths::<W>(*release));
                 let states = &mut self.cells[*cell as usize];
-                array::from_fn(|lane| {
+                each_lane(|lane| {
                     let state = &mut states[lane];
                     if *state == 0.0 {
                         *state = match (released[lane], holds[lane]) {
@@ -429,9 +445,9 @@ impl<const W: usize> Machine<'_, W> {
                 })
             }
             Instr::Once { of, cell } => {
-                let (holds, silent) = (self.truths(*of), self.input.silent);
+                let (holds, silent) = (self.truths::<W>(*of), self.input.silent);
                 let paid = &mut self.cells[*cell as usize];
-                array::from_fn(|lane| {
+                each_lane(|lane| {
                     let first = !silent && holds[lane] && paid[lane] == 0.0;
                     if first {
                         paid[lane] = 1.0;
@@ -441,77 +457,6 @@ impl<const W: usize> Machine<'_, W> {
             }
             _ => [0.0; W],
         }
-    }
-
-    /// Runs a loop and folds it in the first `N` lanes; in one lane if all are the same.
-    fn each<const N: usize>(&mut self, each: &Loop, at: usize) -> [f64; N] {
-        let mut folding = Folding::<N>::new(each.fold.kind);
-        let around = self.crew.seated;
-        match &each.over {
-            Over::Players { team, except } => {
-                let (teams, except) =
-                    (self.lanes::<W>(*team), except.map(|reg| self.lanes::<W>(reg)));
-                for id in players_of::<N, W>(&teams) {
-                    if !self.input.now.is_some_and(|now| now.is_active(id)) {
-                        continue;
-                    }
-                    let number = id as f64;
-                    let own = team_number(Some(PlayerId(id as u8).team()));
-                    let taken: [bool; W] = array::from_fn(|lane| {
-                        let but = except.is_some_and(|except| except[lane] == number);
-                        (teams[lane] == own || teams[lane] == -1.0) && !but
-                    });
-                    if taken[..N].contains(&true) {
-                        self.element(each, at, (number, None), (&around, &taken), &mut folding);
-                    }
-                }
-            }
-            Over::Events(filter) => {
-                let events = self.input.events;
-                for (number, event) in
-                    events.iter().enumerate().filter(|(_, event)| is_kind(filter, event))
-                {
-                    let taken: [bool; W] = array::from_fn(|lane| {
-                        self.passes(filter, event, if N == 1 { 0 } else { lane })
-                    });
-                    if taken[..N].contains(&true) {
-                        self.element(
-                            each,
-                            at,
-                            (number as f64, Some(event)),
-                            (&around, &taken),
-                            &mut folding,
-                        );
-                    }
-                }
-            }
-            Over::Numbers(count) => {
-                for number in 0..*count {
-                    let number = (f64::from(number), None);
-                    self.element(each, at, number, (&around, &[true; W]), &mut folding);
-                }
-            }
-        }
-        self.crew.seated = around;
-        folding.result()
-    }
-
-    /// Runs the body of a loop for an element, in the lanes that take it.
-    #[inline]
-    fn element<const N: usize>(
-        &mut self,
-        each: &Loop,
-        at: usize,
-        (element, event): (f64, Option<&Event>),
-        (around, taken): (&[bool; W], &[bool; W]),
-        folding: &mut Folding<N>,
-    ) {
-        self.regs[at] = [element; W];
-        self.crew.seated = array::from_fn(|lane| around[lane] & taken[lane]);
-        self.block(&each.body, event);
-        let guard = each.fold.guard.map_or([true; N], |guard| self.lanes::<N>(guard).map(truth));
-        let value = each.fold.value.map_or([0.0; N], |value| self.lanes::<N>(value));
-        folding.add(element, array::from_fn(|lane| taken[lane] & guard[lane]), value);
     }
 
     fn passes(&self, filter: &EventFilter, event: &Event, lane: usize) -> bool {
@@ -533,17 +478,15 @@ impl<const W: usize> Machine<'_, W> {
     }
 }
 
-/// The players that a loop may visit: only one team's if every lane asks for the same.
-fn players_of<const N: usize, const W: usize>(teams: &[f64; W]) -> std::ops::Range<usize> {
-    if teams[..N].iter().all(|team| *team == teams[0]) {
-        match team_of_number(teams[0]) {
-            Some(team) => ids(Some(team)),
-            None if teams[0] == -1.0 => ids(None),
-            None => 0..0,
-        }
-    } else {
-        ids(None)
+/// What a function gives for each lane. Unlike the standard library's, it is compiled to
+/// instructions for several lanes at once.
+#[inline]
+fn each_lane<T: Copy + Default, const N: usize>(mut f: impl FnMut(usize) -> T) -> [T; N] {
+    let mut all = [T::default(); N];
+    for (lane, value) in all.iter_mut().enumerate() {
+        *value = f(lane);
     }
+    all
 }
 
 /// Whether an event matches the kind and qualifier of a filter.

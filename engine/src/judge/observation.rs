@@ -159,12 +159,13 @@ impl ObservationJudge {
             let seed = Stream::seed_of_observation(seed, index, game.step, agent);
             DrawKey { seed, index, attempt: 0 }
         });
-        let (plan, regs) = self.regs.parts();
+        let (plan, regs, points) = self.regs.parts();
         let mut machine = Machine {
             input: Input { us: slot.team, ..*shared },
             crew: Crew::one(me),
             plan,
             regs,
+            points,
             cells: &mut [],
             terms: &mut [],
             faults: &mut 0,

@@ -92,12 +92,13 @@ impl RecordJudge {
     /// Computes again what no step of a round changes.
     pub fn renew(&mut self, input: &Input<'_>) {
         for state in &mut self.states {
-            let (plan, regs) = state.regs.parts();
+            let (plan, regs, points) = state.regs.parts();
             let mut machine = Machine {
                 input: *input,
                 crew: Crew::one(None),
                 plan,
                 regs,
+                points,
                 cells: &mut [],
                 terms: &mut [],
                 faults: &mut self.faults,
@@ -130,12 +131,13 @@ impl RecordJudge {
                 let me = slot.and_then(|slot| {
                     slot.player.filter(|player| game.players[player.index()].active)
                 });
-                let (plan, regs) = state.regs.parts();
+                let (plan, regs, points) = state.regs.parts();
                 let mut machine = Machine {
                     input: Input { us: slot.map_or(input.us, |slot| slot.team), ..*input },
                     crew: Crew::one(me),
                     plan,
                     regs,
+                    points,
                     cells: &mut state.cells
                         [instance * state.n_cells..(instance + 1) * state.n_cells],
                     terms: &mut [],

@@ -62,9 +62,11 @@ impl<'w> Lower<'_, 'w> {
     /// A point of a grid by its number; none for nobody's number.
     pub(super) fn grid_point(&mut self, grid: &Grid, number: Reg) -> Value<'w> {
         let columns = self.code.constant(grid.columns);
-        let column = self.code.binary(BinaryOp::Mod, number, columns);
         let row = self.code.binary(BinaryOp::Div, number, columns);
         let row = self.code.unary(UnaryOp::Floor, row);
+        // Whole numbers as small as these are divided and multiplied without an error.
+        let before = self.code.binary(BinaryOp::Mul, row, columns);
+        let column = self.code.binary(BinaryOp::Sub, number, before);
         let mut along = |cell: Reg, cells: f64, low: Reg, high: Reg| {
             let cells = self.code.constant(cells);
             let whole = self.code.binary(BinaryOp::Sub, high, low);

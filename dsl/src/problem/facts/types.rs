@@ -90,6 +90,9 @@ facts! {
                 Ty::Formation => {
                     said.help(format!("choose where it is used: `formation: choice({})`", values.join(", ")))
                 }
+                Ty::String => {
+                    said.help("choose between numbers: `let kind = choice(1, 2)`, and `when kind == 1`")
+                }
                 _ => said.help("choose between conditions instead: `c and … or not c and …`"),
             }
         },

@@ -1,8 +1,7 @@
 //! Reduces the values of a loop to one, lane by lane.
 
-use super::truth;
+use super::{each_lane, truth};
 use setpiece_scenario::FoldKind;
-use std::array;
 
 /// A fold in progress.
 pub(super) struct Folding<const N: usize> {
@@ -59,7 +58,7 @@ impl<const N: usize> Folding<N> {
 
     #[inline]
     fn each(&mut self, counts: [bool; N], values: [f64; N], f: impl Fn(f64, f64) -> f64) {
-        self.value = array::from_fn(|lane| {
+        self.value = each_lane(|lane| {
             let changed = f(self.value[lane], values[lane]);
             if counts[lane] { changed } else { self.value[lane] }
         });
@@ -86,7 +85,7 @@ impl<const N: usize> Folding<N> {
 
     /// The result.
     pub(super) fn result(&self) -> [f64; N] {
-        array::from_fn(|lane| match self.kind {
+        each_lane(|lane| match self.kind {
             FoldKind::Nothing => 0.0,
             FoldKind::Count => self.n[lane].into(),
             FoldKind::ArgMin | FoldKind::ArgMax => self.element[lane],

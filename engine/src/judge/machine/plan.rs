@@ -2,6 +2,7 @@
 
 use setpiece_scenario::vocabulary::Field;
 use setpiece_scenario::{BinaryOp, Fold, Instr, Over, Program, Reg, Table, UnaryOp, When};
+use std::ops::Range;
 
 /// A program in the form that a [`Machine`](super::Machine) runs.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +16,7 @@ pub struct Plan {
     pub(super) loops: Vec<Loop>,
     /// The program's tables.
     pub(super) tables: Vec<Table>,
+    has_points: bool,
 }
 
 /// An instruction, small and flat, so that one jump reaches its code.
@@ -73,6 +75,9 @@ pub(super) enum Op {
     Temporal,
     /// `a`: the index in [`Plan::loops`].
     Loop,
+    /// The same, for a loop over numbers that runs for [`POINTS`] of them at a time: its lanes are
+    /// numbers.
+    Points,
 }
 
 /// Replaces the guard if there is none.
@@ -84,72 +89,161 @@ pub(super) struct Loop {
     pub(super) over: Over,
     pub(super) fold: Fold,
     pub(super) body: Vec<PlanStep>,
+    /// Of a loop of [`Op::Points`]: the registers that it reads from outside.
+    pub(super) reads: Vec<u32>,
 }
 
+/// How many numbers a loop of [`Op::Points`] takes at a time.
+pub const POINTS: usize = 12;
+
 impl Plan {
-    /// Prepares a verified program.
-    pub fn of(program: &Program) -> Plan {
+    /// Prepares a verified program for this many lanes.
+    pub fn of(program: &Program, lanes: usize) -> Plan {
+        let code = &program.code;
+        let mut same = vec![false; code.len()];
+        spread(code, 0..code.len(), lanes == 1, &mut same);
         let mut reader = ProgramReader {
-            code: &program.code,
-            uniform: vec![false; program.code.len()],
-            open: Vec::new(),
+            code,
+            one_lane: lanes == 1,
+            same,
+            points: None,
             plan: Plan { tables: program.tables.clone(), ..Plan::default() },
         };
         let fixed = program.fixed();
+        let (mut once, mut each_step) = (Vec::new(), Vec::new());
         let mut at = 0;
-        while at < program.code.len() {
-            let (step, next) = reader.step(at);
-            let plan = &mut reader.plan;
-            if fixed[at] { &mut plan.once } else { &mut plan.each_step }.push(step);
-            at = next;
+        while at < code.len() {
+            at = reader.read(at, if fixed[at] { &mut once } else { &mut each_step });
         }
-        reader.plan
+        Plan { once, each_step, ..reader.plan }
     }
+
+    /// Whether it has a loop of [`Op::Points`].
+    pub fn has_points(&self) -> bool {
+        self.has_points
+    }
+}
+
+/// Marks the registers of some instructions that are the same in every lane. `one` is whether
+/// players and cells are, too.
+///
+/// An effect reads every lane's guard, and a cell may have been written in one lane only.
+fn spread(code: &[Instr], range: Range<usize>, one: bool, same: &mut [bool]) {
+    let mut at = range.start;
+    while at < range.end {
+        let instr = &code[at];
+        let mut all = one
+            || !matches!(
+                instr,
+                Instr::Me | Instr::Cell(_) | Instr::Give { .. } | Instr::Assign { .. }
+            );
+        instr.operands(&mut |reg| all &= same[reg.index()]);
+        let mut next = at + 1;
+        if let Instr::Each(each) = instr {
+            next += each.body as usize;
+            // While the body runs, the register is the element.
+            same[at] = true;
+            spread(code, at + 1..next, one, same);
+            for reg in each.fold.value.iter().chain(&each.fold.guard) {
+                all &= same[reg.index()];
+            }
+        }
+        same[at] = all;
+        at = next;
+    }
+}
+
+/// Whether nothing happens in the body of a loop besides its fold: the order in which its
+/// instructions run doesn't matter.
+fn is_pure(body: &[Instr]) -> bool {
+    !body.iter().any(|instr| {
+        instr.looks_back() || matches!(instr, Instr::Give { .. } | Instr::Assign { .. })
+    })
 }
 
 /// Reads a program, including nested loops.
 struct ProgramReader<'a> {
     code: &'a [Instr],
-    uniform: Vec<bool>,
-    /// The loops around the current instruction.
-    open: Vec<usize>,
+    one_lane: bool,
+    /// Which registers are the same in every lane.
+    same: Vec<bool>,
+    /// The loop of [`Op::Points`] around the current instruction.
+    points: Option<PointsLoop>,
     plan: Plan,
 }
 
+/// A loop of [`Op::Points`] that is being read.
+struct PointsLoop {
+    at: usize,
+    /// The registers that its body reads from outside.
+    reads: Vec<u32>,
+    /// Cells that are read in its body: no step of it changes them.
+    cells: Vec<PlanStep>,
+}
+
+impl PointsLoop {
+    fn read(&mut self, reg: Reg) {
+        if reg.index() < self.at && !self.reads.contains(&reg.0) {
+            self.reads.push(reg.0);
+        }
+    }
+}
+
 impl ProgramReader<'_> {
-    /// The step of an instruction, and the index of the next one.
-    fn step(&mut self, at: usize) -> (PlanStep, usize) {
+    /// Adds the step of an instruction; returns the index of the next one.
+    fn read(&mut self, at: usize, steps: &mut Vec<PlanStep>) -> usize {
         let instr = &self.code[at];
+        if let Some(points) = &mut self.points {
+            instr.operands(&mut |reg| points.read(reg));
+            if let Instr::Cell(_) = instr {
+                points.reads.push(at as u32);
+                let step = self.simple(instr, at);
+                self.points.iter_mut().for_each(|points| points.cells.push(step));
+                return at + 1;
+            }
+        }
         let Instr::Each(each) = instr else {
-            self.uniform[at] = self.is_uniform(instr);
-            return (self.simple(instr, at), at + 1);
+            let step = self.simple(instr, at);
+            steps.push(step);
+            return at + 1;
         };
-        let mut uniform = true;
-        instr.operands(&mut |reg| uniform &= self.is_the_same(reg));
         let end = at + 1 + each.body as usize;
-        self.open.push(at);
+        let alike = self.same[at];
+        let begins = self.points.is_none()
+            && matches!(each.over, Over::Numbers(_))
+            && (alike || self.one_lane)
+            && is_pure(&self.code[at + 1..end]);
+        if begins {
+            self.points = Some(PointsLoop { at, reads: Vec::new(), cells: Vec::new() });
+            self.same[at] = false;
+            spread(self.code, at + 1..end, true, &mut self.same);
+        }
         let mut body = Vec::new();
         let mut next = at + 1;
         while next < end {
-            let (step, after) = self.step(next);
-            body.push(step);
-            next = after;
+            next = self.read(next, &mut body);
         }
-        for reg in each.fold.value.iter().chain(&each.fold.guard) {
-            uniform &= self.is_the_same(*reg);
+        if let Some(points) = &mut self.points {
+            each.fold.value.iter().chain(&each.fold.guard).for_each(|reg| points.read(*reg));
         }
-        self.open.pop();
-        self.uniform[at] = uniform;
-        self.plan.loops.push(Loop { over: each.over.clone(), fold: each.fold.clone(), body });
-        let step = PlanStep {
-            op: Op::Loop,
-            uniform,
+        let mut reads = Vec::new();
+        if begins && let Some(points) = self.points.take() {
+            steps.extend(points.cells);
+            reads = points.reads;
+            self.same[at] = alike;
+            self.plan.has_points = true;
+        }
+        let (over, fold) = (each.over.clone(), each.fold.clone());
+        self.plan.loops.push(Loop { over, fold, body, reads });
+        steps.push(PlanStep {
+            op: if begins { Op::Points } else { Op::Loop },
+            uniform: self.same[at],
             at: at as u32,
             a: self.plan.loops.len() as u32 - 1,
             b: 0,
             c: 0,
-        };
-        (step, end)
+        });
+        end
     }
 
     /// The step of an instruction that isn't a loop.
@@ -183,24 +277,7 @@ impl ProgramReader<'_> {
                 (op, self.plan.rare.len() as u32 - 1, 0, 0)
             }
         };
-        PlanStep { op, uniform: self.uniform[at], at: at as u32, a, b, c }
-    }
-
-    fn is_uniform(&self, instr: &Instr) -> bool {
-        // A cell may have been written in one lane only, and an effect reads every lane's guard.
-        let mut uniform = !matches!(
-            instr,
-            Instr::Me | Instr::Cell(_) | Instr::Give { .. } | Instr::Assign { .. }
-        );
-        instr.operands(&mut |reg| uniform &= self.is_the_same(reg));
-        uniform
-    }
-
-    /// Whether a register is the same in every lane. A loop's register is its element while its
-    /// body runs.
-    fn is_the_same(&self, reg: Reg) -> bool {
-        self.open.contains(&reg.index())
-            || self.uniform.get(reg.index()).copied().unwrap_or_default()
+        PlanStep { op, uniform: self.same[at], at: at as u32, a, b, c }
     }
 }
 

@@ -1,4 +1,5 @@
 use crate::judge::MatchView;
+use crate::random::{Purpose, Stream};
 use crate::testing::{Code, event, run, view};
 use setpiece_scenario::vocabulary::{EventKind, Field, Qualifier, Team};
 use setpiece_scenario::*;
@@ -371,4 +372,102 @@ fn every_operator_runs_as_it_is_folded() {
             }
         }
     }
+}
+
+/// A program with a loop over numbers, and the loop's register. With `one_by_one` effects in its
+/// body have it run for one number at a time.
+///
+/// Its body computes from the number, from what stands outside, and in two loops of its own: over
+/// players, whose values don't depend on the number but for one, and over numbers.
+fn over_numbers(count: u32, kind: FoldKind, random: &mut Stream, one_by_one: bool) -> (Code, Reg) {
+    let mut code = Code::default();
+    code.program.tables.push(Table { columns: 2, values: vec![0.0, 1.5, -2.0, 4.0] });
+    let cell = code.cell();
+    let mut known = vec![code.number(0.7), code.number(-1.0), code.push(Instr::Me)];
+    known.push(code.push(Instr::Us));
+    known.push(code.load(Field::BallX));
+    let each = |over, fold| Instr::Each(Box::new(Each { over, body: 0, fold }));
+    let close = |code: &mut Code, at: Reg, fold: Fold| {
+        let body = (code.program.code.len() - at.index() - 1) as u32;
+        if let Instr::Each(each) = &mut code.program.code[at.index()] {
+            (each.body, each.fold) = (body, fold);
+        }
+    };
+    let any = |known: &[Reg], random: &mut Stream| known[random.below(known.len() as u32) as usize];
+    let compute = |code: &mut Code, known: &mut Vec<Reg>, random: &mut Stream| {
+        for _ in 0..random.below(8) {
+            let [a, b, c] = [0; 3].map(|_| any(known, random));
+            let two = BinaryOp::ALL[random.below(BinaryOp::ALL.len() as u32) as usize];
+            let one = UnaryOp::ALL[random.below(UnaryOp::ALL.len() as u32) as usize];
+            known.push(code.push(match random.below(7) {
+                0 => Instr::Unary(one, a),
+                1 => Instr::Select(a, b, c),
+                2 => Instr::Table { table: 0, x: a, y: b, linear: random.below(2) == 0 },
+                3 => Instr::Load { field: Field::PlayerX, of: Some(a), when: When::Now },
+                4 => Instr::Cell(cell),
+                _ => Instr::Binary(two, a, b),
+            }));
+        }
+    };
+    let nothing = Fold { kind: FoldKind::Nothing, value: None, guard: None };
+    compute(&mut code, &mut known, random);
+    let outer = code.push(each(Over::Numbers(count), nothing.clone()));
+    known.push(outer);
+    compute(&mut code, &mut known, random);
+    let overs =
+        [Over::Players { team: known[1], except: Some(known[2]) }, Over::Numbers(1 + count % 4)];
+    for over in overs {
+        let inner = code.push(each(over, nothing.clone()));
+        let mut inside = known.clone();
+        inside.push(inner);
+        let x = code.load_of(Field::PlayerX, inner);
+        inside.extend([x, code.binary(BinaryOp::Sub, x, outer)]);
+        compute(&mut code, &mut inside, random);
+        let guard = (random.below(2) == 0).then(|| any(&inside, random));
+        let kind = if random.below(2) == 0 { FoldKind::Min } else { FoldKind::Sum };
+        if one_by_one {
+            let unused = code.cell();
+            code.push(Instr::Assign { cell: unused, value: Reg(0), guard: None });
+        }
+        close(&mut code, inner, Fold { kind, value: Some(any(&inside, random)), guard });
+        known.push(inner);
+    }
+    compute(&mut code, &mut known, random);
+    let guard = (random.below(2) == 0).then(|| any(&known, random));
+    let value = Some(any(&known, random));
+    close(&mut code, outer, Fold { kind, value, guard });
+    (code, outer)
+}
+
+#[test]
+fn numbers_in_lanes_give_the_same_bits_as_one_by_one() {
+    let kinds = [
+        FoldKind::Count,
+        FoldKind::Sum,
+        FoldKind::Mean,
+        FoldKind::Min,
+        FoldKind::Max,
+        FoldKind::Any,
+        FoldKind::All,
+        FoldKind::ArgMin,
+        FoldKind::ArgMax,
+    ];
+    let now = view([10.0, 3.0], [20.0, -4.0], [0.3, 0.0, 0.0]);
+    let mut finite = 0;
+    for case in 0..4000 {
+        let count = [1, 5, 11, 12, 13, 24, 40][case as usize % 7];
+        let kind = kinds[case as usize % kinds.len()];
+        let [together, one_by_one] = [false, true].map(|one_by_one| {
+            let random = &mut Stream::new(case, 0, Purpose::Draw);
+            let (code, reg) = over_numbers(count, kind, random, one_by_one);
+            let plan = super::Plan::of(&code.program, 1);
+            assert_eq!(plan.has_points(), !one_by_one, "{case}");
+            let left = run(&code.program, &now, &now, &[], &mut [2.0, 0.0, 0.0], false);
+            left.regs[reg.index()]
+        });
+        let same = together.to_bits() == one_by_one.to_bits();
+        assert!(same || (together.is_nan() && one_by_one.is_nan()), "{case}: {together}");
+        finite += u32::from(together.is_finite() && together != 0.0);
+    }
+    assert!(finite > 1000, "{finite}");
 }

@@ -164,7 +164,7 @@ impl<const W: usize> LaneMemory<W> {
         if stage != LaneStage::Renew {
             self.terms.fill([0.0; W]);
         }
-        let (plan, regs) =
+        let (plan, regs, points) =
             if stage == LaneStage::Init { &mut self.init } else { &mut self.step }.parts();
         let mut machine = Machine {
             input: Input { silent: stage == LaneStage::Silent, ..*input },
@@ -174,6 +174,7 @@ impl<const W: usize> LaneMemory<W> {
             },
             plan,
             regs,
+            points,
             cells: &mut self.cells,
             terms: &mut self.terms,
             faults,

@@ -106,12 +106,13 @@ impl ShownState {
         };
         let mut registers = named.registers.clone();
         let mut cells = place.unwrap_or_default().map(|number| [number]);
-        let (plan, regs) = registers.parts();
+        let (plan, regs, points) = registers.parts();
         let mut machine = Machine {
             input,
             crew: Crew::one(None),
             plan,
             regs,
+            points,
             cells: if place.is_some() { &mut cells } else { &mut [] },
             terms: &mut [],
             faults: &mut 0,

@@ -74,11 +74,19 @@ What was found by playing the same keys in both games, step by step, and built:
 - The swing of a shot brakes the runner, who follows through and only then speeds up again.
 - A shot struck while setting off scatters twice as much as one on the run.
 - A keeper who faces the ball sets off slowly.
+- Every touch of a dribble is a motion, and kicks begin between motions. A pass on the run reaches further for the ball
+  than a shot, so that it leaves sooner after a touch.
+- A rolling ball lends half of its speed to a pass. A ball kicked off the grass gets topspin, so that floating passes
+  fly lower: receivers meet them, and strike them first time.
+- A shot behind the back leaves a player who has turned round in the swing.
 
 What remains:
 
 - A defender slides at a sprinter less often here, and so fouls less often.
-- A keeper who comes out stops a sprinter in the end; in the real game two in five get past.
+- What becomes of a keeper who comes out to a sprinter depends on a tenth of a second in both games, and on other tenths
+  here: in `academy_3_vs_1_with_keeper` sprinters who hold their direction get past both opponents in 5 of 80 episodes,
+  there in 16 of 80; in `academy_run_to_score_with_keeper` 19 of 40 score here, there 8 of 40.
+- A sprinter who zigzags from the start keeps their pace there and walks here, where an early turn is made at a walk.
 - A player slows down here to take a ball that lies across their way; in the real game they run on.
 - Bots pass more often and more safely here once they have won the ball. Agents have it for fewer steps and play fewer
   passes.

@@ -46,6 +46,8 @@ const HOP_MOST_MPS: f32 = 1.5;
 /// wanted one, in where the ball goes: of their own ball, and of another. (GRF's.)
 const STANDS_MPS: f32 = 1.8;
 const BY_BODY: [f32; 2] = [0.7, 0.9];
+/// Who sets off is slower than this at the touch, m/s; chosen.
+const SETS_OFF_MPS: f32 = 2.2;
 /// How much faster than at the end of that step a walker and a sprinter want to be, m/s. (GRF's.)
 const HASTE_MPS: [f32; 2] = [0.6, 1.2];
 /// A sprinter pushes the ball harder by this share, in full from `FASTEST_MPS` on. (GRF's.)
@@ -103,7 +105,7 @@ pub(super) fn touched(
     let (way, out) = (wish.normalize_or(player.body.facing), to.normalize_or(player.body.facing));
     let stands = end < STANDS_MPS;
     // Who sets off from a standstill for another ball than their own doesn't hurry yet.
-    let sets_off = first && player.vel.length_squared() < STANDS_MPS * STANDS_MPS;
+    let sets_off = first && player.vel.length_squared() < SETS_OFF_MPS * SETS_OFF_MPS;
     let over = if stands || sets_off { 0.0 } else { haste_mps(wanted) };
     let along = 0.5 + 0.5 * player.body.facing.dot(way);
     let pace = wanted.max(end).min(end + over * along);

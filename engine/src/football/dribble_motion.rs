@@ -79,15 +79,16 @@ const TOUCHES: [DribbleMotion; 12] = [
     motion(DRIBBLES_FROM_MPS, SQUARE_DEG, [19, 53], MotionEnd::Turned(4.0), [0.0, 0.8]),
     motion(DRIBBLES_FROM_MPS, BACK_DEG, [20, 47], MotionEnd::Braked(0.6), [0.15, 0.83]),
     motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [12, 75], MotionEnd::Turned(2.2), [0.2, 0.8]),
-    motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(3.2), [0.1, 0.74]),
+    motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(2.6), [0.1, 0.74]),
     motion(0.0, HALF_DEG, [7, 36], MotionEnd::Turned(3.3), [0.1, 0.45]),
     motion(0.0, SQUARE_DEG, [8, 32], MotionEnd::Turned(3.1), [0.1, 0.45]),
     motion(0.0, ABOUT_DEG, [13, 55], MotionEnd::Turned(2.5), [0.1, 0.74]),
 ];
-/// The same for a player who walks and wants to sprint: on, and by 45 degrees.
-const SPEEDING: [DribbleMotion; 2] = [
+/// The same for a player who wants to sprint: walking, on and by 45 degrees, and from a standstill.
+const SPEEDING: [DribbleMotion; 3] = [
     walk([15, 26], [0.0, 0.62], 0.02),
     motion(DRIBBLES_FROM_MPS, HALF_DEG, [27, 50], MotionEnd::Turned(5.1), [0.1, 0.74]),
+    motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(3.6), [0.1, 0.74]),
 ];
 /// The same for a player who wants to stand: sprinting, and walking. How long they last is fitted
 /// to how soon players stop.

@@ -5,7 +5,7 @@
 
 use crate::football::dribble::{LIES_MPS, SOLE_M};
 use crate::football::dribble_motion;
-use crate::football::pace::{DT, SPRINTS_FROM_MPS, WITH_BALL};
+use crate::football::pace::{DRIBBLES_FROM_MPS, DT, SPRINTS_FROM_MPS, WITH_BALL};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
 use crate::state::player::{Intent, Lunge, Motion, Pose, Swing};
@@ -20,6 +20,10 @@ const BURST_WITH_BALL: f32 = 0.95;
 
 /// A player who wants to stand stops for a ball this near, metres, and lays it where they stop.
 const STOPPING_M: f32 = 1.1;
+
+/// How a player who sets off in the motion of a touch speeds up to a dribbler's pace, m/s².
+/// Measured of GRF's.
+const SETS_OFF_MPS2: f32 = 25.0;
 
 /// How fast a player comes out of a motion for which they have stopped, m/s. Measured of GRF's.
 const STOPPED_MPS: f32 = 0.8;
@@ -219,7 +223,13 @@ fn stumble(player: &mut Player, to_mps: f32) {
 /// Brings the body of a dribbler closer to how it comes out of the motion of its touch.
 fn carry_ball(player: &mut Player, wish: Vec2, to: Vec2, ticks: i32) {
     let left = 1.0 / ticks.max(1) as f32;
-    player.vel += (to - player.vel) * left;
+    let sets_off = player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS;
+    let change = (to - player.vel) * left;
+    player.vel += if sets_off && to.dot(change) > 0.0 {
+        change.clamp_length_min(SETS_OFF_MPS2 * DT).clamp_length_max((to - player.vel).length())
+    } else {
+        change
+    };
     let wish = wish.normalize_or(player.body.facing);
     let facing = player.body.facing;
     let half_way = if facing.dot(wish) < -0.9 { wish.perp() } else { wish };

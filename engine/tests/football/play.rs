@@ -225,8 +225,8 @@ fn whoever_waits_at_the_ball_of_a_start_pushes_it_on_and_sets_off_after_it() {
     let at = |bench: &Bench| (bench.game.ball.vel.x, bench.game.player(PlayerId(1)).vel.x);
     bench.step(Action::Right);
     let (ball, runs) = at(&bench);
-    assert!((3.0..4.2).contains(&ball), "the ball is pushed on at {ball} m/s");
-    assert!((0.5..2.5).contains(&runs), "the player follows at {runs} m/s");
+    assert!((2.4..3.5).contains(&ball), "the ball is pushed on at {ball} m/s");
+    assert!((1.5..2.5).contains(&runs), "the player follows at {runs} m/s");
     for step in 0..10 {
         bench.step(if step == 0 { Action::Sprint } else { Action::Right });
     }

@@ -37,7 +37,7 @@ pub(super) fn exclude(code: &Builder, one: Reg, other: Reg) -> bool {
 }
 
 /// What a part of a condition is.
-enum Judged {
+enum ConditionPart {
     Not(Reg),
     And(Reg, Reg),
     Or(Reg, Reg),
@@ -46,18 +46,20 @@ enum Judged {
     Compared(BinaryOp, Reg, f64),
 }
 
-fn part(code: &Builder, condition: Reg) -> Judged {
-    let itself = Judged::Compared(BinaryOp::Ne, condition, 0.0);
+fn part(code: &Builder, condition: Reg) -> ConditionPart {
+    let itself = ConditionPart::Compared(BinaryOp::Ne, condition, 0.0);
     match code.instr(condition) {
-        Some(&Instr::Unary(UnaryOp::Not, of)) => Judged::Not(of),
-        Some(&Instr::Select(condition, then, otherwise)) => Judged::If(condition, then, otherwise),
-        Some(&Instr::Binary(BinaryOp::And, a, b)) => Judged::And(a, b),
-        Some(&Instr::Binary(BinaryOp::Or, a, b)) => Judged::Or(a, b),
+        Some(&Instr::Unary(UnaryOp::Not, of)) => ConditionPart::Not(of),
+        Some(&Instr::Select(condition, then, otherwise)) => {
+            ConditionPart::If(condition, then, otherwise)
+        }
+        Some(&Instr::Binary(BinaryOp::And, a, b)) => ConditionPart::And(a, b),
+        Some(&Instr::Binary(BinaryOp::Or, a, b)) => ConditionPart::Or(a, b),
         Some(&Instr::Binary(op, a, b)) => {
             // Which side the number stands on doesn't matter.
             match (turned(op), code.constant_of(a), code.constant_of(b)) {
-                (Some(_), _, Some(number)) => Judged::Compared(op, a, number),
-                (Some(turned), Some(number), _) => Judged::Compared(turned, b, number),
+                (Some(_), _, Some(number)) => ConditionPart::Compared(op, a, number),
+                (Some(turned), Some(number), _) => ConditionPart::Compared(turned, b, number),
                 _ => itself,
             }
         }
@@ -86,17 +88,17 @@ fn find(
 ) -> Option<()> {
     *left = left.checked_sub(1)?;
     match part(code, condition) {
-        Judged::Not(of) => find(code, of, compared, left),
-        Judged::And(a, b) | Judged::Or(a, b) => {
+        ConditionPart::Not(of) => find(code, of, compared, left),
+        ConditionPart::And(a, b) | ConditionPart::Or(a, b) => {
             find(code, a, compared, left)?;
             find(code, b, compared, left)
         }
-        Judged::If(of, then, otherwise) => {
+        ConditionPart::If(of, then, otherwise) => {
             find(code, of, compared, left)?;
             find(code, then, compared, left)?;
             find(code, otherwise, compared, left)
         }
-        Judged::Compared(_, reg, number) => {
+        ConditionPart::Compared(_, reg, number) => {
             match compared.iter_mut().find(|(known, _)| *known == reg) {
                 Some((_, with)) => with.push(number),
                 None => compared.push((reg, vec![number])),
@@ -121,11 +123,11 @@ fn cases(mut numbers: Vec<f64>) -> Vec<f64> {
 fn holds(code: &Builder, condition: Reg, case: &[(Reg, f64)]) -> bool {
     let of = |reg: Reg| holds(code, reg, case);
     match part(code, condition) {
-        Judged::Not(a) => !of(a),
-        Judged::And(a, b) => of(a) && of(b),
-        Judged::Or(a, b) => of(a) || of(b),
-        Judged::If(a, then, otherwise) => of(if of(a) { then } else { otherwise }),
-        Judged::Compared(op, reg, number) => {
+        ConditionPart::Not(a) => !of(a),
+        ConditionPart::And(a, b) => of(a) && of(b),
+        ConditionPart::Or(a, b) => of(a) || of(b),
+        ConditionPart::If(a, then, otherwise) => of(if of(a) { then } else { otherwise }),
+        ConditionPart::Compared(op, reg, number) => {
             let value = case.iter().find(|(known, _)| *known == reg).map_or(f64::NAN, |it| it.1);
             match op {
                 BinaryOp::Lt => value < number,

@@ -390,6 +390,9 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
             guess.known.join("`, `")
         )),
         Kind::Ai if guess.meant.is_none() => said.help(WHO_PLAYS),
+        Kind::Ending if name.starts_with(|first: char| first.is_ascii_digit()) => {
+            said.help(format!("write `end limit {name}`"))
+        }
         Kind::Ending if guess.meant.is_none() => {
             said.help(format!("say when it ends: `end {name} when …`"))
         }

@@ -112,10 +112,10 @@ facts! {
         OfBlock { whose: String, option: String, block: &'static str } = Code::UnknownOption =>
             say(format!("{whose} has no option `{option}`"), format!("an option of `{block}`"))
                 .help(format!("write `{block} {{ {option}: … }}`")),
-        /// The world has no mass of the ball; `option`: what it was called.
-        NoMass { option: String } = Code::UnknownOption =>
-            say(format!("`world` has no option `{option}`"), "a ball's mass shows only in the air")
-                .help("write what the air does to it: `drag: 0.8, swerve: 0.8` is a ball that is heavier by a quarter"),
+        /// The ball has no mass of its own; `option`: what it was called.
+        NoMass { whose: String, option: String } = Code::UnknownOption =>
+            say(format!("{whose} has no option `{option}`"), "a ball's mass shows only in the air")
+                .help("write what the air does to it: `world { drag: 0.8, swerve: 0.8 }` is a ball that is heavier by a quarter"),
         /// An option of `rules` that is no rule.
         NoRule { option: String, guess: Guess } = Code::UnknownOption =>
             say(format!("`rules` has no option `{option}`"), "not known").guess(guess, "it can be"),

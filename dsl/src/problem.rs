@@ -99,6 +99,11 @@ impl Problem {
         Words { message: said.message, labels, help: said.help, rewrites }
     }
 
+    /// Whether it says that the file has nothing to run, or not what was asked for.
+    pub fn misses_scenario(&self) -> bool {
+        self.fact.misses_scenario()
+    }
+
     /// Whether no scenario comes out because of it.
     pub(crate) fn is_error(&self) -> bool {
         self.severity() == Severity::Error

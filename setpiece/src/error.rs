@@ -167,12 +167,12 @@ impl Failure {
     pub fn is_without_scenario(&self) -> bool {
         let mut errors =
             self.problems.iter().filter(|problem| problem.severity() == Severity::Error);
-        errors.all(|problem| problem.code() == Code::NoScenario)
+        errors.all(Problem::misses_scenario)
     }
 
     /// Whether one of the problems is that there is no scenario.
     pub(crate) fn lacks_scenario(&self) -> bool {
-        self.problems.iter().any(|problem| problem.code() == Code::NoScenario)
+        self.problems.iter().any(Problem::misses_scenario)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::files::{
 };
 use crate::script_api::EngineScripts;
 use crate::stdlib;
-use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
+use setpiece_dsl::problem::{Problem, Severity, nearest};
 use setpiece_dsl::source::{Source, Sources, Span};
 pub use setpiece_dsl::{Cast, CastTarget};
 use setpiece_dsl::{CompileOptions, CompileOutcome, Origins, Prelude, compile};
@@ -268,7 +268,7 @@ pub fn check_with(
     let root = failure.sources.iter().next().map(|(_, source)| source.clone());
     if let Some(root) = root.clone().filter(|_| failure.lacks_scenario()) {
         let outcome = compiled(root, options, true);
-        if !outcome.problems.iter().any(|problem| problem.code() == Code::NoScenario) {
+        if !outcome.problems.iter().any(Problem::misses_scenario) {
             return Ok(Checked {
                 problems: outcome.problems,
                 sources: outcome.sources,
@@ -298,7 +298,7 @@ pub(crate) fn user_of_parts(
     problems: &[Problem],
 ) -> Option<CompileOutcome> {
     let mut errors = problems.iter().filter(|problem| problem.severity() == Severity::Error);
-    let only_parts = errors.all(|problem| problem.code() == Code::NoScenario);
+    let only_parts = errors.all(Problem::misses_scenario);
     if !only_parts || root.name.contains('"') {
         return None;
     }

@@ -80,6 +80,65 @@ fn a_failed_check_leaves_its_worst_episode_and_the_command_that_shows_it() {
 }
 
 #[test]
+fn what_plays_an_abstract_scenario_is_an_error_beside_whatever_else_stands_there() {
+    let dir = tempfile::tempdir().unwrap();
+    let plans = [
+        "check \"b\" { play academy for 3 episodes  expect success_rate > 1% }",
+        "suite b { academy for 3 episodes }",
+        "curriculum b { stage a = academy }",
+    ];
+    let good = "check \"a\" { play academy_corner for 3 episodes  expect success_rate >= 0% }";
+    for text in plans.iter().flat_map(|plan| [(*plan).to_owned(), format!("{good}\n{plan}")]) {
+        std::fs::write(dir.path().join("plans.pitch"), &text).unwrap();
+        for command in ["check", "test"] {
+            let (code, out, err) = setpiece(dir.path(), &[command, "plans.pitch"]);
+            assert_eq!(code, Some(1), "{text}: {out}{err}");
+            assert!(err.contains("`academy` is abstract") && err.contains("SP0214"), "{err}");
+        }
+    }
+    let (code, _, err) = setpiece(dir.path(), &["run", "plans.pitch", "--scenario", "b"]);
+    assert_eq!(code, Some(1));
+    assert!(err.contains("`academy` is abstract") && !err.contains("did you mean"), "{err}");
+}
+
+#[test]
+fn failed_checks_of_the_same_words_leave_replays_of_their_own() {
+    let dir = tempfile::tempdir().unwrap();
+    let check = |sign| {
+        let seed = if sign == '!' { 1 } else { 2 };
+        format!(
+            "check \"x{sign}\" {{ play academy_corner with idle for 1 episodes seed {seed}  expect mean(length) < 1 step }}\n"
+        )
+    };
+    for folder in ["d1", "d2"] {
+        std::fs::create_dir_all(dir.path().join(folder)).unwrap();
+        let file = dir.path().join(folder).join("a.pitch");
+        std::fs::write(file, [check('!'), check('?')].concat()).unwrap();
+    }
+    let (code, out, err) = setpiece(dir.path(), &["test", "d1", "d2"]);
+    assert_eq!(code, Some(1), "{out}{err}");
+    let replays: Vec<_> = std::fs::read_dir(dir.path().join("failed-checks")).unwrap().collect();
+    assert_eq!(replays.len(), 4, "{out}");
+    for file in ["d1/a.pitch", "d2/a.pitch"] {
+        let file = Path::new(file).display().to_string();
+        assert_eq!(out.matches(&file).count(), 2, "{out}");
+    }
+}
+
+#[test]
+fn suites_are_not_watched() {
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::write(dir.path().join("s.pitch"), "suite s { academy_corner for 1 episodes }")
+        .unwrap();
+    let named = ["run", "s.pitch", "--watch", "--scenario", "s"];
+    for args in [&named[..], &named[..3], &["run", "academy", "--watch"]] {
+        let (code, out, err) = setpiece(dir.path(), args);
+        assert_eq!(code, Some(1), "{out}{err}");
+        assert!(err.contains("`--watch` has no effect on a suite"), "{err}");
+    }
+}
+
+#[test]
 fn checks_are_the_same_with_any_number_of_threads() {
     let dir = tempfile::tempdir().unwrap();
     let args = |threads| ["test", "--format", "json", "--threads", threads];

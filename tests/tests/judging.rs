@@ -14,8 +14,8 @@ use setpiece_engine::control::agents::Agent;
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece_engine::judge::Recorded;
 use setpiece_engine::random::{Purpose, Stream};
-use setpiece_scenario::Scenario;
 use setpiece_scenario::vocabulary::{EventKind, Team};
+use setpiece_scenario::{Action, Scenario};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -271,4 +271,39 @@ fn a_match_is_counted() {
     assert!(statistics.crowding > 0.0 && statistics.crowding < 1.0);
     assert!(statistics.teams.iter().all(|team| team.distance_m > 1000.0), "{statistics:?}");
     println!("{statistics:#?}");
+}
+
+#[test]
+fn who_is_absent_has_no_place() {
+    let reads = [
+        "distance(ghost, ball) < 300m",
+        "ghost in pitch",
+        "ghost.speed < 300m/s",
+        "pressed(ghost, within: 300m)",
+        "distance(me, ghost) < 300m",
+        "sees(me, ghost, within: 180deg)",
+        "nearest(left, to: ghost) == striker",
+    ];
+    for read in reads {
+        let text = |share| {
+            format!(
+                "scenario t extends academy {{
+                    ball at (0.5, 0)
+                    team left {{ GK at (-1, 0)  striker: CF at (0.48, 0) }}
+                    team right {{ GK at (1, 0)  maybe {share}% ghost: CB at (0.6, 0) }}
+                    reward r {{ give 1 when {read} as \"seen\" }}
+                    agents {{ left: 1 }}
+                }}"
+            )
+        };
+        let [absent, there] = [0, 100].map(|share| {
+            let mut env = setpiece_tests::environment(&text(share));
+            env.reset(Some(0), Some(0)).unwrap();
+            env.step(&[Action::Idle], &mut Scratch::default()).unwrap();
+            let terms = env.terms(0);
+            assert!(!terms.is_empty(), "{read}");
+            terms.last().copied().unwrap()
+        });
+        assert_eq!((absent, there), (0.0, 1.0), "{read}");
+    }
 }

@@ -315,7 +315,7 @@ fn the_standard_library_compiles_without_a_word() {
         let words: Vec<String> = outcome
             .problems
             .iter()
-            .filter(|problem| problem.code() != setpiece_dsl::problem::Code::NoScenario)
+            .filter(|problem| !problem.misses_scenario())
             .map(|problem| {
                 let text = outcome.sources.text(problem.place());
                 format!("{inner}: {} {} `{}`", problem.code(), problem.words().message, text)

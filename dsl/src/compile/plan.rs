@@ -93,6 +93,9 @@ impl<'c, 'w> Planner<'c, 'w> {
                     entries.extend(self.episodes(episodes, scope, None));
                 }
                 SuiteStmtKind::Sweep { name, values, body } => {
+                    if values.is_empty() {
+                        self.report(name.span, Facts::EmptySweep { name: name.node.clone() });
+                    }
                     for value in values {
                         let mut inner = scope.clone();
                         let named = LocalName::Expr {
@@ -308,6 +311,7 @@ impl<'c, 'w> Planner<'c, 'w> {
             ),
             StageRule::Adapt(adapt) => {
                 let AdaptExpr { name, from, to, measure, band } = &**adapt;
+                let measured_in = measure;
                 let params = self.adapted(name, written, &played.scenario)?;
                 let ty = params
                     .first()
@@ -315,9 +319,20 @@ impl<'c, 'w> Planner<'c, 'w> {
                     .map_or(Ty::Number, |param| Ty::of(param.ty));
                 let (measure, last, unit) = self.measure(measure, &played.scenario, true)?;
                 let Domain::Range(low, high) = band else { return None };
-                let (low, high) = (self.bound(low, unit), self.bound(high, unit));
+                let bounds = (self.bound(low, unit), self.bound(high, unit));
+                if let (Some(least), Some(most)) = bounds
+                    && least >= most
+                {
+                    let (low, high) = (self.world.text(low.span), self.world.text(high.span));
+                    self.report(measured_in.span, Facts::EmptyBand { low, high });
+                }
+                let (low, high) = bounds;
                 let empty = self::scope();
                 let ends = (self.constant(from, &empty, ty), self.constant(to, &empty, ty));
+                if ends.0.is_some() && ends.0 == ends.1 {
+                    let text = self.world.text(to.span);
+                    self.report(from.span.to(to.span), Facts::AdaptsNowhere { text });
+                }
                 for (value, at) in [(ends.0, from), (ends.1, to)] {
                     for param in &params {
                         let Some(param) = played.scenario.params.get(*param) else { continue };

@@ -33,6 +33,9 @@ pub(crate) fn lower_endings(step: &StepWorld<'_, '_>) -> Endings {
         .filter_map(|said| lower_substitute(&mut lower, said))
         .collect();
     let mut round = world.flat.rounds.map(|(rounds, _)| lower.condition(&rounds.when));
+    if let (Some(when), Some((_, span))) = (round, world.flat.rounds) {
+        check_rounds(&lower, when, span, &list);
+    }
     if list.is_empty() && world.flat.limit.is_none() && round.is_none() {
         let name = &world.flat.item.name;
         world.report(Problem::new(name.span, Rewards::NeverEnds { scenario: name.node.clone() }));
@@ -85,6 +88,30 @@ fn check_come_about(lower: &Lower<'_, '_>, list: &[(Ending, Span)]) {
             };
             lower.report(Problem::new(*span, fact));
         }
+    }
+}
+
+/// Warns of rounds that never end in one of their ways, since endings end the episode then.
+fn check_rounds(lower: &Lower<'_, '_>, when: Reg, span: Span, list: &[(Ending, Span)]) {
+    let flat = lower.world.flat;
+    if flat.item.is_abstract || !flat.is_own(span) || lower.code.is_unknown(when) {
+        return;
+    }
+    let endings: Vec<(Reg, &str)> = list
+        .iter()
+        .filter_map(|(ending, _)| Some((ending.when?, ending.label.as_str())))
+        .filter(|(when, _)| !lower.code.is_unknown(*when))
+        .collect();
+    let mut earlier: Vec<String> = Vec::new();
+    for way in lower.ways(when) {
+        for label in lower.forestalling(way, &endings) {
+            if !earlier.iter().any(|known| known == label) {
+                earlier.push(label.to_owned());
+            }
+        }
+    }
+    if !earlier.is_empty() {
+        lower.report(Problem::new(span, Rewards::NoNextRound { earlier }));
     }
 }
 

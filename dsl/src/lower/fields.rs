@@ -24,6 +24,9 @@ pub(super) fn is_known(lower: &Lower<'_, '_>, field: &Field, known: &[&str], who
     }
     let (whose, option) = (whose.to_owned(), key.to_owned());
     let fact = match block_of(key) {
+        None if matches!(key, "mass" | "weight") && ["`world`", "the ball"].contains(&&*whose) => {
+            Names::NoMass { whose, option }
+        }
         Some(block) => Names::OfBlock { whose, option, block },
         None => Names::NoOption { whose, option, guess: Guess::similar_or_all(key, known) },
     };

@@ -1,6 +1,7 @@
 //! Whether a condition holds whenever another one does, as far as their form tells.
 
 use super::Lower;
+use setpiece_scenario::vocabulary::Team;
 use setpiece_scenario::{BinaryOp, Each, EventFilter, FoldKind, Instr, Over, Reg, Who};
 
 /// Deepest nesting that is looked into.
@@ -18,17 +19,66 @@ impl Lower<'_, '_> {
         if a == b {
             return true;
         }
-        let (Some(Instr::Binary(x, p, q)), Some(Instr::Binary(y, r, s))) =
-            (self.code.instr(a), self.code.instr(b))
-        else {
-            return false;
+        let parts = |reg: Reg| match self.code.instr(reg) {
+            Some(&Instr::Binary(op, left, right)) => Some((op, left, right)),
+            _ => None,
         };
-        match (x, y) {
-            (BinaryOp::Or, _) => of(*p, b) && of(*q, b),
-            (_, BinaryOp::And) => of(a, *r) && of(a, *s),
-            (_, BinaryOp::Or) if of(a, *r) || of(a, *s) => true,
-            (BinaryOp::And, _) => of(*p, b) || of(*q, b),
-            _ => self.is_narrower((*x, *p, *q), (*y, *r, *s)),
+        match (parts(a), parts(b)) {
+            (Some((BinaryOp::Or, p, q)), _) => of(p, b) && of(q, b),
+            (_, Some((BinaryOp::And, r, s))) => of(a, r) && of(a, s),
+            (_, Some((BinaryOp::Or, r, s))) if of(a, r) || of(a, s) => true,
+            (Some((BinaryOp::And, p, q)), _) => of(p, b) || of(q, b),
+            (Some(one), Some(other)) => self.is_narrower(one, other),
+            _ => false,
+        }
+    }
+
+    /// The conditions of which one holds when a condition does.
+    pub(super) fn ways(&self, condition: Reg) -> Vec<Reg> {
+        match self.code.instr(condition) {
+            Some(&Instr::Binary(BinaryOp::Or, a, b)) => [self.ways(a), self.ways(b)].concat(),
+            _ => vec![condition],
+        }
+    }
+
+    /// The names of those conditions of which one holds whenever another one does: one alone, or
+    /// one for each team.
+    pub(super) fn forestalling<'n>(&self, way: Reg, all: &[(Reg, &'n str)]) -> Vec<&'n str> {
+        if let Some((_, name)) = all.iter().find(|(when, _)| self.implies(way, *when)) {
+            return vec![*name];
+        }
+        let happened = |reg: Reg| match self.code.instr(reg) {
+            Some(Instr::Binary(BinaryOp::Gt, count, zero))
+                if self.code.constant_of(*zero) == Some(0.0) =>
+            {
+                self.events_counted(*count).map(|each| &each.over)
+            }
+            _ => None,
+        };
+        let of_team = |team: Team| {
+            let mut all = all.iter();
+            let found = all.find(|(when, _)| {
+                let Some((Over::Events(ends), Over::Events(way))) =
+                    happened(*when).zip(happened(way))
+                else {
+                    return false;
+                };
+                let of = ends.by.and_then(|by| match by {
+                    Who::Team(by) => self.known_team(by),
+                    Who::Player(_) => None,
+                });
+                way.by.is_none()
+                    && of == Some(team)
+                    && self.passes(
+                        &Over::Events(EventFilter { by: ends.by, ..way.clone() }),
+                        &Over::Events(ends.clone()),
+                    )
+            });
+            found.map(|(_, name)| *name)
+        };
+        match [Team::Left, Team::Right].map(of_team) {
+            [Some(left), Some(right)] => vec![left, right],
+            _ => Vec::new(),
         }
     }
 

@@ -95,6 +95,8 @@ pub(crate) struct Remembered<'w> {
     pub(crate) per_agent: bool,
     /// Whether it has read an agent's own view: that agent or their team.
     pub(crate) has_view: bool,
+    /// Where an ending reads what is being written: a record, or a reward's state.
+    pub(crate) ending_reads: Option<Span>,
 }
 
 /// Who plays a player without an agent.

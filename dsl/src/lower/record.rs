@@ -154,7 +154,14 @@ impl<'w> Lower<'_, 'w> {
         read: impl FnOnce(&mut Self) -> Option<T>,
     ) -> Option<T> {
         let outer = std::mem::take(&mut self.remembered.has_view);
+        let is_first = matches!(self.stage, ProgramStage::Ending);
+        if is_first {
+            self.remembered.ending_reads = Some(span);
+        }
         let value = read(self);
+        if is_first {
+            self.remembered.ending_reads = None;
+        }
         let has_view = std::mem::replace(&mut self.remembered.has_view, outer);
         self.remembered.has_view |= has_view;
         if has_view && matches!(self.stage, ProgramStage::Ending) {

@@ -3,12 +3,13 @@
 //! A team has eleven places, and a program knows a player by theirs. Players of formations that
 //! exclude each other share one; so do others where a team would have more than eleven players.
 
+use super::cases::exclude;
 use super::known::StartState;
 use super::people::Rostered;
 use super::value::{LiteralFrame, Scope};
 use super::{Lower, World};
+use setpiece_scenario::Reg;
 use setpiece_scenario::pitch::TEAM_MAX;
-use setpiece_scenario::{BinaryOp, Instr, Reg, UnaryOp};
 use std::ops::RangeInclusive;
 
 /// Sorts a team's players by their places and numbers the places; the first of a place, then the
@@ -78,99 +79,33 @@ fn close_ranks<'w>(world: &World<'w>, seats: Vec<Vec<Rostered<'w>>>) -> Vec<Vec<
     world.tentatively(|| {
         let mut lower =
             Lower::of_start(world, Scope::new(true, LiteralFrame::World), StartState::default());
-        let mut closed: Vec<(Vec<Rostered<'w>>, Vec<Vec<Claim>>)> = Vec::new();
+        let mut closed: Vec<(Vec<Rostered<'w>>, Vec<Option<Reg>>)> = Vec::new();
         for seat in seats {
-            let claims: Vec<Vec<Claim>> = seat
+            let conditions: Vec<Option<Reg>> = seat
                 .iter()
                 .map(|player| {
-                    let Some(when) = player.when else { return Vec::new() };
+                    let when = player.when?;
                     let team = player.team.index() as f64;
-                    let holds = lower.for_team(team, |lower| {
+                    Some(lower.for_team(team, |lower| {
                         lower.within(player.scope.clone(), |lower| lower.condition(when))
-                    });
-                    let mut claims = Vec::new();
-                    claims_of(&lower, holds, &mut claims);
-                    claims
+                    }))
                 })
                 .collect();
+            let apart = |one: &Option<Reg>, other: &Option<Reg>| {
+                one.zip(*other).is_some_and(|(one, other)| exclude(&lower.code, one, other))
+            };
             let free = closed.iter_mut().find(|(others, known)| {
                 others.iter().chain(&seat).all(|player| player.name.is_none())
-                    && known
-                        .iter()
-                        .all(|known| claims.iter().all(|claims| claims_exclude(known, claims)))
+                    && known.iter().all(|known| conditions.iter().all(|own| apart(known, own)))
             });
             match free {
                 Some((others, known)) => {
                     others.extend(seat);
-                    known.extend(claims);
+                    known.extend(conditions);
                 }
-                None => closed.push((seat, claims)),
+                None => closed.push((seat, conditions)),
             }
         }
         closed.into_iter().map(|(seat, _)| seat).collect()
-    })
-}
-
-/// A part of a condition: what a register is compared with, as an interval.
-struct Claim {
-    of: Reg,
-    low: (f64, bool),
-    high: (f64, bool),
-}
-
-const ANYTHING: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
-
-/// Takes a condition apart into what must hold of its parts; the rest is left out.
-fn claims_of(lower: &Lower<'_, '_>, holds: Reg, claims: &mut Vec<Claim>) {
-    let mut claim = |of, low, high| claims.push(Claim { of, low, high });
-    let (least, most) = ((ANYTHING.0, true), (ANYTHING.1, true));
-    match lower.code.instr(holds) {
-        Some(&Instr::Binary(BinaryOp::And, a, b)) => {
-            claims_of(lower, a, claims);
-            claims_of(lower, b, claims);
-        }
-        // A condition is 0 or 1.
-        Some(&Instr::Unary(UnaryOp::Not, a)) => claim(a, (0.0, true), (0.0, true)),
-        Some(&Instr::Binary(op, a, b)) => {
-            claim(holds, (1.0, true), (1.0, true));
-            // Which side the constant stands on doesn't matter.
-            let (op, of, k) = match (lower.code.constant_of(a), lower.code.constant_of(b)) {
-                (_, Some(k)) => (op, a, k),
-                (Some(k), _) => (turned(op), b, k),
-                _ => return,
-            };
-            match op {
-                BinaryOp::Eq => claim(of, (k, true), (k, true)),
-                BinaryOp::Lt => claim(of, least, (k, false)),
-                BinaryOp::Le => claim(of, least, (k, true)),
-                BinaryOp::Gt => claim(of, (k, false), most),
-                BinaryOp::Ge => claim(of, (k, true), most),
-                _ => {}
-            }
-        }
-        _ => claim(holds, (1.0, true), (1.0, true)),
-    }
-}
-
-/// The comparison with its sides exchanged.
-fn turned(op: BinaryOp) -> BinaryOp {
-    match op {
-        BinaryOp::Lt => BinaryOp::Gt,
-        BinaryOp::Le => BinaryOp::Ge,
-        BinaryOp::Gt => BinaryOp::Lt,
-        BinaryOp::Ge => BinaryOp::Le,
-        other => other,
-    }
-}
-
-/// Whether two conditions never hold together.
-fn claims_exclude(one: &[Claim], other: &[Claim]) -> bool {
-    let before = |high: (f64, bool), low: (f64, bool)| {
-        high.0 < low.0 || (high.0 == low.0 && !(high.1 && low.1))
-    };
-    one.iter().any(|one| {
-        other.iter().any(|other| {
-            one.of == other.of && (before(one.high, other.low) || before(other.high, one.low))
-        })
     })
 }

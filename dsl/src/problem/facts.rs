@@ -151,9 +151,9 @@ subjects! {
 }
 
 impl Fact {
-    /// Whether the file has no scenario that can be run.
+    /// Whether the file has no scenario that can be run, or not the one that was asked for.
     pub(crate) fn misses_scenario(&self) -> bool {
-        matches!(self, Fact::Whole(Whole::OnlyAbstract { .. } | Whole::NoScenario { .. }))
+        matches!(self, Fact::Whole(whole) if whole.code() == Code::NoScenario)
     }
 
     /// Whether a child of the scenario may bring what is missing.

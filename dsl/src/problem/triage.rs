@@ -21,9 +21,8 @@ pub(crate) fn triage(
     }
     drop_library(&mut problems, sources);
     // What a file without a scenario says wrong is mended before a scenario is missed.
-    let misses_scenario = |problem: &Problem| problem.fact().misses_scenario();
-    if problems.iter().any(|problem| problem.is_error() && !misses_scenario(problem)) {
-        problems.retain(|problem| !misses_scenario(problem));
+    if problems.iter().any(|problem| problem.is_error() && !problem.misses_scenario()) {
+        problems.retain(|problem| !problem.misses_scenario());
     }
     if has_errors(&problems) {
         drop_likely_used(&mut problems, sources);

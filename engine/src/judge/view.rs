@@ -234,13 +234,19 @@ impl Sight<'_> {
     /// The player of an id as programs write it. `None` for -1, for other values that aren't ids,
     /// and for empty slots.
     #[inline]
-    fn player(self, id: f64) -> Option<PlayerView> {
+    fn listed(self, id: f64) -> Option<PlayerView> {
         let index = player_index(id)?;
         let player = match self {
             Sight::Live(game) => PlayerView::of(game, PlayerId(index as u8)),
             Sight::Kept(view) => view.players[index],
         };
         player.present.then_some(player)
+    }
+
+    /// The same of a player on the pitch: who is absent is nowhere and does nothing.
+    #[inline]
+    fn player(self, id: f64) -> Option<PlayerView> {
+        self.listed(id).filter(|player| player.active)
     }
 
     fn is_controlled(self, id: f64) -> f64 {
@@ -325,12 +331,12 @@ impl Sight<'_> {
                 self.player(of).map_or(f64::NAN, |player| player.fatigue.into())
             }
             Field::PlayerYellowCards => {
-                self.player(of).map_or(f64::NAN, |player| player.yellow_cards.into())
+                self.listed(of).map_or(f64::NAN, |player| player.yellow_cards.into())
             }
             Field::PlayerRole => {
-                self.player(of).map_or(f64::NAN, |player| player.role.index() as f64)
+                self.listed(of).map_or(f64::NAN, |player| player.role.index() as f64)
             }
-            Field::PlayerActive => self.player(of).map_or(f64::NAN, |player| player.active.into()),
+            Field::PlayerActive => self.listed(of).map_or(f64::NAN, |player| player.active.into()),
             Field::PlayerControlled => self.is_controlled(of),
             Field::PlayerAction | Field::PlayerSprinting | Field::PlayerDribbling => {
                 self.load_of_acting(field, of)

@@ -325,8 +325,13 @@ fn with_progress(loaded: &Loaded, options: &RunOptions) -> Result<Summary, Error
 /// last good one running.
 fn watch(args: &RunArgs, out: &Out) -> Result<u8, Error> {
     let source = args.playing.source();
-    let mut live = Live::open_scenario(source, args.playing.wanted(), out.allow_outside)
-        .map_err(|error| args.playing.explained(error))?;
+    let mut live = match Live::open_scenario(source, args.playing.wanted(), out.allow_outside) {
+        Ok(live) => live,
+        Err(error) if args.playing.level.is_some() => return Err(args.playing.explained(error)),
+        Err(error) => {
+            return run_plans(&plans_of(source, args.playing.wanted(), error, out)?, args, out);
+        }
+    };
     out.warnings(live.loaded());
     if !live.is_watching() {
         let name = source.to_string_lossy();

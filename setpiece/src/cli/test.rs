@@ -15,6 +15,7 @@ use crate::measure::shown;
 use crate::plans::load_plans;
 use crate::scenario::plan::Check;
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -90,6 +91,7 @@ struct Worst {
 /// Runs the command.
 pub(crate) fn test(args: &TestArgs, out: &Out) -> Result<u8, Error> {
     let (mut played, mut broken) = (Vec::new(), false);
+    let mut taken = BTreeSet::new();
     for path in texts(&args.files)? {
         let loaded = match load_plans(&path, &out.loading()) {
             Ok(loaded) => loaded,
@@ -104,7 +106,7 @@ pub(crate) fn test(args: &TestArgs, out: &Out) -> Result<u8, Error> {
         for check in &loaded.plans.checks {
             let wanted = args.filter.as_ref().is_none_or(|filter| check.name.contains(filter));
             if wanted {
-                let result = one(args, &path, check)?;
+                let result = one(args, &path, check, &free_name(&path, check, &mut taken))?;
                 if args.format != TestFormat::Junit {
                     print(&result, args.format, out);
                 }
@@ -142,8 +144,19 @@ fn texts(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     Ok(lists.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
+/// What the replays of a check are called: by its file and words, and a number if that is taken.
+fn free_name(path: &Path, check: &Check, taken: &mut BTreeSet<String>) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let first = format!("{}-{}", slug(&stem), slug(&check.name));
+    let more = (2..).map(|nth: u32| format!("{first}-{nth}"));
+    let mut names = std::iter::once(first.clone()).chain(more);
+    names.find(|name| taken.insert(name.clone())).unwrap_or(first)
+}
+
 /// Plays a check.
-fn one(args: &TestArgs, path: &Path, check: &Check) -> Result<PlayedCheck, Error> {
+///
+/// - `name`: what its replays are called.
+fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<PlayedCheck, Error> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let named = Agent::from_name(&check.agent).unwrap_or(Agent::Bot);
     let agent = args.agent.map_or(named, playing::AgentName::agent);
@@ -183,20 +196,20 @@ fn one(args: &TestArgs, path: &Path, check: &Check) -> Result<PlayedCheck, Error
     let judged = judge(check, &results);
     played.holds = judged.iter().all(|judged| judged.holds);
     for judged in judged {
-        played.expectations.push(expectation(args, check, agent, judged)?);
+        played.expectations.push(expectation(args, (check, name), agent, judged)?);
     }
     Ok(played)
 }
 
 fn expectation(
     args: &TestArgs,
-    check: &Check,
+    (check, name): (&Check, &str),
     agent: Agent,
     judged: JudgedExpectation<'_>,
 ) -> Result<PlayedExpectation, Error> {
     let goal = &judged.expectation.goal;
     let worst = match judged.worst {
-        Some(index) if !judged.holds => Some(keep(args, check, agent, index)?),
+        Some(index) if !judged.holds => Some(keep(args, (check, name), agent, index)?),
         _ => None,
     };
     let measured = judged.measured;
@@ -214,10 +227,15 @@ fn expectation(
 }
 
 /// Writes an episode of a check beside its level.
-fn keep(args: &TestArgs, check: &Check, agent: Agent, index: u64) -> Result<Worst, Error> {
+fn keep(
+    args: &TestArgs,
+    (check, name): (&Check, &str),
+    agent: Agent,
+    index: u64,
+) -> Result<Worst, Error> {
     let episodes = &check.episodes;
     let replay = record(episodes, &EnvironmentOptions::default(), agent, check.over_params, index)?;
-    let path = args.output.join(format!("{}-{index}.pitchr", slug(&check.name)));
+    let path = args.output.join(format!("{name}-{index}.pitchr"));
     std::fs::create_dir_all(&args.output).map_err(|why| Error::File {
         path: args.output.clone(),
         why: crate::error::FileFault::Write(why.to_string()),
@@ -242,7 +260,10 @@ fn print(check: &PlayedCheck, format: TestFormat, out: &Out) {
         return;
     }
     let (sign, paint) = if check.holds { ("✓", Paint::Success) } else { ("✗", Paint::Failure) };
-    let about = format!("  {} episodes, {}, {:.1} s", check.episodes, check.agent, check.seconds);
+    let about = format!(
+        "  {}  {} episodes, {}, {:.1} s",
+        check.file, check.episodes, check.agent, check.seconds
+    );
     out.line(StyledText::default().paint(sign, paint).text(" ").bold(&check.check).dim(&about));
     if let Some(error) = &check.error {
         out.line(StyledText::from("    ").paint(error, Paint::Failure));

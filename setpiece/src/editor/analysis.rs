@@ -7,7 +7,7 @@ use super::text::{Lines, closed};
 use crate::Loaded;
 use crate::dsl::ast::{File, Span};
 use crate::dsl::index::Index;
-use crate::dsl::problem::Code;
+use crate::dsl::problem::Problem;
 use crate::dsl::source::{FileId, Source, SourceLoader, Sources};
 use crate::dsl::{CompileOptions, compile};
 use crate::files::{FileLoader, name_of, path_of};
@@ -70,7 +70,7 @@ impl Analysis {
         }
         let mut reports = TextReport::all(&outcome.problems, &outcome.sources);
         let mut inputs: BTreeSet<PathBuf> = outcome.inputs.iter().map(|it| path_of(it)).collect();
-        if reports.iter().any(|report| report.code == Code::NoScenario)
+        if outcome.problems.iter().any(Problem::misses_scenario)
             && let Some(user) = user_of_parts(&source, loader, &outcome.problems)
         {
             reports = TextReport::all(&user.problems, &user.sources);

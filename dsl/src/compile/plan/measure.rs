@@ -82,7 +82,11 @@ impl<'w> Planner<'_, 'w> {
             }
             return found;
         };
-        self.constant(expr, &scope(), ty)
+        if ty == Ty::Percent {
+            self.share(expr, "the bound")
+        } else {
+            self.constant(expr, &scope(), ty)
+        }
     }
 
     /// What is measured, over how many of the latest episodes, and what its bound is written in.
@@ -173,6 +177,19 @@ impl<'w> Planner<'_, 'w> {
                 let known: Vec<&str> =
                     scenario.records.iter().map(|record| record.name.as_str()).collect();
                 self.known("record", of, &known, scenario)?;
+                let mut records = scenario.records.iter();
+                let what =
+                    records.find(|record| record.name == of.node).and_then(|record| {
+                        match (record.series, record.values.len()) {
+                            (true, _) => Some("a series"),
+                            (_, 1) => None,
+                            _ => Some("a place"),
+                        }
+                    });
+                if let Some(what) = what {
+                    self.report(of.span, Facts::NoNumber { name: of.node.clone(), what });
+                    return None;
+                }
                 return Some((Quantity::Record(of.node.clone()), BoundUnit::Any));
             }
             MeasureArg::Of(kind, of) if kind.node == "term" => {

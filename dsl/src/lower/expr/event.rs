@@ -94,6 +94,12 @@ impl<'w> Lower<'_, 'w> {
             self.report(Problem::new(event.span, Scopes::ObservationShowsState));
             return None;
         }
+        if kind == EventKind::End
+            && let Some(at) = self.remembered.ending_reads
+        {
+            self.report(Problem::new(at, Scopes::EndOfItself { event: event.span }));
+            return None;
+        }
         if self.when == When::Prev {
             self.report(Problem::new(event.span, Scopes::EventsForgotten));
             return None;

@@ -53,7 +53,11 @@ impl<'w> Lower<'_, 'w> {
             return self.reward_is_no_value(name, span);
         }
         let mut candidates = self.names_in_sight(span);
-        if matches!(self.stage, ProgramStage::Reward | ProgramStage::Ending) {
+        let is_compared = !has_member
+            && matches!(self.stage, ProgramStage::Ending)
+            && self.world.is_compared(span);
+        // An event is no number.
+        if matches!(self.stage, ProgramStage::Reward | ProgramStage::Ending) && !is_compared {
             candidates.extend(EventKind::ALL.iter().map(|kind| kind.name().to_owned()));
         }
         if matches!(self.stage, ProgramStage::Observation) {
@@ -76,10 +80,7 @@ impl<'w> Lower<'_, 'w> {
                 name: name.to_owned(),
                 guess,
                 late: self.scope.scenario,
-                records: !has_member
-                    && self.scope.scenario
-                    && matches!(self.stage, ProgramStage::Ending)
-                    && self.world.is_compared(span),
+                records: is_compared && self.scope.scenario,
             },
         ))
     }

@@ -1,12 +1,12 @@
 //! `world { … }`: gravity, the wind, and how the ball flies, bounces and rolls.
 
-use crate::ast::{Expr, Field};
+use crate::ast::Expr;
 use crate::check::options::WORLD;
 use crate::check::types::Ty;
 use crate::lower::value::Repr;
 use crate::lower::{Lower, fields};
 use crate::problem::Problem;
-use crate::problem::facts::{Instead, Names, Types};
+use crate::problem::facts::{Instead, Types};
 use setpiece_scenario::vocabulary::{WIND_MAX_MPS, WorldFigure};
 use setpiece_scenario::{Reg, WorldSetting};
 
@@ -17,7 +17,7 @@ impl<'w> Lower<'_, 'w> {
         let given = self.world.flat.world.clone();
         for field in given {
             let key = field.key.node.as_str();
-            if !self.is_option_of_world(field) {
+            if !fields::is_known(self, field, WORLD, "`world`") {
                 continue;
             }
             let Some(expr) = fields::expression(self, field) else { continue };
@@ -27,15 +27,6 @@ impl<'w> Lower<'_, 'w> {
             });
         }
         settings
-    }
-
-    fn is_option_of_world(&self, field: &Field) -> bool {
-        if matches!(field.key.node.as_str(), "mass" | "weight") {
-            let option = field.key.node.clone();
-            self.report(Problem::new(field.key.span, Names::NoMass { option }));
-            return false;
-        }
-        fields::is_known(self, field, WORLD, "`world`")
     }
 
     fn figure(&mut self, figure: WorldFigure, expr: &'w Expr) -> WorldSetting {

@@ -112,10 +112,10 @@ facts! {
         OfBlock { whose: String, option: String, block: &'static str } = Code::UnknownOption =>
             say(format!("{whose} has no option `{option}`"), format!("an option of `{block}`"))
                 .help(format!("write `{block} {{ {option}: … }}`")),
-        /// The world has no mass of the ball; `option`: what it was called.
-        NoMass { option: String } = Code::UnknownOption =>
-            say(format!("`world` has no option `{option}`"), "a ball's mass shows only in the air")
-                .help("write what the air does to it: `drag: 0.8, swerve: 0.8` is a ball that is heavier by a quarter"),
+        /// The ball has no mass of its own; `option`: what it was called.
+        NoMass { whose: String, option: String } = Code::UnknownOption =>
+            say(format!("{whose} has no option `{option}`"), "a ball's mass shows only in the air")
+                .help("write what the air does to it: `world { drag: 0.8, swerve: 0.8 }` is a ball that is heavier by a quarter"),
         /// An option of `rules` that is no rule.
         NoRule { option: String, guess: Guess } = Code::UnknownOption =>
             say(format!("`rules` has no option `{option}`"), "not known").guess(guess, "it can be"),
@@ -390,6 +390,9 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
             guess.known.join("`, `")
         )),
         Kind::Ai if guess.meant.is_none() => said.help(WHO_PLAYS),
+        Kind::Ending if name.starts_with(|first: char| first.is_ascii_digit()) => {
+            said.help(format!("write `end limit {name}`"))
+        }
         Kind::Ending if guess.meant.is_none() => {
             said.help(format!("say when it ends: `end {name} when …`"))
         }

@@ -101,6 +101,21 @@ facts! {
         /// A share outside of 0 to 1.
         Share { what: &'static str, text: String } = Code::OutOfRange =>
             say(format!("{what} is `{text}`, outside 0%..100%"), "").help("write a share in 0%..100%"),
+        /// A band whose lower bound isn't below the upper one.
+        EmptyBand { low: String, high: String } = Code::OutOfRange =>
+            say(format!("nothing is kept in {low}..{high}"), "")
+                .help("write the lower bound first, as in `50%..70%`"),
+        /// A parameter that adapts from a value to the same.
+        AdaptsNowhere { text: String } = Code::OutOfRange =>
+            say(format!("it begins and ends at `{text}`"), "adapts nothing")
+                .help("write two different values: the easiest, and the hardest behind `to`"),
+        /// An `each` of a suite without values.
+        EmptySweep { name: String } = Code::WrongArguments =>
+            say(format!("`each {name}` has no values"), "").help(format!("write some: `each {name} in [0.3, 0.6]`")),
+        /// A record that isn't one number; `what`: what it is.
+        NoNumber { name: String, what: &'static str } = Code::WrongType =>
+            say(format!("the record `{name}` is {what}, not a number"), "")
+                .help("measure a record that holds a number, such as `max of …` or `count of …`"),
         /// The shares of a mix don't add up.
         Mix { sum: f64 } = Code::OutOfRange =>
             say(format!("the shares of `mix` add up to {}%", (sum * 100.0 * 1e6).round() / 1e6), "")

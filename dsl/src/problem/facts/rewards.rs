@@ -68,6 +68,14 @@ facts! {
             } else {
                 format!("write it above `{earlier}`, or leave one of them out")
             }),
+        /// Endings hold whenever a round would be over in one of its ways.
+        NoNextRound { earlier: Vec<String> } = Code::NeverEnds => {
+            let all = earlier.join("`, `");
+            let out: Vec<String> = earlier.iter().map(|label| format!("`remove end {label}`")).collect();
+            let (end, them) = if earlier.len() == 1 { ("ends", "it") } else { ("end", "them") };
+            say(format!("`{all}` {end} the episode where a round would be over"), "checked later than the endings")
+                .help(format!("take {them} out: {}", out.join(", ")))
+        },
         /// An ending without a condition.
         EndsWhen = Code::Syntax =>
             say("the ending doesn't say when", "").help("write, for example, `end success when goal by left`"),

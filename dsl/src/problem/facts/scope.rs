@@ -4,6 +4,7 @@
 use super::facts;
 use crate::problem::Code;
 use crate::problem::said::say;
+use crate::source::Span;
 
 facts! {
     /// Facts about what can't be used here.
@@ -86,6 +87,11 @@ facts! {
         ObservationShowsState = Code::WrongScope =>
             say("an observation shows the state, not what happened", "")
                 .help("use the event in a reward, an ending or a record"),
+        /// An ending reads the event that it brings about, or what counts it.
+        EndOfItself { event: Span } = Code::Recursion =>
+            say("the event `end` is what endings bring about: none can wait for it", "closes the circle")
+                .at(event, "happens once the episode has ended")
+                .help("read what happens before: an event of the match, or a condition"),
         /// An event inside of `prev`.
         EventsForgotten = Code::WrongScope =>
             say("events of the step before are forgotten", "").help("`since(…)` tells how long ago an event was"),

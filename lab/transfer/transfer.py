@@ -41,9 +41,9 @@ decodes the maps of both games. The real game is EnvPool's, with 19 actions and 
 - "likeliest" presses the policy's likeliest action; "drawn" draws an action by its probability, as in training.
 - Policies are trained with the rewards `scoring` and `checkpoints`. In a scene the training ends early once the last
   1,000 episodes score 0.97.
-- Only the policies of `academy_3_vs_1_with_keeper`, `academy_run_to_score` and `academy_run_to_score_with_keeper` were
-  trained since the touches of a dribble became motions; the others were trained in earlier builds. The scores here are
-  of this build.
+- The policies of `academy_3_vs_1_with_keeper`, `academy_run_to_score` and `academy_run_to_score_with_keeper` were
+  trained in an earlier build, since the touches of a dribble became motions; the others before that. The scores here
+  are of this build.
 
 """
 DIFFERENCES = """

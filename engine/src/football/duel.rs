@@ -136,9 +136,8 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let traps =
         first && (sooner || loose) && seen && rolls && pace >= TRAP.from_mps && !game.is_driven(id);
     let kicks = first && (sooner || loose) && player.body.kick.is_some() && !game.is_driven(id);
-    if let Some(way) = KICKS.iter().find(|way| kicks && pace >= way.from_mps)
-        && lunges(game, id, way, Aim::Kick, seen)
-    {
+    let ways = if kicks { motions(&KICKS, pace, 0.0) } else { &[] };
+    if ways.iter().any(|way| lunges(game, id, way, Aim::Kick, seen)) {
         // The leg swings on the way: where to is settled.
         game.players[id.index()].body.intent = Intent::Run(player.vel);
         return;

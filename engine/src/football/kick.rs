@@ -29,8 +29,9 @@ const LOST_S: f32 = 0.7;
 const OWN_LOST_S: f32 = 0.95;
 /// A swing that has missed the ball for this many ticks begins again; chosen.
 const MISSED_TICKS: i32 = 30;
-/// The ball must be this near for a kick, metres.
+/// The ball must be this near for a kick, metres, and for most lofted passes.
 pub const KICK_M: f32 = 0.85;
+const LOFT_M: f32 = 1.0;
 /// The swing at a ball that somebody else has played reaches this far, metres; chosen.
 const COMES_M: f32 = 1.3;
 /// How near a fast ball must come to be struck without a first touch, metres; chosen.
@@ -39,8 +40,7 @@ const REACH_M: f32 = 0.8;
 /// asked for.
 const FIRST_TIME_TICKS: std::ops::Range<i32> = 14..28;
 /// Striking without a first touch: the highest ball (`LOW_M` for a shot behind the back), metres,
-/// and how often it succeeds for short,
-/// long and high passes and shots. Measured.
+/// and how often it succeeds for short, long and high passes and shots. Measured.
 const FIRST_TIME_M: f32 = 0.9;
 const FIRST_TIME: [f32; 4] = [0.75, 0.5, 0.2, 0.85];
 /// The contact may still turn a pass by this angle, radians. (GRF's.)
@@ -330,32 +330,39 @@ const fn swing(ticks: i32, [end_mps, share]: [f32; 2], reach_m: f32) -> SwingMot
 /// Swings by what they lead to, best first: from a standstill; on; a bit aside; half aside; aside;
 /// back.
 const PASSES: [&[SwingMotion]; 6] = [
-    &[swing(34, [0.3, 0.0], 0.85)],
-    &[swing(15, [2.0, 0.68], 1.0), swing(27, [3.5, 0.0], 0.85), swing(36, [5.7, 0.0], 0.85)],
-    &[swing(20, [3.5, 0.1], 1.2), swing(27, [3.5, 0.1], 0.85), swing(36, [5.7, 0.0], 0.85)],
-    &[swing(20, [3.5, 0.1], 0.85), swing(27, [3.5, 0.1], 0.85), swing(36, [5.7, 0.0], 0.85)],
-    &[swing(30, [4.4, 0.0], 0.85), swing(36, [5.7, 0.0], 0.85)],
-    &[swing(36, [5.7, 0.0], 0.85)],
+    &[swing(34, [0.3, 0.0], KICK_M)],
+    &[swing(15, [2.0, 0.68], 1.0), swing(27, [3.5, 0.0], KICK_M), BACK_PASS],
+    &[swing(20, [3.5, 0.1], 1.2), swing(27, [3.5, 0.1], KICK_M), BACK_PASS],
+    &[swing(20, [3.5, 0.1], KICK_M), swing(27, [3.5, 0.1], KICK_M), BACK_PASS],
+    &[swing(30, [4.4, 0.0], KICK_M), BACK_PASS],
+    &[BACK_PASS],
 ];
+const BACK_PASS: SwingMotion = swing(36, [5.7, 0.0], KICK_M);
 const LOFTS: [&[SwingMotion]; 6] = [
-    &[swing(25, [1.4, 0.0], 1.0)],
-    &[swing(12, [1.5, 0.68], 1.3), swing(27, [2.7, 0.0], 1.0), swing(36, [1.7, 0.0], 1.0)],
-    &[swing(14, [3.9, 0.0], 1.23), swing(29, [2.2, 0.0], 1.0), swing(36, [1.7, 0.0], 1.0)],
-    &[swing(14, [3.9, 0.0], 1.23), swing(29, [2.2, 0.0], 1.0), swing(36, [1.7, 0.0], 1.0)],
-    &[swing(29, [2.2, 0.0], 1.0), swing(36, [1.7, 0.0], 1.0)],
-    &[swing(36, [1.7, 0.0], 1.0)],
+    &[swing(25, [1.4, 0.0], LOFT_M)],
+    &[swing(12, [1.5, 0.68], 1.3), swing(27, [2.7, 0.0], LOFT_M), BACK_LOFT],
+    HALF_LOFTS,
+    HALF_LOFTS,
+    &[SIDE_LOFT, BACK_LOFT],
+    &[BACK_LOFT],
 ];
+const HALF_LOFTS: &[SwingMotion] = &[swing(14, [3.9, 0.0], 1.23), SIDE_LOFT, BACK_LOFT];
+const SIDE_LOFT: SwingMotion = swing(29, [2.2, 0.0], LOFT_M);
+const BACK_LOFT: SwingMotion = swing(36, [1.7, 0.0], LOFT_M);
 const SHOTS: [&[SwingMotion]; 6] = [
-    &[swing(25, [0.0, 0.0], 0.85)],
-    &[swing(17, [3.7, 0.34], 0.85)],
-    &[swing(17, [3.7, 0.34], 0.85), swing(28, [3.9, 0.0], 0.85)],
-    &[swing(17, [3.7, 0.34], 0.85), swing(28, [3.9, 0.0], 0.85)],
-    &[swing(28, [3.9, 0.0], 0.85)],
-    &[swing(36, [1.7, 0.0], 0.85)],
+    &[swing(25, [0.0, 0.0], KICK_M)],
+    &[SHOT],
+    HALF_SHOTS,
+    HALF_SHOTS,
+    &[SIDE_SHOT],
+    &[swing(36, [1.7, 0.0], KICK_M)],
 ];
+const HALF_SHOTS: &[SwingMotion] = &[SHOT, SIDE_SHOT];
+const SHOT: SwingMotion = swing(17, [3.7, 0.34], KICK_M);
+const SIDE_SHOT: SwingMotion = swing(28, [3.9, 0.0], KICK_M);
 /// Up to which angles to the run a kick leads on, a bit aside, half aside and aside, degrees;
 /// chosen.
-const SWINGS_DEG: [f32; 4] = [35.0, 48.0, 70.0, 135.0];
+const SWINGS_DEG: [f32; 4] = [35.0, 48.0, 70.0, pass::BEHIND_DEG];
 
 /// The swings that a kick may take.
 fn swings(player: &Player, kind: KickKind, way: Vec2) -> &'static [SwingMotion] {

@@ -27,7 +27,7 @@ const ASIDE_UP_MPS: f32 = 0.3;
 const HEEL_UP_MPS: f32 = 0.4;
 /// From this angle to the run on, a kick goes behind the back, and a pass is played with the heel,
 /// degrees; chosen.
-const BEHIND_DEG: f32 = 135.0;
+pub const BEHIND_DEG: f32 = 135.0;
 /// Topspin of a ground pass and backspin of a lofted one, rad/s per m/s, and the speed up to which
 /// they grow. (GRF's ratios; fitted to the measured heights.)
 const TOPSPIN_PER_MPS: f32 = 4.0;

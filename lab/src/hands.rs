@@ -17,6 +17,7 @@ mod kicks;
 mod latency;
 mod limits;
 mod openings;
+mod played;
 mod recorded;
 mod runs;
 mod set_pieces;
@@ -30,6 +31,7 @@ mod turns;
 mod winning;
 
 pub(crate) use again::{RecordedArgs, recorded};
+pub(crate) use played::{PlayArgs, play};
 
 use crate::figure::Section;
 use crate::pitch::LabError;
@@ -83,6 +85,11 @@ pub(crate) fn runs_with_the_ball(section: &mut Section) -> Result<(), LabError> 
 /// Every topic, in any section of the report.
 fn topics() -> impl Iterator<Item = &'static recorded::Topic> {
     TOPICS.iter().chain([&standing::TOPIC, &runs::TOPIC])
+}
+
+/// The topic of a file of `lab/data`.
+fn topic_of(file: &str) -> Result<&'static recorded::Topic, LabError> {
+    topics().find(|topic| topic.file == file).ok_or_else(|| format!("no topic has `{file}`"))
 }
 
 #[cfg(test)]

@@ -34,6 +34,8 @@ enum Command {
     Calibrate(calibrate::CalibrateArgs),
     /// Compare what lab/record saw of that game with a file of lab/data, or write it there
     Recorded(hands::RecordedArgs),
+    /// Write what happens in our game in the rows of a file of lab/data, in lab/record's form
+    Play(hands::PlayArgs),
     /// Play random scenarios and check properties of every step; a long run adds a line to
     /// lab/soak.csv
     Soak(soak::SoakArgs),
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
     let result = match Lab::parse().command {
         Command::Calibrate(args) => calibrate::calibrate(&args),
         Command::Recorded(args) => hands::recorded(&args),
+        Command::Play(args) => hands::play(&args),
         Command::Soak(args) => soak::soak(&args),
     };
     match result {

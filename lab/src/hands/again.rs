@@ -4,7 +4,7 @@
 use super::keys::action;
 use super::limits::RecordedFigure;
 use super::recorded::{RecordedFile, RecordedRow, Topic, Values};
-use super::topics;
+use super::topic_of;
 use super::trace::TraceMoment;
 use crate::figure::{Figure, Section};
 use crate::pitch::LabError;
@@ -14,7 +14,7 @@ use std::io::BufRead;
 
 /// A step as `lab/record` writes it: ball and its velocity; owning team, owner and `game_mode`;
 /// places of both teams; keys; the agents' players; score.
-type RecordedStep = ([f64; 5], (i8, i64, usize), [Vec<f64>; 2], Vec<String>, Vec<i64>, [u16; 2]);
+pub(super) type RecordedStep = ([f64; 5], (i8, i64, usize), [Vec<f64>; 2], Vec<String>, Vec<i64>, [u16; 2]);
 
 /// Options of `lab recorded`.
 #[derive(Debug, clap::Args)]
@@ -34,9 +34,7 @@ pub(crate) struct RecordedArgs {
 /// Sets figures of traces beside the file's, writes them in their place, or makes one of both.
 pub(crate) fn recorded(args: &RecordedArgs) -> Result<(), LabError> {
     let RecordedArgs { file, traces, .. } = args;
-    let topic = topics()
-        .find(|topic| topic.file == file)
-        .ok_or_else(|| format!("no topic has `{file}`"))?;
+    let topic = topic_of(file)?;
     let recorded = topic.recorded()?;
     let values = read(topic, &recorded, traces)?;
     if args.write {

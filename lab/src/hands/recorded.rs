@@ -46,6 +46,25 @@ impl RecordedFile {
     pub(super) fn scene(&self, row: &RecordedRow) -> Result<&RecordedScene, LabError> {
         self.scenes.get(&row.scene).ok_or_else(|| format!("no scene `{}`", row.scene))
     }
+
+    /// An episode of a row in our game, step by step.
+    pub(super) fn play(
+        &self,
+        row: &RecordedRow,
+        episode: u64,
+    ) -> Result<Vec<TraceMoment>, LabError> {
+        let take = Take {
+            scene: self.scene(row)?,
+            plans: self
+                .plans
+                .get(&row.plan)
+                .ok_or_else(|| format!("no plan `{}`", row.plan))?,
+            difficulty: [row.left, row.right],
+            steps: row.steps,
+            stop: &row.stop,
+        };
+        play(&take, episode).map_err(|why| format!("{}, {}: {why}", row.scene, row.plan))
+    }
 }
 
 /// A row as recorded.
@@ -144,20 +163,9 @@ pub(super) fn measure(
 ) -> Result<(), LabError> {
     let file = topic.recorded()?;
     for row in &file.rows {
-        let take = Take {
-            scene: file.scene(row).map_err(|why| topic.named(why))?,
-            plans: file
-                .plans
-                .get(&row.plan)
-                .ok_or_else(|| topic.named(format!("no plan `{}`", row.plan)))?,
-            difficulty: [row.left, row.right],
-            steps: row.steps,
-            stop: &row.stop,
-        };
         let mut values = Values::new();
         for episode in 0..count.unwrap_or(EPISODES) {
-            let trace = play(&take, episode)
-                .map_err(|why| topic.named(format!("{}, {}: {why}", row.scene, row.plan)))?;
+            let trace = file.play(row, episode).map_err(|why| topic.named(why))?;
             topic.add(&mut values, &trace, row);
         }
         for (what, parts) in topic.compare(row, &values) {

@@ -6,7 +6,7 @@
 
 use crate::football::carry::{self, Carry};
 use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
-use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS, WITH_BALL};
+use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::football::{contact, noise, possession, touch};
 use crate::math;
 use crate::state::event::Events;
@@ -116,10 +116,10 @@ const ASIDE_RAD: f32 = -2.0e-6;
 /// - `NEARER`: the share of what a walker lacks.
 /// - `SPEEDS_UP`: the end of one who walks and wants to sprint: base and share of their speed, and
 ///   at most, m/s.
-/// - `SPRINTS_MPS`: of one who sprints, at least.
+/// - `SPRINTS_MPS`: of one who sprints.
 const NEARER: f32 = 0.75;
-const SPEEDS_UP: [f32; 3] = [2.76, 0.66, 5.9];
-const SPRINTS_MPS: f32 = 7.1;
+const SPEEDS_UP: [f32; 3] = [2.76, 0.66, 5.76];
+const SPRINTS_MPS: f32 = 7.2;
 /// By how much a sprinter turns with one touch, radians, and how fast they come out of it, m/s.
 const BEND_RAD: f32 = 0.39;
 const BENT_MPS: f32 = 6.7;
@@ -172,9 +172,9 @@ fn wish(player: &Player, run: Vec2, motion: &DribbleMotion) -> Vec2 {
 /// How fast a player comes out of a motion that leads on.
 fn on_mps(player: &Player, wanted: f32) -> f32 {
     let pace = player.vel.length();
-    let most = wanted.min(WITH_BALL * player.body.speed_top_mps);
+    let most = wanted.min(player.body.speed_top_mps);
     if pace >= SPRINTS_FROM_MPS {
-        pace.max(SPRINTS_MPS).min(most)
+        SPRINTS_MPS.min(most)
     } else if wanted > SPRINTS_FROM_MPS {
         let [base, share, end] = SPEEDS_UP;
         (base + share * pace).min(end)
@@ -224,7 +224,12 @@ fn begins_again(player: &Player, lunge: &Lunge, now: i32) -> bool {
     now <= lunge.from() + AGAIN_TICKS && changed
 }
 
-/// Whether a motion has only begun, so that a kick may take its place. (GRF's.)
+/// Whether a kick may take the place of a motion: its touch is yet to come. (GRF's.)
+pub(super) fn has_yet_to_touch(lunge: &Lunge, now: i32) -> bool {
+    matches!(lunge.motion, Motion::Dribble { .. }) && now < lunge.at
+}
+
+/// Whether a motion has only begun, so that a bot's kick may take its place. (GRF's.)
 pub(super) fn has_only_begun(lunge: &Lunge, now: i32) -> bool {
     matches!(lunge.motion, Motion::Dribble { .. }) && now <= lunge.from() + AGAIN_TICKS
 }

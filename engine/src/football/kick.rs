@@ -2,15 +2,14 @@
 //!
 //! `pass_target` chooses a pass's target. `pass` and `shot` decide how the ball leaves the foot.
 
-use crate::football::pace::DRIBBLES_FROM_MPS;
 use crate::football::pass::Struck;
 use crate::football::{
-    contact, dribble_motion, forecast, noise, offside, pass, pass_target, report, shot, switching,
-    whistle,
+    contact, dribble_motion, forecast, noise, offside, pass, pass_target, report, shot, swing,
+    switching, whistle,
 };
 use crate::math;
 use crate::state::event::Events;
-use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
+use crate::state::player::{KickKind, KickPlan, NEVER, Swing, SwingRun};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
@@ -29,26 +28,10 @@ const LOST_S: f32 = 0.7;
 const OWN_LOST_S: f32 = 0.95;
 /// A swing that has missed the ball for this many ticks begins again; chosen.
 const MISSED_TICKS: i32 = 30;
-/// The ball must be this near for a kick, metres, and for most lofted passes.
+/// The ball must be this near for a bot's kick, metres.
 pub const KICK_M: f32 = 0.85;
-const LOFT_M: f32 = 1.0;
-/// The swing at a ball that somebody else has played reaches this far, metres; chosen.
-const COMES_M: f32 = 1.3;
-/// How near a fast ball must come to be struck without a first touch, metres; chosen.
-const REACH_M: f32 = 0.8;
-/// How soon a fast ball can be struck without a first touch, ticks. Fitted to how late that can be
-/// asked for.
-const FIRST_TIME_TICKS: std::ops::Range<i32> = 14..28;
-/// Striking without a first touch: the highest ball (`LOW_M` for a shot behind the back), metres,
-/// and how often it succeeds for short, long and high passes and shots. Measured.
-const FIRST_TIME_M: f32 = 0.9;
-const FIRST_TIME: [f32; 4] = [0.75, 0.5, 0.2, 0.85];
 /// The contact may still turn a pass by this angle, radians. (GRF's.)
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
-/// A ball faster than this needs a first touch before the kick, m/s; chosen.
-const TAKES_MPS: f32 = 8.0;
-/// A swing begins only for a ball at most this high at the contact, metres; chosen.
-const LOW_M: f32 = 0.5;
 /// How near the ball must be to a leg that is already on its way, metres; chosen.
 const STRETCH_M: f32 = 1.3;
 /// How much of its spin a ball keeps when it is kicked. (GRF's.)
@@ -85,14 +68,9 @@ pub fn taken(kind: KickKind, mode: GameMode, tick: u32) -> KickPlan {
     KickPlan { swing: Some(swing), until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
 
-/// A speed in 0.1 m/s, below [`Swing::RUN`].
-fn dmps(mps: f32) -> u8 {
-    (mps * 10.0).round().clamp(0.0, f32::from(Swing::RUN - 1)) as u8
-}
-
 /// A bot's swing: where to is decided already.
 fn begun(ready_at: i32) -> Swing {
-    Swing { ready_at, way: None, mate: None, runs: true, end_dmps: Swing::RUN }
+    Swing { ready_at, way: None, mate: None, runs: true, run: None }
 }
 
 fn asked(kind: KickKind) -> KickPlan {
@@ -104,7 +82,6 @@ fn asked(kind: KickKind) -> KickPlan {
         power: 0.0,
         gauge_ticks: 0,
         held: false,
-        taken: false,
         meet_s: f32::MAX,
         swing: None,
         until: 0,
@@ -160,12 +137,12 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
             }
             Some(_) => {}
             None => {
-                plan.swing = first_time(game, id, &mut plan).or_else(|| begin(game, id, &plan));
+                plan.swing = begin(game, id, &plan);
                 let body = &mut game.players[i].body;
                 if plan.swing.is_some()
-                    && body.lunge.is_some_and(|lunge| dribble_motion::has_only_begun(&lunge, now))
+                    && body.lunge.is_some_and(|lunge| dribble_motion::has_yet_to_touch(&lunge, now))
                 {
-                    // The swing takes the place of the motion that has only begun.
+                    // The swing takes the place of the motion.
                     (body.lunge, body.ready_at) = (None, now);
                 }
             }
@@ -174,100 +151,43 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
     }
 }
 
-/// Begins the swing of an agent's kick. The key must be released (or held long enough), and the
-/// ball in reach at the end.
+/// Begins the swing of an agent's kick. The key must be released (or held long enough), and a swing
+/// must meet the ball.
 fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     if plan.held && (plan.gauge_ticks <= CHARGE_TICKS || stays(game, plan.kind)) {
         return None;
     }
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
     let player = game.player(id);
-    // The motion of a touch is only left at its beginning.
-    if !at_hand && (must_take(game, id) || moves(game, id)) {
+    if !at_hand && !is_free(game, id) {
         return None;
     }
     let (way, mate) = meant(game, id, plan);
-    let comes = game.last_touch != Some(id);
-    let reaches = |swing: &&SwingMotion| {
-        let reach_m = if comes { COMES_M } else { swing.reach_m };
-        apart(game, id, swing).is_some_and(|apart| apart <= reach_m)
-    };
-    let (ticks, end_dmps) = match game.play.set_piece {
-        Some(set_piece) => (run_up_ticks(set_piece.mode), Swing::RUN),
-        None if at_hand => (at_hand_ticks(plan.kind), Swing::RUN),
+    let (ticks, run) = match game.play.set_piece {
+        Some(set_piece) => (run_up_ticks(set_piece.mode), None),
+        None if at_hand => (at_hand_ticks(plan.kind), None),
         None => {
-            let swing = swings(player, plan.kind, way).iter().find(reaches)?;
-            (swing.ticks, dmps(swing.end(player.vel.length())))
+            let swing = swing::find(game, id, plan.kind, way)?;
+            let pace = player.vel.length();
+            (
+                swing.ticks,
+                Some(SwingRun { end_mps: swing.end_mps(pace), left_m: swing.way_m(pace) }),
+            )
         }
     };
     let runs = at_hand || shot::runs(player);
-    Some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs, end_dmps })
+    Some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs, run })
 }
 
-/// Whether a player is in a motion that they can't leave for a kick.
-fn moves(game: &Match, id: PlayerId) -> bool {
+/// Whether a player can begin a swing: not in a motion, but for one of a dribble before its touch.
+/// (GRF's.)
+fn is_free(game: &Match, id: PlayerId) -> bool {
     let now = game.tick as i32;
-    game.player(id)
-        .body
-        .lunge
-        .is_some_and(|lunge| lunge.until() > now && !dribble_motion::has_only_begun(&lunge, now))
-}
-
-/// Whether a player must take the ball before the kick, or is still taking it: it comes fast, from
-/// somebody else. (Measured.)
-fn must_take(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
-    if game.last_touch == Some(id) {
-        return player.body.lunge.is_none() && (game.tick as i32) < player.body.ready_at;
+    match player.body.lunge {
+        Some(lunge) if lunge.until() > now => dribble_motion::has_yet_to_touch(&lunge, now),
+        _ => now >= player.body.ready_at && player.is_up(),
     }
-    let meeting = game.ball.vel.truncate() - player.vel;
-    meeting.length_squared() > TAKES_MPS * TAKES_MPS
-}
-
-/// Begins the swing at a fast ball that is struck without a first touch. The kick's kind decides
-/// how often that succeeds.
-fn first_time(game: &mut Match, id: PlayerId, plan: &mut KickPlan) -> Option<Swing> {
-    let free = game.play.set_piece.is_none() && game.play.hands.is_none();
-    if plan.held || plan.taken || !free || game.last_touch == Some(id) || !must_take(game, id) {
-        return None;
-    }
-    let player = game.player(id);
-    let (way, mate) = meant(game, id, plan);
-    let turns = plan.kind == KickKind::Shot && pass::is_behind(player, way);
-    let high_m = if turns { LOW_M } else { FIRST_TIME_M };
-    let meets = |ticks: &i32| {
-        let there = game.play.forecast.at(game.tick + *ticks as u32);
-        let place = player.pos + player.vel * (*ticks as f32 * 0.01);
-        there.z <= high_m && place.distance_squared(there.truncate()) < REACH_M * REACH_M
-    };
-    let ticks = FIRST_TIME_TICKS.step_by(2).find(meets)?;
-    let [short, long, high, shot] = FIRST_TIME;
-    let often = match plan.kind {
-        KickKind::Short => short,
-        KickKind::Long => long,
-        KickKind::High => high,
-        KickKind::Shot | KickKind::Clear => shot,
-    };
-    plan.taken = !noise::happens(game, often);
-    let runs = shot::runs(game.player(id));
-    (!plan.taken).then_some(Swing {
-        ready_at: game.tick as i32 + ticks,
-        way: Some(way),
-        mate,
-        runs,
-        end_dmps: Swing::RUN,
-    })
-}
-
-/// How far a player will be from the ball at the contact of a swing, metres. None for a ball that
-/// will be too high.
-fn apart(game: &Match, id: PlayerId, swing: &SwingMotion) -> Option<f32> {
-    let there = game.play.forecast.at(game.tick + swing.ticks as u32);
-    let player = game.player(id);
-    let pace = player.vel.length();
-    let mean = 0.5 * (pace + swing.end(pace));
-    let run = player.vel.normalize_or_zero() * (mean * swing.ticks as f32 * 0.01);
-    (there.z <= LOW_M).then(|| (player.pos + run).distance(there.truncate()))
 }
 
 /// What a kick aims at now: the way from the ball, world metres, and the teammate.
@@ -304,76 +224,6 @@ fn run_up_ticks(mode: GameMode) -> i32 {
 /// Ticks of a kick out of a keeper's hands.
 fn at_hand_ticks(kind: KickKind) -> i32 {
     if matches!(kind, KickKind::Short | KickKind::Long) { 34 } else { 24 }
-}
-
-/// A swing at a rolling ball. Measured of GRF's motions.
-struct SwingMotion {
-    ticks: i32,
-    /// How fast the player is at the contact, m/s, and how much of their run counts in it.
-    end_mps: f32,
-    share: f32,
-    /// How far from the player the ball may be at the contact, metres. Fitted to when kicks leave.
-    reach_m: f32,
-}
-
-impl SwingMotion {
-    /// How fast a player at this pace is at the contact, m/s.
-    fn end(&self, pace: f32) -> f32 {
-        self.end_mps + self.share * pace
-    }
-}
-
-const fn swing(ticks: i32, [end_mps, share]: [f32; 2], reach_m: f32) -> SwingMotion {
-    SwingMotion { ticks, end_mps, share, reach_m }
-}
-
-/// Swings by what they lead to, best first: from a standstill; on; a bit aside; half aside; aside;
-/// back.
-const PASSES: [&[SwingMotion]; 6] = [
-    &[swing(34, [0.3, 0.0], KICK_M)],
-    &[swing(15, [2.0, 0.68], 1.0), swing(27, [3.5, 0.0], KICK_M), BACK_PASS],
-    &[swing(20, [3.5, 0.1], 1.2), swing(27, [3.5, 0.1], KICK_M), BACK_PASS],
-    &[swing(20, [3.5, 0.1], KICK_M), swing(27, [3.5, 0.1], KICK_M), BACK_PASS],
-    &[swing(30, [4.4, 0.0], KICK_M), BACK_PASS],
-    &[BACK_PASS],
-];
-const BACK_PASS: SwingMotion = swing(36, [5.7, 0.0], KICK_M);
-const LOFTS: [&[SwingMotion]; 6] = [
-    &[swing(25, [1.4, 0.0], LOFT_M)],
-    &[swing(12, [1.5, 0.68], 1.3), swing(27, [2.7, 0.0], LOFT_M), BACK_LOFT],
-    HALF_LOFTS,
-    HALF_LOFTS,
-    &[SIDE_LOFT, BACK_LOFT],
-    &[BACK_LOFT],
-];
-const HALF_LOFTS: &[SwingMotion] = &[swing(14, [3.9, 0.0], 1.23), SIDE_LOFT, BACK_LOFT];
-const SIDE_LOFT: SwingMotion = swing(29, [2.2, 0.0], LOFT_M);
-const BACK_LOFT: SwingMotion = swing(36, [1.7, 0.0], LOFT_M);
-const SHOTS: [&[SwingMotion]; 6] = [
-    &[swing(25, [0.0, 0.0], KICK_M)],
-    &[SHOT],
-    HALF_SHOTS,
-    HALF_SHOTS,
-    &[SIDE_SHOT],
-    &[swing(36, [1.7, 0.0], KICK_M)],
-];
-const HALF_SHOTS: &[SwingMotion] = &[SHOT, SIDE_SHOT];
-const SHOT: SwingMotion = swing(17, [3.7, 0.34], KICK_M);
-const SIDE_SHOT: SwingMotion = swing(28, [3.9, 0.0], KICK_M);
-/// Up to which angles to the run a kick leads on, a bit aside, half aside and aside, degrees;
-/// chosen.
-const SWINGS_DEG: [f32; 4] = [35.0, 48.0, 70.0, pass::BEHIND_DEG];
-
-/// The swings that a kick may take.
-fn swings(player: &Player, kind: KickKind, way: Vec2) -> &'static [SwingMotion] {
-    let stands = player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS;
-    let degrees = pass::off_run(player, way);
-    let aside = if stands { 0 } else { 1 + SWINGS_DEG.iter().filter(|to| degrees >= **to).count() };
-    match kind {
-        KickKind::Short | KickKind::Long => PASSES[aside],
-        KickKind::High => LOFTS[aside],
-        KickKind::Shot | KickKind::Clear => SHOTS[aside],
-    }
 }
 
 /// Whether the ball is at the player's foot and may be kicked.

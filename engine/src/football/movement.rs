@@ -5,10 +5,10 @@
 
 use crate::football::dribble::{LIES_MPS, SOLE_M};
 use crate::football::dribble_motion;
-use crate::football::pace::{DRIBBLES_FROM_MPS, DT, SPRINTS_FROM_MPS, WITH_BALL};
+use crate::football::pace::{DRIBBLES_FROM_MPS, DT, SPRINT_MPS, SPRINTS_FROM_MPS};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
-use crate::state::player::{Intent, Lunge, Motion, Pose, Swing};
+use crate::state::player::{Intent, Lunge, Motion, Pose, SwingRun};
 use crate::state::{Match, Player, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::Vec2;
@@ -92,14 +92,16 @@ pub fn advance(game: &mut Match) -> Busy {
             continue;
         }
         let has_ball = owner == Some(id);
-        if has_ball
-            && let Some(swing) = player.body.kick.and_then(|plan| plan.swing)
-            && swing.end_dmps != Swing::RUN
-            && swing.ready_at > now
+        if let Some(plan) = &mut player.body.kick
+            && let Some(swing) = &mut plan.swing
+            && swing.ready_at >= now
+            && let Some(run) = &mut swing.run
         {
+            let ticks = swing.ready_at - now + 1;
             let ahead = player.vel.normalize_or(player.body.facing);
-            let end = ahead * (f32::from(swing.end_dmps) * 0.1);
-            player.vel += (end - player.vel) / (swing.ready_at - now) as f32;
+            let pace = stride_of(player.vel.length(), run, ticks);
+            run.left_m -= pace * DT;
+            player.vel = ahead * pace;
             player.body.lag_ticks = 0;
             go(player, rim);
             continue;
@@ -136,11 +138,11 @@ fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool) {
     let body = &player.body;
     (four.x[at], four.y[at]) = (player.pos.x, player.pos.y);
     (four.vx[at], four.vy[at]) = (player.vel.x, player.vel.y);
-    four.top[at] = if has_ball { WITH_BALL * body.speed_top_mps } else { body.speed_top_mps };
+    four.top[at] = body.speed_top_mps;
     four.lag[at] = f32::from(body.lag_ticks);
     four.turn[at] = 0.85 + 0.2 * player.skill(Stat::Agility);
     let burst = 0.9 + 0.13 * body.stats[Stat::Acceleration.index()];
-    four.burst[at] = if has_ball { BURST_WITH_BALL * burst } else { burst };
+    four.burst[at] = burst;
     four.shoved[at] = body.push_m;
     four.balance[at] = player.skill(Stat::Balance);
     (four.facing_x[at], four.facing_y[at]) = (body.facing.x, body.facing.y);
@@ -235,6 +237,16 @@ fn carry_ball(player: &mut Player, wish: Vec2, to: Vec2, ticks: i32) {
     let half_way = if facing.dot(wish) < -0.9 { wish.perp() } else { wish };
     player.body.facing = (facing + (half_way - facing) * (2.0 * left).min(1.0)).normalize_or(wish);
     player.body.lag_ticks = 0;
+}
+
+/// The pace in the next tick of a run in a swing: it changes smoothly, so that the player comes as
+/// far, and is as fast then, as the swing takes them.
+fn stride_of(pace: f32, run: &SwingRun, ticks: i32) -> f32 {
+    let left_s = ticks as f32 * DT;
+    // The beginning of the parabola through both paces with that mean.
+    let change = (6.0 * run.left_m / left_s - 4.0 * pace - 2.0 * run.end_mps) / left_s;
+    let next = if ticks > 2 { pace + change * DT } else { run.end_mps };
+    next.clamp(0.0, SPRINT_MPS)
 }
 
 /// Counts down a pose and then changes to the next one.

@@ -201,8 +201,6 @@ pub struct KickPlan {
     pub gauge_ticks: u8,
     /// Whether the key is held in this step.
     pub held: bool,
-    /// Whether a fast ball is taken before the kick, instead of struck as it comes.
-    pub taken: bool,
     /// Seconds until the player meets the ball, as last computed. A ball that gets away ends the
     /// plan.
     pub meet_s: f32,
@@ -223,13 +221,17 @@ pub struct Swing {
     pub mate: Option<PlayerId>,
     /// Whether the player was running when it began.
     pub runs: bool,
-    /// How fast a player on the ball is at its end, 0.1 m/s; [`Swing::RUN`] leaves it to their run.
-    pub end_dmps: u8,
+    /// The run in it; none leaves it to the player.
+    pub run: Option<SwingRun>,
 }
 
-impl Swing {
-    /// The end of a swing on which the player runs as they want.
-    pub const RUN: u8 = u8::MAX;
+/// The run of a player in a swing.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct SwingRun {
+    /// How fast they are at the contact, m/s.
+    pub end_mps: f32,
+    /// How far they still run until then, metres.
+    pub left_m: f32,
 }
 
 /// What a foot does with a ball that it reaches for.

@@ -14,7 +14,8 @@ use std::io::BufRead;
 
 /// A step as `lab/record` writes it: ball and its velocity; owning team, owner and `game_mode`;
 /// places of both teams; keys; the agents' players; score.
-pub(super) type RecordedStep = ([f64; 5], (i8, i64, usize), [Vec<f64>; 2], Vec<String>, Vec<i64>, [u16; 2]);
+pub(super) type RecordedStep =
+    ([f64; 5], (i8, i64, usize), [Vec<f64>; 2], Vec<String>, Vec<i64>, [u16; 2]);
 
 /// Options of `lab recorded`.
 #[derive(Debug, clap::Args)]

@@ -55,10 +55,7 @@ impl RecordedFile {
     ) -> Result<Vec<TraceMoment>, LabError> {
         let take = Take {
             scene: self.scene(row)?,
-            plans: self
-                .plans
-                .get(&row.plan)
-                .ok_or_else(|| format!("no plan `{}`", row.plan))?,
+            plans: self.plans.get(&row.plan).ok_or_else(|| format!("no plan `{}`", row.plan))?,
             difficulty: [row.left, row.right],
             steps: row.steps,
             stop: &row.stop,

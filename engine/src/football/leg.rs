@@ -1,0 +1,131 @@
+//! Where a motion meets the ball.
+//!
+//! A motion is made for a ball at one place beside the body. The real one may be some way off that
+//! place: far behind it but hardly ahead of it, and further along the run than beside it. A long
+//! motion allows for more than a short one, a slow player for more than a sprinter, and whoever has
+//! just touched the ball for hardly anything. (GRF's rule and figures.)
+
+use crate::football::pace::SPRINT_MPS;
+use crate::math;
+use glam::Vec2;
+
+/// The reach of a motion of [`MEAN_TICKS`], metres, and the power by which it grows with the time
+/// until the touch; `LATE` of the growth counts beyond that.
+const REACH_M: f32 = 0.3;
+const MEAN_TICKS: f32 = 24.0;
+const SOONER: f32 = 0.7;
+const LATE: f32 = 0.5;
+/// How long a player's own touch shortens the reach, seconds, and by which share of it at first;
+/// ball control saves up to `CONTROL` of that.
+const FRESH_S: f32 = 0.6;
+const FRESH: f32 = 0.97;
+const CONTROL: f32 = 0.1;
+/// Within this distance of the body's front (`FRONT_M` ahead) a ball is easier to reach, metres:
+/// how much of the ease is smooth, of the motion's place and of the ball's.
+const EASY_M: f32 = 0.7;
+const FRONT_M: f32 = 0.1;
+const SMOOTH: [f32; 2] = [0.7, 0.4];
+/// What that adds to the reach: the motion's place, the ball's, both together.
+const EASE: [f32; 3] = [1.0, 0.6, 0.8];
+/// The width of the reach beside the run: of who stands, and how much less at a sprint.
+const WIDTH: [f32; 2] = [0.6, 0.3];
+/// By how much the velocities before, at and after the touch pull the reach back.
+const BEHIND: [f32; 3] = [0.1, 0.2, 0.7];
+/// The share of a reach that a motion uses, how much of the extra reach is pulled back, and what is
+/// allowed on top, metres.
+const SHARE: f32 = 0.5;
+const PULLED: f32 = 0.6;
+const SLACK_M: f32 = 0.02;
+
+/// A motion's touch, in the frame of the player's run: x along it, y to one side.
+pub(super) struct Touch {
+    /// Ticks until then.
+    pub(super) ticks: i32,
+    /// The place of the ball that it is made for, metres from the body.
+    pub(super) made_for: Vec2,
+    /// The player's speed now and at the touch, m/s, and their velocity after it.
+    pub(super) pace: f32,
+    pub(super) at_mps: f32,
+    pub(super) out: Vec2,
+}
+
+/// What a motion is for decides how far it reaches.
+#[derive(Clone, Copy)]
+pub(super) struct Reach {
+    /// A factor of the reach, and more metres of it.
+    pub(super) factor: f32,
+    pub(super) more_m: f32,
+}
+
+/// The reach of kicks.
+pub(super) const KICK: Reach = Reach { factor: 1.3, more_m: 0.15 };
+
+/// The share of their reach that a player has some seconds after their own touch of the ball.
+pub(super) fn freshness(since_s: f32, control: f32) -> f32 {
+    1.0 - math::ease(1.0 - (since_s / FRESH_S).clamp(0.0, 1.0)) * FRESH * (1.0 - CONTROL * control)
+}
+
+/// Whether a motion meets a ball that will be here at the touch, metres from the body.
+pub(super) fn meets(touch: &Touch, ball: Vec2, reach: Reach, fresh: f32) -> bool {
+    let ease = |place: Vec2, smooth: f32| {
+        let far = (place.distance(Vec2::new(FRONT_M, 0.0)) / EASY_M).min(1.0);
+        1.0 - math::mix(far, math::ease(far), smooth)
+    };
+    let (planned, real) = (ease(touch.made_for, SMOOTH[0]), ease(ball, SMOOTH[1]));
+    let mean = 0.5 * (Vec2::new(touch.pace, 0.0) + touch.out).length();
+    let slow = 1.0 - (mean / SPRINT_MPS).min(1.0);
+    let width = WIDTH[0] - WIDTH[1] * math::pow((touch.pace / SPRINT_MPS).min(1.0), SOONER);
+    let radius_m = reach.factor
+        * fresh
+        * in_time_m(touch.ticks)
+        * (1.0 + EASE[0] * planned + EASE[1] * real + EASE[2] * planned * real + slow)
+        / libm::sqrtf(width);
+    let more_m = reach.more_m * fresh;
+    let way =
+        Vec2::new(BEHIND[0] * touch.pace + BEHIND[1] * touch.at_mps, 0.0) + touch.out * BEHIND[2];
+    let on = 0.5 + 0.5 * touch.out.normalize_or(Vec2::X).x;
+    let back = way.normalize_or_zero()
+        * libm::sqrtf((way.length() / SPRINT_MPS).min(1.0))
+        * (0.5 + 0.5 * on);
+    let centre = -back * ((radius_m + PULLED * more_m) * SHARE);
+    let off = (ball - touch.made_for) / Vec2::new(1.0, width);
+    off.distance(centre) <= (radius_m + more_m) * SHARE + SLACK_M
+}
+
+/// The reach of a motion that touches the ball after some ticks, metres.
+fn in_time_m(ticks: i32) -> f32 {
+    let time = math::pow(ticks as f32 / MEAN_TICKS, SOONER);
+    REACH_M * if time > 1.0 { 1.0 + (time - 1.0) * LATE } else { time }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sprinter's shot.
+    const SHOT: Touch = Touch {
+        ticks: 17,
+        made_for: Vec2::new(0.54, 0.14),
+        pace: 7.64,
+        at_mps: 6.04,
+        out: Vec2::new(3.36, 0.0),
+    };
+
+    #[test]
+    fn a_sprinter_shoots_a_ball_that_is_no_further_than_the_motion_is_made_for() {
+        // Measured: 1.82 m ahead of the start is the motion's place, 1.81 too far, 1.77 near enough.
+        let ball = |ahead: f32| Vec2::new(0.54 + ahead - 1.82, 0.0);
+        assert!(!meets(&SHOT, ball(1.81), KICK, 1.0));
+        assert!(meets(&SHOT, ball(1.77), KICK, 1.0));
+        assert!(meets(&SHOT, ball(1.3), KICK, 1.0));
+        assert!(!meets(&SHOT, ball(0.5), KICK, 1.0));
+    }
+
+    #[test]
+    fn whoever_has_just_touched_the_ball_reaches_less() {
+        let [soon, later] = [0.25, 0.7].map(|since_s| freshness(since_s, 0.7));
+        assert!(soon < 0.5 && later == 1.0);
+        let ball = Vec2::new(0.2, 0.0);
+        assert!(meets(&SHOT, ball, KICK, later) && !meets(&SHOT, ball, KICK, soon));
+    }
+}

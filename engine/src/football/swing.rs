@@ -1,0 +1,218 @@
+//! The swings of kicks: how long they last, where they meet the ball, and what becomes of the run.
+//!
+//! A kick takes the first swing that leads its way and meets the ball. (Measured of GRF's motions.)
+
+use crate::football::leg::{self, KICK, Touch};
+use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
+use crate::math;
+use crate::state::play::ticks_since;
+use crate::state::player::KickKind;
+use crate::state::{Match, PlayerId};
+use glam::Vec2;
+use setpiece_scenario::vocabulary::Stat;
+
+/// A swing.
+pub(super) struct SwingMotion {
+    /// Its kick goes this far to one side of the run, and as much to either side of that, degrees.
+    to_degrees: f32,
+    within_degrees: f32,
+    /// Ticks until the foot meets the ball.
+    pub(super) ticks: i32,
+    /// Where the ball is then, metres from the body: along the run, to the kick's side, and up.
+    ball_m: [f32; 3],
+    /// How fast the player is on average until then, and then, m/s: at least, and by share of the
+    /// run.
+    mean: [f32; 2],
+    end: [f32; 2],
+    /// How fast the player comes out of it, m/s.
+    out_mps: f32,
+}
+
+impl SwingMotion {
+    /// How far a player at this pace runs until the contact, metres.
+    pub(super) fn way_m(&self, pace: f32) -> f32 {
+        ((self.mean[0] + self.mean[1] * pace) * self.ticks as f32 * 0.01).max(0.0)
+    }
+
+    /// How fast a player at this pace is at the contact, m/s.
+    pub(super) fn end_mps(&self, pace: f32) -> f32 {
+        self.end[0] + self.end[1] * pace
+    }
+}
+
+/// A swing at a ball on the grass.
+const fn swing(
+    [to_degrees, within_degrees]: [f32; 2],
+    ticks: i32,
+    [ahead_m, aside_m]: [f32; 2],
+    mean: [f32; 2],
+    end: [f32; 2],
+    out_mps: f32,
+) -> SwingMotion {
+    at_height(0.1, [to_degrees, within_degrees], ticks, [ahead_m, aside_m], mean, end, out_mps)
+}
+
+/// A swing at a ball in the air.
+const fn at_height(
+    high_m: f32,
+    [to_degrees, within_degrees]: [f32; 2],
+    ticks: i32,
+    [ahead_m, aside_m]: [f32; 2],
+    mean: [f32; 2],
+    end: [f32; 2],
+    out_mps: f32,
+) -> SwingMotion {
+    let ball_m = [ahead_m, aside_m, high_m];
+    SwingMotion { to_degrees, within_degrees, ticks, ball_m, mean, end, out_mps }
+}
+
+/// The swings of a kind by the gait that they begin at: standing, dribbling, walking, sprinting.
+type ByGait = [&'static [SwingMotion]; 4];
+
+const SHOTS: ByGait = [
+    &[
+        swing([11.0, 45.0], 25, [0.45, -0.16], [1.88, 0.0], [1.4, 0.0], 0.3),
+        swing([90.0, 45.0], 24, [0.67, 0.0], [0.0, 0.0], [0.0, 0.0], 0.9),
+        swing([169.0, 45.0], 36, [-0.06, -0.06], [1.0, 0.0], [1.8, 0.0], 0.7),
+    ],
+    &[at_height(0.73, [90.0, 45.0], 29, [1.02, 0.0], [2.63, 0.2], [1.8, 0.0], 0.8)],
+    &[
+        swing([11.0, 45.0], 15, [0.22, -0.33], [0.53, 0.92], [2.28, 0.5], 3.4),
+        swing([11.0, 45.0], 23, [0.22, -0.33], [2.14, 0.61], [4.8, 0.0], 3.3),
+        swing([90.0, 45.0], 28, [0.83, 0.0], [1.45, 0.77], [2.05, 0.27], 0.7),
+        swing([169.0, 45.0], 36, [-0.06, -0.06], [2.38, 0.28], [1.8, 0.0], 0.7),
+    ],
+    &[
+        swing([11.0, 45.0], 15, [0.22, -0.28], [2.25, 0.69], [4.36, 0.23], 3.4),
+        swing([11.0, 45.0], 24, [0.22, -0.33], [2.96, 0.51], [4.06, 0.11], 3.4),
+        swing([31.0, 45.0], 26, [0.02, 0.64], [2.75, 0.51], [4.6, 0.0], 4.1),
+        swing([25.0, 45.0], 17, [0.54, -0.14], [2.48, 0.65], [4.1, 0.27], 3.4),
+        swing([80.0, 45.0], 29, [0.77, 0.0], [1.46, 0.77], [2.35, 0.19], 1.3),
+    ],
+];
+const PASSES: ByGait = [
+    &[
+        swing([22.0, 23.0], 35, [0.37, 0.03], [0.0, 0.0], [0.3, 0.0], 0.4),
+        swing([90.0, 45.0], 31, [0.26, 0.17], [0.0, 0.0], [0.3, 0.0], 0.6),
+        at_height(0.36, [90.0, 45.0], 30, [0.69, 0.05], [0.0, 0.0], [0.5, 0.0], 0.4),
+        swing([180.0, 45.0], 39, [0.0, 0.05], [0.72, 0.0], [1.3, 0.0], 0.8),
+    ],
+    &[
+        at_height(0.44, [90.0, 45.0], 31, [0.95, 0.05], [2.69, 0.16], [2.5, 0.0], 0.6),
+        swing([180.0, 23.0], 38, [-0.28, 0.18], [-0.92, 0.83], [1.73, 0.05], 0.8),
+    ],
+    &[
+        swing([22.0, 23.0], 10, [0.42, 0.0], [0.77, 0.95], [1.85, 0.65], 3.6),
+        swing([22.0, 23.0], 27, [0.33, -0.16], [1.78, 0.59], [1.87, 0.25], 2.9),
+        at_height(0.41, [0.0, 45.0], 16, [0.68, 0.03], [2.33, 0.57], [3.89, 0.13], 3.3),
+        swing([45.0, 23.0], 27, [0.36, -0.03], [1.6, 0.62], [1.79, 0.27], 4.4),
+        swing([90.0, 23.0], 10, [0.26, 0.1], [0.96, 0.88], [1.84, 0.55], 3.4),
+        swing([90.0, 23.0], 35, [0.18, 0.02], [2.73, 0.29], [3.6, 0.0], 3.4),
+        swing([135.0, 23.0], 36, [0.05, 0.0], [2.7, 0.3], [3.0, 0.0], 2.0),
+    ],
+    &[
+        swing([22.0, 23.0], 27, [0.32, -0.16], [3.28, 0.47], [4.61, 0.08], 5.0),
+        swing([45.0, 23.0], 27, [0.36, -0.03], [3.43, 0.44], [5.15, 0.05], 5.3),
+        swing([31.0, 18.0], 26, [0.03, 0.55], [2.46, 0.54], [4.6, 0.0], 4.1),
+        swing([90.0, 23.0], 35, [0.3, 0.04], [2.82, 0.47], [4.4, 0.0], 3.4),
+        swing([180.0, 45.0], 36, [-0.08, 0.03], [2.92, 0.55], [5.13, 0.08], 3.2),
+    ],
+];
+const LOFTS: ByGait = [
+    &[
+        swing([0.0, 45.0], 57, [0.62, 0.09], [2.4, 0.0], [2.65, 0.0], 0.5),
+        swing([11.0, 45.0], 25, [0.34, -0.13], [1.88, 0.0], [1.4, 0.0], 0.3),
+        swing([90.0, 45.0], 34, [0.41, 0.18], [0.0, 0.0], [0.1, 0.0], 0.6),
+        swing([169.0, 45.0], 36, [-0.06, -0.09], [1.0, 0.0], [1.5, 0.0], 0.7),
+    ],
+    &[swing([0.0, 45.0], 27, [0.61, 0.09], [-1.18, 0.99], [0.35, 0.45], 1.1)],
+    &[
+        swing([0.0, 45.0], 12, [0.62, 0.07], [0.95, 0.9], [1.12, 0.71], 3.3),
+        swing([0.0, 45.0], 41, [0.29, 0.1], [3.36, 0.33], [3.4, 0.0], 3.3),
+        swing([84.0, 45.0], 14, [0.6, 0.0], [0.69, 0.89], [1.1, 0.65], 3.0),
+        swing([90.0, 45.0], 29, [0.79, 0.0], [1.35, 0.58], [1.12, 0.24], 0.4),
+        swing([169.0, 45.0], 36, [-0.06, -0.09], [1.39, 0.54], [1.46, 0.08], 0.7),
+        at_height(0.95, [39.0, 45.0], 24, [0.13, -1.06], [2.02, 0.44], [2.3, 0.0], 3.6),
+    ],
+    &[
+        swing([90.0, 45.0], 30, [0.45, 0.06], [2.38, 0.63], [4.31, 0.15], 2.5),
+        swing([90.0, 45.0], 16, [0.82, 0.06], [1.53, 0.83], [3.1, 0.49], 5.0),
+    ],
+];
+/// In which order a player at a gait tries the swings of the others.
+const ORDER: [&[usize]; 4] = [&[0], &[1, 2, 3], &[2, 1, 3], &[3, 2, 1]];
+/// How far above or below its place a swing meets the ball, metres; what the heights of both take
+/// off that, per metre and at most; up to which height a ball counts as on the grass, and what that
+/// adds. (GRF's.)
+const UP_M: f32 = 0.22;
+const HIGHER: [[f32; 2]; 2] = [[0.3, 0.2], [0.4, 0.3]];
+const LOW_M: f32 = 0.5;
+const LOWER_M: f32 = 0.15;
+const GRASS_M: f32 = 0.11;
+
+/// The first swing of a kind that kicks the ball this way, world metres, from where it will be.
+pub(super) fn find(
+    game: &Match,
+    id: PlayerId,
+    kind: KickKind,
+    way: Vec2,
+) -> Option<&'static SwingMotion> {
+    let player = game.player(id);
+    let pace = player.vel.length();
+    let gait = [DRIBBLES_FROM_MPS, WALKS_FROM_MPS, SPRINTS_FROM_MPS]
+        .iter()
+        .filter(|from| pace >= **from)
+        .count();
+    let run = if gait == 0 { player.body.facing } else { player.vel / pace };
+    let turn = math::atan2(run.perp_dot(way), run.dot(way)).to_degrees();
+    let by_gait = match kind {
+        KickKind::Short | KickKind::Long => &PASSES,
+        KickKind::High => &LOFTS,
+        KickKind::Shot | KickKind::Clear => &SHOTS,
+    };
+    let since = if game.last_touch == Some(id) {
+        ticks_since(game.tick, player.body.touched_at)
+    } else {
+        i32::MAX
+    };
+    let control = player.skill(Stat::BallControl);
+    let swings = ORDER[gait].iter().flat_map(|gait| by_gait[*gait]);
+    swings.into_iter().find(|swing| {
+        let ball = game.play.forecast.at(game.tick + swing.ticks as u32);
+        if !is_high_enough(ball.z, swing.ball_m[2]) {
+            return false;
+        }
+        let place = ball.truncate() - player.pos - run * swing.way_m(pace);
+        let place = Vec2::new(place.dot(run), run.perp_dot(place));
+        let fresh = leg::freshness(since.saturating_add(swing.ticks) as f32 * 0.01, control);
+        // Every swing has its mirror image.
+        [1.0, -1.0].into_iter().any(|side| {
+            let off = math::wrap((turn - side * swing.to_degrees).to_radians()).to_degrees();
+            off.abs() <= swing.within_degrees
+                && leg::meets(&swing.touch(pace, side), place, KICK, fresh)
+        })
+    })
+}
+
+impl SwingMotion {
+    /// The touch of this swing to one side (1 or -1).
+    fn touch(&self, pace: f32, side: f32) -> Touch {
+        let [ahead_m, aside_m, _] = self.ball_m;
+        Touch {
+            ticks: self.ticks,
+            made_for: Vec2::new(ahead_m, side * aside_m),
+            pace,
+            at_mps: self.end_mps(pace),
+            out: math::unit((side * self.to_degrees).to_radians()) * self.out_mps,
+        }
+    }
+}
+
+/// Whether a ball at this height is met by a swing at another.
+fn is_high_enough(ball_m: f32, swing_m: f32) -> bool {
+    let eased =
+        |height: f32, [per_m, most]: [f32; 2]| 1.0 - ((height - GRASS_M) * per_m).clamp(0.0, most);
+    let apart = (ball_m - swing_m).abs() * eased(swing_m, HIGHER[0]) * eased(ball_m, HIGHER[1]);
+    let low = swing_m < LOW_M && ball_m < LOW_M;
+    apart - if low { LOWER_M } else { 0.0 } < UP_M
+}

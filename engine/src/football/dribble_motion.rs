@@ -116,10 +116,11 @@ const ASIDE_RAD: f32 = -2.0e-6;
 /// - `NEARER`: the share of what a walker lacks.
 /// - `SPEEDS_UP`: the end of one who walks and wants to sprint: base and share of their speed, and
 ///   at most, m/s.
-/// - `SPRINTS_MPS`: of one who sprints.
+/// - `SPRINTS_MPS`: of one who sprints, and `SLOWS_MPS`: of one who no longer wants to.
 const NEARER: f32 = 0.75;
 const SPEEDS_UP: [f32; 3] = [2.76, 0.66, 5.76];
 const SPRINTS_MPS: f32 = 7.2;
+const SLOWS_MPS: f32 = 4.6;
 /// By how much a sprinter turns with one touch, radians, and how fast they come out of it, m/s.
 const BEND_RAD: f32 = 0.39;
 const BENT_MPS: f32 = 6.7;
@@ -174,7 +175,7 @@ fn on_mps(player: &Player, wanted: f32) -> f32 {
     let pace = player.vel.length();
     let most = wanted.min(player.body.speed_top_mps);
     if pace >= SPRINTS_FROM_MPS {
-        SPRINTS_MPS.min(most)
+        if wanted > SPRINTS_FROM_MPS { SPRINTS_MPS.min(most) } else { SLOWS_MPS }
     } else if wanted > SPRINTS_FROM_MPS {
         let [base, share, end] = SPEEDS_UP;
         (base + share * pace).min(end)

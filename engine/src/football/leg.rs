@@ -29,7 +29,7 @@ const SMOOTH: [f32; 2] = [0.7, 0.4];
 const EASE: [f32; 3] = [1.0, 0.6, 0.8];
 /// The width of the reach beside the run: of who stands, and how much less at a sprint.
 const WIDTH: [f32; 2] = [0.6, 0.3];
-/// By how much the velocities before, at and after the touch pull the reach back.
+/// By how much the speeds before, at and after the touch pull the reach back.
 const BEHIND: [f32; 3] = [0.1, 0.2, 0.7];
 /// The share of a reach that a motion uses, how much of the extra reach is pulled back, and what is
 /// allowed on top, metres.
@@ -43,10 +43,10 @@ pub(super) struct Touch {
     pub(super) ticks: i32,
     /// The place of the ball that it is made for, metres from the body.
     pub(super) made_for: Vec2,
-    /// The player's speed now and at the touch, m/s, and their velocity after it.
+    /// The player's speed now, at the touch and after it, m/s.
     pub(super) pace: f32,
     pub(super) at_mps: f32,
-    pub(super) out: Vec2,
+    pub(super) out_mps: f32,
 }
 
 /// What a motion is for decides how far it reaches.
@@ -72,7 +72,7 @@ pub(super) fn meets(touch: &Touch, ball: Vec2, reach: Reach, fresh: f32) -> bool
         1.0 - math::mix(far, math::ease(far), smooth)
     };
     let (planned, real) = (ease(touch.made_for, SMOOTH[0]), ease(ball, SMOOTH[1]));
-    let mean = 0.5 * (Vec2::new(touch.pace, 0.0) + touch.out).length();
+    let mean = 0.5 * (touch.pace + touch.out_mps);
     let slow = 1.0 - (mean / SPRINT_MPS).min(1.0);
     let width = WIDTH[0] - WIDTH[1] * math::pow((touch.pace / SPRINT_MPS).min(1.0), SOONER);
     let radius_m = reach.factor
@@ -81,13 +81,9 @@ pub(super) fn meets(touch: &Touch, ball: Vec2, reach: Reach, fresh: f32) -> bool
         * (1.0 + EASE[0] * planned + EASE[1] * real + EASE[2] * planned * real + slow)
         / libm::sqrtf(width);
     let more_m = reach.more_m * fresh;
-    let way =
-        Vec2::new(BEHIND[0] * touch.pace + BEHIND[1] * touch.at_mps, 0.0) + touch.out * BEHIND[2];
-    let on = 0.5 + 0.5 * touch.out.normalize_or(Vec2::X).x;
-    let back = way.normalize_or_zero()
-        * libm::sqrtf((way.length() / SPRINT_MPS).min(1.0))
-        * (0.5 + 0.5 * on);
-    let centre = -back * ((radius_m + PULLED * more_m) * SHARE);
+    let mps = BEHIND[0] * touch.pace + BEHIND[1] * touch.at_mps + BEHIND[2] * touch.out_mps;
+    let back = libm::sqrtf((mps / SPRINT_MPS).min(1.0));
+    let centre = Vec2::new(-back * (radius_m + PULLED * more_m) * SHARE, 0.0);
     let off = (ball - touch.made_for) / Vec2::new(1.0, width);
     off.distance(centre) <= (radius_m + more_m) * SHARE + SLACK_M
 }
@@ -108,7 +104,7 @@ mod tests {
         made_for: Vec2::new(0.54, 0.14),
         pace: 7.64,
         at_mps: 6.04,
-        out: Vec2::new(3.36, 0.0),
+        out_mps: 3.36,
     };
 
     #[test]

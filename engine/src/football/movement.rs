@@ -15,9 +15,6 @@ use glam::Vec2;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::Stat;
 
-/// Acceleration with the ball relative to without it. Fitted to the starts of the Academy.
-const BURST_WITH_BALL: f32 = 0.95;
-
 /// A player who wants to stand stops for a ball this near, metres, and lays it where they stop.
 const STOPPING_M: f32 = 1.1;
 
@@ -123,7 +120,7 @@ pub fn advance(game: &mut Match) -> Busy {
         }
         let four = &mut fours[row];
         (four.want_x[at], four.want_y[at], four.pace[at]) = (want.x, want.y, pace);
-        take(four, at, player, has_ball);
+        take(four, at, player);
         runners.push(id);
     }
     stride::run(&mut fours, ball, rim);
@@ -134,7 +131,7 @@ pub fn advance(game: &mut Match) -> Busy {
 }
 
 /// Puts a player into their lane.
-fn take(four: &mut Four, at: usize, player: &Player, has_ball: bool) {
+fn take(four: &mut Four, at: usize, player: &Player) {
     let body = &player.body;
     (four.x[at], four.y[at]) = (player.pos.x, player.pos.y);
     (four.vx[at], four.vy[at]) = (player.vel.x, player.vel.y);

@@ -10,8 +10,6 @@ pub const SPRINT_MPS: f32 = 8.0;
 pub const DRIBBLE_WITH_BALL_MPS: f32 = 4.1;
 /// Speed without sprint with the ball, m/s. Measured.
 pub const RUN_WITH_BALL_MPS: f32 = 5.12;
-/// Top speed with the ball relative to without it. Measured.
-pub const WITH_BALL: f32 = 0.955;
 
 /// From this speed on a runner dribbles rather than stands, m/s. (GRF's gaits.)
 pub const DRIBBLES_FROM_MPS: f32 = 1.8;

@@ -128,7 +128,7 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> St
         * (0.7 + 0.3 * libm::powf((pace / 8.0).clamp(0.0, 1.0), 0.3))
         * (1.0 - 0.6 * pushed)
         * (45.0 * (0.7 + 0.3 * wanted.sqrt()));
-    let strides = (player.vel.length() / 1.2).min(1.0);
+    let strides = ((player.vel.length() - STEP_MPS) / 1.2).clamp(0.0, 1.0);
     let most =
         (32.0 + 13.0 * player.skill(Stat::ShotPower)) * (STANDING + (1.0 - STANDING) * strides);
     let power = foot.min(most) * (1.0 + 0.2 * meeting);

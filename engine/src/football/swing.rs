@@ -203,7 +203,7 @@ impl SwingMotion {
             made_for: Vec2::new(ahead_m, side * aside_m),
             pace,
             at_mps: self.end_mps(pace),
-            out: math::unit((side * self.to_degrees).to_radians()) * self.out_mps,
+            out_mps: self.out_mps,
         }
     }
 }

@@ -71,7 +71,7 @@ const ABOUT_DEG: f32 = 180.0;
 
 /// The touches: fastest gait first, and those of a gait by their angles.
 const TOUCHES: [DribbleMotion; 12] = [
-    motion(SPRINTS_FROM_MPS, ON_DEG, [12, 25], MotionEnd::On, [0.2, 0.64]),
+    motion(SPRINTS_FROM_MPS, ON_DEG, [12, 25], MotionEnd::On, [-0.2, 0.59]),
     motion(SPRINTS_FROM_MPS, SQUARE_DEG, [14, 40], MotionEnd::Bent, [0.2, 0.76]),
     motion(SPRINTS_FROM_MPS, ABOUT_DEG, [22, 59], MotionEnd::Braked(0.8), [0.45, 1.0]),
     walk([12, 26], [0.05, 0.78], 0.055),

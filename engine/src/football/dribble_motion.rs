@@ -71,7 +71,7 @@ const ABOUT_DEG: f32 = 180.0;
 
 /// The touches: fastest gait first, and those of a gait by their angles.
 const TOUCHES: [DribbleMotion; 12] = [
-    motion(SPRINTS_FROM_MPS, ON_DEG, [12, 25], MotionEnd::On, [-0.2, 0.59]),
+    motion(SPRINTS_FROM_MPS, ON_DEG, [12, 25], MotionEnd::On, [-0.2, 0.57]),
     motion(SPRINTS_FROM_MPS, SQUARE_DEG, [14, 40], MotionEnd::Bent, [0.2, 0.76]),
     motion(SPRINTS_FROM_MPS, ABOUT_DEG, [22, 59], MotionEnd::Braked(0.8), [0.45, 1.0]),
     walk([12, 26], [0.05, 0.78], 0.055),
@@ -98,6 +98,10 @@ const STOPPING: [DribbleMotion; 2] = [
 ];
 /// How far beside a straight run the ball may be at the touch, metres. Measured.
 const ASIDE_M: f32 = 0.2;
+/// How much of that is left to whoever is about to kick (GRF's), and how deep their reach is,
+/// metres; chosen.
+const KICKS: f32 = 0.3;
+const KICKS_M: f32 = 0.35;
 /// For how many ticks a motion can be left for another one (GRF's), and up to which cosine of what
 /// is wanted then.
 const AGAIN_TICKS: i32 = 8;
@@ -191,7 +195,14 @@ fn fits(player: &Player, ball: Vec2, run: Vec2, motion: &DribbleMotion) -> bool 
     let place = ball - player.pos - player.vel * on_s;
     let [near_m, far_m] = motion.ahead_m;
     let far_m = far_m - motion.less_m * player.vel.length();
-    (near_m..far_m).contains(&place.dot(run)) && place.perp_dot(run).abs() <= ASIDE_M
+    // Whoever is about to kick hardly reaches for anything else.
+    let kicks = player.body.kick.is_some_and(|plan| !plan.held);
+    let (near_m, aside_m) = if kicks {
+        (near_m.max(far_m - KICKS_M), ASIDE_M * KICKS)
+    } else {
+        (near_m, ASIDE_M)
+    };
+    (near_m..far_m).contains(&place.dot(run)) && place.perp_dot(run).abs() <= aside_m
 }
 
 /// Who plays the ball next: its owner, or whoever is nearest to a ball that lies.

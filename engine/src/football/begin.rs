@@ -20,7 +20,8 @@ const SET_OFF_TICKS: f32 = 18.0;
 /// a few metres of their run.
 const STAGGER_M: f32 = 8.0e-6;
 /// The first at a ball nearer than this waits, metres. Measured.
-const NEAR_M: f32 = 1.3;
+const NEAR_M: f32 = 1.0;
+const FRONT_M: f32 = 0.1;
 /// A player who goes for the ball of a start needs no ticks to set off, besides the delay, if it is
 /// nearer than this, metres. Measured at starts of the Academy, and far from the ball.
 const FAR_M: f32 = 8.0;
@@ -136,7 +137,8 @@ fn set_off(game: &mut Match) {
         let waits = (noise::roll(game) * SET_OFF_TICKS) as i8;
         let goes = game.play.chaser[id.team().index()] == Some(id);
         let gap = game.player(id).pos.distance_squared(ball);
-        let near = gap < NEAR_M * NEAR_M;
+        let front = game.player(id).pos + game.player(id).body.facing * FRONT_M;
+        let near = front.distance_squared(ball) < NEAR_M * NEAR_M;
         let waits = if goes && !(near && first == Some(id)) { 0 } else { waits };
         let body = &mut game.players[id.index()].body;
         body.lag_ticks = if goes && gap < FAR_M * FAR_M { OFF_TICKS - waits } else { -waits };

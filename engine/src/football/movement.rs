@@ -5,7 +5,7 @@
 
 use crate::football::dribble::{LIES_MPS, SOLE_M};
 use crate::football::dribble_motion;
-use crate::football::pace::{DRIBBLES_FROM_MPS, DT, SPRINT_MPS, SPRINTS_FROM_MPS};
+use crate::football::pace::{ARRIVAL_PER_S, DRIBBLES_FROM_MPS, DT, SPRINT_MPS, SPRINTS_FROM_MPS};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
 use crate::state::player::{Intent, Lunge, Motion, Pose, SwingRun};
@@ -166,8 +166,11 @@ fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, spee
     let wish = player.body.dribble;
     let lies = ball_vel.length_squared() < LIES_MPS * LIES_MPS;
     if !has_ball && lies && wish.length_squared() > 0.25 && distance > SOLE_M * 0.5 {
-        // Players don't slow down for a ball that lies there.
-        return to_ball * (speed / distance);
+        // Players don't slow down for a ball that lies there, nor do they speed up close to it, but
+        // for a kick. (GRF's.)
+        let kicks = player.body.kick.is_some();
+        let most = if kicks { speed } else { player.vel.length().max(ARRIVAL_PER_S * distance) };
+        return to_ball * (speed.min(most) / distance);
     }
     if has_ball || distance < 1.2 {
         let behind = if wish.length_squared() > 0.25 {

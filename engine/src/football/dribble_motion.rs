@@ -6,6 +6,7 @@
 
 use crate::football::carry::{self, Carry};
 use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
+use crate::football::leg::{self, Touch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::football::{contact, noise, possession, touch};
 use crate::math;
@@ -28,10 +29,12 @@ pub(super) struct DribbleMotion {
     lasts: i32,
     /// Where it leads.
     out: MotionEnd,
-    /// How far ahead of a straight run the ball may be at the touch, metres, and how much less far
-    /// for each m/s of the run.
-    ahead_m: [f32; 2],
-    less_m: f32,
+    /// How far ahead of the body the ball is that it is made for, metres.
+    ahead_m: f32,
+    /// How fast the player is on average until the touch, and then, m/s: at least, and by share of
+    /// the run.
+    mean: [f32; 2],
+    end: [f32; 2],
 }
 
 /// How a player comes out of a motion.
@@ -52,14 +55,11 @@ const fn motion(
     to_degrees: f32,
     [ticks, lasts]: [i32; 2],
     out: MotionEnd,
-    ahead_m: [f32; 2],
+    ahead_m: f32,
+    mean: [f32; 2],
+    end: [f32; 2],
 ) -> DribbleMotion {
-    DribbleMotion { from_mps, to_degrees, ticks, lasts, out, ahead_m, less_m: 0.0 }
-}
-
-/// A motion that leads on, of who walks.
-const fn walk(ticks: [i32; 2], ahead_m: [f32; 2], less_m: f32) -> DribbleMotion {
-    DribbleMotion { less_m, ..motion(DRIBBLES_FROM_MPS, ON_DEG, ticks, MotionEnd::On, ahead_m) }
+    DribbleMotion { from_mps, to_degrees, ticks, lasts, out, ahead_m, mean, end }
 }
 
 /// Angles up to which a motion leads on, and turns by 45, 90, 135 and 180 degrees.
@@ -69,43 +69,44 @@ const SQUARE_DEG: f32 = 112.0;
 const BACK_DEG: f32 = 157.0;
 const ABOUT_DEG: f32 = 180.0;
 
+const SPRINTS: f32 = SPRINTS_FROM_MPS;
+const WALKS: f32 = DRIBBLES_FROM_MPS;
+
 /// The touches: fastest gait first, and those of a gait by their angles.
 const TOUCHES: [DribbleMotion; 12] = [
-    motion(SPRINTS_FROM_MPS, ON_DEG, [12, 25], MotionEnd::On, [-0.2, 0.57]),
-    motion(SPRINTS_FROM_MPS, SQUARE_DEG, [14, 40], MotionEnd::Bent, [0.2, 0.76]),
-    motion(SPRINTS_FROM_MPS, ABOUT_DEG, [22, 59], MotionEnd::Braked(0.8), [0.45, 1.0]),
-    walk([12, 26], [0.05, 0.78], 0.055),
-    motion(DRIBBLES_FROM_MPS, HALF_DEG, [10, 41], MotionEnd::Turned(4.2), [0.05, 0.75]),
-    motion(DRIBBLES_FROM_MPS, SQUARE_DEG, [19, 53], MotionEnd::Turned(4.0), [0.0, 0.8]),
-    motion(DRIBBLES_FROM_MPS, BACK_DEG, [20, 47], MotionEnd::Braked(0.6), [0.15, 0.83]),
-    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [12, 75], MotionEnd::Turned(2.2), [0.2, 0.8]),
-    motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(2.6), [0.1, 0.74]),
-    motion(0.0, HALF_DEG, [7, 36], MotionEnd::Turned(3.3), [0.1, 0.45]),
-    motion(0.0, SQUARE_DEG, [8, 32], MotionEnd::Turned(3.1), [0.1, 0.45]),
-    motion(0.0, ABOUT_DEG, [13, 55], MotionEnd::Turned(2.5), [0.1, 0.74]),
+    motion(SPRINTS, ON_DEG, [12, 25], MotionEnd::On, 0.48, [1.36, 0.9], [2.22, 0.7]),
+    motion(SPRINTS, SQUARE_DEG, [14, 40], MotionEnd::Bent, 0.59, [2.41, 0.73], [4.01, 0.43]),
+    motion(SPRINTS, ABOUT_DEG, [22, 59], MotionEnd::Braked(0.8), 0.66, [1.85, 0.65], [4.8, 0.0]),
+    motion(WALKS, ON_DEG, [12, 26], MotionEnd::On, 0.5, [1.22, 0.84], [2.04, 0.59]),
+    motion(WALKS, HALF_DEG, [10, 41], MotionEnd::Turned(4.2), 0.47, [1.11, 0.81], [1.84, 0.52]),
+    motion(WALKS, SQUARE_DEG, [19, 53], MotionEnd::Turned(4.0), 0.42, [2.24, 0.46], [3.4, 0.0]),
+    motion(WALKS, BACK_DEG, [20, 47], MotionEnd::Braked(0.6), 0.68, [2.56, 0.37], [3.1, 0.0]),
+    motion(WALKS, ABOUT_DEG, [12, 75], MotionEnd::Turned(2.2), 0.51, [1.64, 0.57], [2.12, 0.22]),
+    motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(2.6), 0.49, [1.6, 0.0], [2.0, 0.0]),
+    motion(0.0, HALF_DEG, [7, 36], MotionEnd::Turned(3.3), 0.4, [0.3, 0.0], [0.5, 0.0]),
+    motion(0.0, SQUARE_DEG, [8, 32], MotionEnd::Turned(3.1), 0.4, [0.3, 0.0], [0.5, 0.0]),
+    motion(0.0, ABOUT_DEG, [13, 55], MotionEnd::Turned(2.5), 0.48, [-0.6, 0.0], [1.0, 0.0]),
 ];
 /// The same for a player who wants to sprint: walking, on and by 45 degrees, and from a standstill.
 const SPEEDING: [DribbleMotion; 3] = [
-    walk([15, 26], [0.0, 0.62], 0.02),
-    motion(DRIBBLES_FROM_MPS, HALF_DEG, [27, 50], MotionEnd::Turned(5.1), [0.1, 0.74]),
-    motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(3.6), [0.1, 0.74]),
+    motion(WALKS, ON_DEG, [15, 26], MotionEnd::On, 0.32, [1.33, 0.8], [2.13, 0.62]),
+    motion(WALKS, HALF_DEG, [27, 50], MotionEnd::Turned(5.1), 0.29, [1.96, 0.63], [3.56, 0.23]),
+    motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(3.6), 0.49, [1.6, 0.0], [2.0, 0.0]),
 ];
 /// The same for a player who wants to stand: sprinting, and walking. How long they last is fitted
 /// to how soon players stop.
 const STOPPING: [DribbleMotion; 2] = [
-    motion(SPRINTS_FROM_MPS, ABOUT_DEG, [12, 45], MotionEnd::Braked(4.1), [0.2, 0.9]),
-    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [12, 22], MotionEnd::Braked(0.0), [0.05, 0.7]),
+    motion(SPRINTS, ABOUT_DEG, [12, 45], MotionEnd::Braked(4.1), 0.52, [1.36, 0.9], [2.2, 0.6]),
+    motion(WALKS, ABOUT_DEG, [12, 22], MotionEnd::Braked(0.0), 0.4, [1.47, 0.61], [1.87, 0.28]),
 ];
-/// How far beside a straight run the ball may be at the touch, metres. Measured.
-const ASIDE_M: f32 = 0.2;
-/// How much of that is left to whoever is about to kick (GRF's), and how deep their reach is,
-/// metres; chosen.
-const KICKS: f32 = 0.3;
-const KICKS_M: f32 = 0.35;
 /// For how many ticks a motion can be left for another one (GRF's), and up to which cosine of what
 /// is wanted then.
 const AGAIN_TICKS: i32 = 8;
 const CHANGED: f32 = 0.9;
+/// A ball less than this behind and beside the place that a motion is made for is waited for,
+/// metres; chosen.
+const WAITS_M: f32 = 0.4;
+const ASIDE_M: f32 = 0.2;
 /// How near the ball must still be at the touch, metres.
 const REACH_M: f32 = 1.1;
 /// By how much a sprinter's touch strays, radians. Fitted to how far sprinters get off their line.
@@ -136,7 +137,7 @@ pub(super) fn begin(game: &mut Match, near: Squad) {
     let Some(motion) = wanted(player) else { return };
     let ball = game.play.forecast.at(game.tick + motion.ticks as u32);
     let run = run(player);
-    if ball.z >= touch::FOOT_HIGH_M || !fits(player, ball.truncate(), run, motion) {
+    if ball.z >= touch::FOOT_HIGH_M || !fits(game, id, motion) {
         return;
     }
     let wish = wish(player, run, motion);
@@ -188,21 +189,37 @@ fn on_mps(player: &Player, wanted: f32) -> f32 {
     }
 }
 
-/// Whether the ball is where the motion meets it.
-fn fits(player: &Player, ball: Vec2, run: Vec2, motion: &DribbleMotion) -> bool {
-    // Somebody who sets off reaches the ball from where they are.
-    let on_s = if motion.from_mps > 0.0 { motion.ticks as f32 * 0.01 } else { 0.0 };
-    let place = ball - player.pos - player.vel * on_s;
-    let [near_m, far_m] = motion.ahead_m;
-    let far_m = far_m - motion.less_m * player.vel.length();
-    // Whoever is about to kick hardly reaches for anything else.
+/// Whether the motion meets the ball.
+fn fits(game: &Match, id: PlayerId, motion: &DribbleMotion) -> bool {
+    let player = game.player(id);
+    let (touch, ball) = motion.touch(game, id);
     let kicks = player.body.kick.is_some_and(|plan| !plan.held);
-    let (near_m, aside_m) = if kicks {
-        (near_m.max(far_m - KICKS_M), ASIDE_M * KICKS)
-    } else {
-        (near_m, ASIDE_M)
-    };
-    (near_m..far_m).contains(&place.dot(run)) && place.perp_dot(run).abs() <= aside_m
+    let reach = if kicks { leg::BEFORE_A_KICK } else { leg::DRIBBLE };
+    leg::meets(&touch, ball, reach, leg::freshness(game, id, motion.ticks))
+}
+
+impl DribbleMotion {
+    /// The touch of this motion, and where the ball will be then, in the frame of the run.
+    fn touch(&self, game: &Match, id: PlayerId) -> (Touch, Vec2) {
+        let player = game.player(id);
+        let (pace, run) = (player.vel.length(), run(player));
+        let out_mps = match self.out {
+            MotionEnd::Turned(mps) | MotionEnd::Braked(mps) => mps,
+            MotionEnd::On => on_mps(player, player.body.dribble.length()),
+            MotionEnd::Bent => BENT_MPS,
+        };
+        let ball = game.play.forecast.at(game.tick + self.ticks as u32).truncate();
+        let way_m = (self.mean[0] + self.mean[1] * pace) * self.ticks as f32 * 0.01;
+        let place = ball - player.pos - run * way_m;
+        let touch = Touch {
+            ticks: self.ticks,
+            made_for: Vec2::new(self.ahead_m, 0.0),
+            pace,
+            at_mps: self.end[0] + self.end[1] * pace,
+            out_mps,
+        };
+        (touch, Vec2::new(place.dot(run), run.perp_dot(place)))
+    }
 }
 
 /// Who plays the ball next: its owner, or whoever is nearest to a ball that lies.
@@ -294,12 +311,9 @@ pub(super) fn turns(player: &Player) -> bool {
 
 /// Whether the ball is ahead of a player, so that their motion will meet it.
 pub(super) fn waits(game: &Match, id: PlayerId) -> bool {
-    let player = game.player(id);
-    let Some(motion) = wanted(player) else { return false };
-    let ball = game.play.forecast.at(game.tick + motion.ticks as u32).truncate();
-    let place = ball - player.pos - player.vel * (motion.ticks as f32 * 0.01);
-    let run = run(player);
-    place.dot(run) > motion.ahead_m[0] && place.perp_dot(run).abs() < ASIDE_M
+    let Some(motion) = wanted(game.player(id)) else { return false };
+    let (touch, ball) = motion.touch(game, id);
+    ball.x > touch.made_for.x - WAITS_M && ball.y.abs() < ASIDE_M
 }
 
 /// The touch of a motion: sends the ball the way that its player wanted.

@@ -7,7 +7,10 @@
 
 use crate::football::pace::SPRINT_MPS;
 use crate::math;
+use crate::state::play::ticks_since;
+use crate::state::{Match, PlayerId};
 use glam::Vec2;
+use setpiece_scenario::vocabulary::Stat;
 
 /// The reach of a motion of [`MEAN_TICKS`], metres, and the power by which it grows with the time
 /// until the touch; `LATE` of the growth counts beyond that.
@@ -60,8 +63,22 @@ pub(super) struct Reach {
 /// The reach of kicks.
 pub(super) const KICK: Reach = Reach { factor: 1.3, more_m: 0.15 };
 
+/// The reach of the touches of a dribble, and what a player who is about to kick has of it.
+pub(super) const DRIBBLE: Reach = Reach { factor: 1.0, more_m: 0.0 };
+pub(super) const BEFORE_A_KICK: Reach = Reach { factor: 0.3, more_m: 0.0 };
+
+/// The share of their reach that a player has at a touch some ticks ahead.
+pub(super) fn freshness(game: &Match, id: PlayerId, ticks: i32) -> f32 {
+    if game.last_touch != Some(id) {
+        return 1.0;
+    }
+    let player = game.player(id);
+    let since = ticks_since(game.tick, player.body.touched_at).saturating_add(ticks);
+    after(since as f32 * 0.01, player.skill(Stat::BallControl))
+}
+
 /// The share of their reach that a player has some seconds after their own touch of the ball.
-pub(super) fn freshness(since_s: f32, control: f32) -> f32 {
+fn after(since_s: f32, control: f32) -> f32 {
     1.0 - math::ease(1.0 - (since_s / FRESH_S).clamp(0.0, 1.0)) * FRESH * (1.0 - CONTROL * control)
 }
 
@@ -119,7 +136,7 @@ mod tests {
 
     #[test]
     fn whoever_has_just_touched_the_ball_reaches_less() {
-        let [soon, later] = [0.25, 0.7].map(|since_s| freshness(since_s, 0.7));
+        let [soon, later] = [0.25, 0.7].map(|since_s| after(since_s, 0.7));
         assert!(soon < 0.5 && later == 1.0);
         let ball = Vec2::new(0.2, 0.0);
         assert!(meets(&SHOT, ball, KICK, later) && !meets(&SHOT, ball, KICK, soon));

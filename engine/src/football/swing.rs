@@ -5,11 +5,9 @@
 use crate::football::leg::{self, KICK, Touch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::math;
-use crate::state::play::ticks_since;
 use crate::state::player::KickKind;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
-use setpiece_scenario::vocabulary::Stat;
 
 /// A swing.
 pub(super) struct SwingMotion {
@@ -170,12 +168,6 @@ pub(super) fn find(
         KickKind::High => &LOFTS,
         KickKind::Shot | KickKind::Clear => &SHOTS,
     };
-    let since = if game.last_touch == Some(id) {
-        ticks_since(game.tick, player.body.touched_at)
-    } else {
-        i32::MAX
-    };
-    let control = player.skill(Stat::BallControl);
     let swings = ORDER[gait].iter().flat_map(|gait| by_gait[*gait]);
     swings.into_iter().find(|swing| {
         let ball = game.play.forecast.at(game.tick + swing.ticks as u32);
@@ -184,7 +176,7 @@ pub(super) fn find(
         }
         let place = ball.truncate() - player.pos - run * swing.way_m(pace);
         let place = Vec2::new(place.dot(run), run.perp_dot(place));
-        let fresh = leg::freshness(since.saturating_add(swing.ticks) as f32 * 0.01, control);
+        let fresh = leg::freshness(game, id, swing.ticks);
         // Every swing has its mirror image.
         [1.0, -1.0].into_iter().any(|side| {
             let off = math::wrap((turn - side * swing.to_degrees).to_radians()).to_degrees();

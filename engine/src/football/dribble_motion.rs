@@ -11,6 +11,7 @@ use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS}
 use crate::football::{contact, noise, possession, touch};
 use crate::math;
 use crate::state::event::Events;
+use crate::state::play::ticks_since;
 use crate::state::player::{Lunge, Motion};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::Vec2;
@@ -99,6 +100,11 @@ const STOPPING: [DribbleMotion; 2] = [
     motion(SPRINTS, ABOUT_DEG, [12, 45], MotionEnd::Braked(4.1), 0.52, [1.36, 0.9], [2.2, 0.6]),
     motion(WALKS, ABOUT_DEG, [12, 22], MotionEnd::Braked(0.0), 0.4, [1.47, 0.61], [1.87, 0.28]),
 ];
+/// How long a stride lasts, ticks; up to how long after their own touch players finish it; and by
+/// how much they may want another velocity, m/s. (GRF's.)
+const STRIDE_TICKS: i32 = 24;
+const LATELY_TICKS: i32 = 60;
+const ALIKE_MPS: f32 = 1.0;
 /// For how many ticks a motion can be left for another one (GRF's), and up to which cosine of what
 /// is wanted then.
 const AGAIN_TICKS: i32 = 8;
@@ -235,11 +241,22 @@ fn next(game: &Match, near: Squad) -> Option<PlayerId> {
     let ready = now >= player.body.ready_at || game.last_touch.is_none();
     let kicks = player.body.kick.is_some_and(|plan| plan.swing.is_some());
     let free = match player.body.lunge {
-        None => ready,
+        None => ready && !runs_on(game, id),
         Some(lunge) => begins_again(player, &lunge, now),
     };
     let plays = player.ai != Ai::Lazy || game.is_driven(id);
     (near.has(id) && player.is_up() && free && plays && !kicks).then_some(id)
+}
+
+/// Whether a player who runs as they want is within a stride, which they finish before they touch
+/// their ball again. (GRF's.)
+fn runs_on(game: &Match, id: PlayerId) -> bool {
+    let player = game.player(id);
+    let now = game.tick as i32;
+    let lately = game.last_touch == Some(id)
+        && ticks_since(game.tick, player.body.touched_at) < LATELY_TICKS;
+    let alike = player.vel.distance_squared(player.body.dribble) < ALIKE_MPS * ALIKE_MPS;
+    lately && alike && (now - player.body.ready_at) % STRIDE_TICKS != 0
 }
 
 /// Whether a player who wants something else by now may begin the motion again. (GRF's.)

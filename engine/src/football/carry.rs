@@ -36,12 +36,12 @@ const NEXT_S: f32 = 0.08;
 const OFF_MPS: f32 = 3.2;
 const OFF_S: f32 = 0.2;
 const SPEEDS_UP_MPS: f32 = 0.6;
-/// From which speed on a ball that is pushed on hops, m/s; how fast it then rises for each m/s
-/// above that; and at most, m/s. Fitted to how far sprinters' balls run: below that speed, backspin
-/// takes what the hop saves.
-const HOPS_FROM_MPS: f32 = 6.5;
-const HOP: f32 = 0.5;
+/// How fast a ball that is pushed on rises: at least, and by a power of its speed in `HOPS_MPS`, at
+/// most `HOP_MOST_MPS`, m/s. (GRF's.)
+const HOP_LEAST_MPS: f32 = 0.1;
 const HOP_MOST_MPS: f32 = 1.5;
+const HOPS_MPS: f32 = 10.0;
+const HOPS: f32 = 1.6;
 /// A player slower than this has come to a stand, m/s. The share of their body's way, beside the
 /// wanted one, in where the ball goes: of their own ball, and of another. (GRF's.)
 const STANDS_MPS: f32 = 1.8;
@@ -149,7 +149,8 @@ fn sent(way: Vec2, time_s: f32, pace: f32) -> Vec2 {
 
 /// How fast a ball that is pushed on at this velocity rises, m/s.
 pub(super) fn hop_mps(velocity: Vec2) -> f32 {
-    ((velocity.length() - HOPS_FROM_MPS) * HOP).clamp(0.0, HOP_MOST_MPS)
+    let share = math::pow(velocity.length() / HOPS_MPS, HOPS);
+    (HOP_LEAST_MPS + HOP_MOST_MPS * share).min(HOP_MOST_MPS)
 }
 
 /// Lengthens a touch so that the ball goes this much further, metres. (GRF's: the speed of a touch

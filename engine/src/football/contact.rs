@@ -1,12 +1,22 @@
 //! What a touch of the ball means: passes completed or intercepted, shots blocked, offside.
 
 use crate::football::{forecast, offside, report, whistle};
+use crate::math;
+use crate::physics::constants::BALL_RADIUS;
 use crate::state::event::{Event, Events};
 use crate::state::play::{Flight, Received};
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::pitch::{BALL_RADIUS_M, TEAM_MAX};
 use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
+
+/// How much of its spin a ball keeps when it is pushed on. (GRF's.)
+const KEPT_SPIN: f32 = 0.4;
+/// The backspin of a push at `BACKSPIN_MPS` or more, rad/s, and by which power of its speed. GRF's
+/// form; fitted to how far dribblers' balls run.
+const BACKSPIN: f32 = 10.0;
+const BACKSPIN_MPS: f32 = 10.0;
+const BACKSPINS: f32 = 0.7;
 
 /// Ticks until a player hit by the ball can play it.
 const STUNNED_TICKS: i32 = 30;
@@ -45,9 +55,15 @@ pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2,
     let fall = if game.ball.pos.z > 0.3 { game.ball.vel.z.min(0.0) - 1.0 } else { 0.0 };
     game.ball.vel = velocity.extend(if hop > 0.0 { hop } else { fall });
     game.ball.pos.z = game.ball.pos.z.max(0.11);
-    // The spin of a ball that rolls at this speed.
-    game.ball.spin = Vec3::new(-velocity.y, velocity.x, 0.0) / 0.11;
+    game.ball.spin = game.ball.spin * KEPT_SPIN + pushed_spin(velocity) * (1.0 - KEPT_SPIN);
     forecast::renew(game);
+}
+
+/// The spin that a push gives a ball, rad/s: a bit less than that of one that rolls.
+fn pushed_spin(velocity: Vec2) -> Vec3 {
+    let speed = velocity.length();
+    let back = BACKSPIN * math::pow((speed / BACKSPIN_MPS).min(1.0), BACKSPINS);
+    (velocity.normalize_or_zero().perp() * (speed / BALL_RADIUS - back)).extend(0.0)
 }
 
 /// Records that the ball bounced off a player who did not see it coming; that player needs a while

@@ -159,7 +159,7 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     }
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
     let player = game.player(id);
-    if !at_hand && !is_free(game, id) {
+    if !at_hand && !(is_free(game, id) && looks(game, id)) {
         return None;
     }
     let (way, mate) = meant(game, id, plan);
@@ -177,6 +177,12 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     };
     let runs = at_hand || shot::runs(player);
     Some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs, run })
+}
+
+/// Whether a player looks now whether a swing meets the ball: every other tick, the teams by turns.
+/// (GRF's.)
+fn looks(game: &Match, id: PlayerId) -> bool {
+    (game.tick + u32::from(id.team() != game.play.early)).is_multiple_of(2)
 }
 
 /// Whether a player can begin a swing: not in a motion, but for one of a dribble before its touch.

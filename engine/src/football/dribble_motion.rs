@@ -256,7 +256,12 @@ fn runs_on(game: &Match, id: PlayerId) -> bool {
     let lately = game.last_touch == Some(id)
         && ticks_since(game.tick, player.body.touched_at) < LATELY_TICKS;
     let alike = player.vel.distance_squared(player.body.dribble) < ALIKE_MPS * ALIKE_MPS;
-    lately && alike && (now - player.body.ready_at) % STRIDE_TICKS != 0
+    lately && alike && is_within_stride(player, now)
+}
+
+/// Whether a stride after a player's last touch has begun and isn't over.
+pub(super) fn is_within_stride(player: &Player, now: i32) -> bool {
+    (now - player.body.ready_at) % STRIDE_TICKS != 0
 }
 
 /// Whether a player who wants something else by now may begin the motion again. (GRF's.)

@@ -5,7 +5,9 @@
 
 use crate::football::dribble::{LIES_MPS, SOLE_M};
 use crate::football::dribble_motion;
-use crate::football::pace::{ARRIVAL_PER_S, DRIBBLES_FROM_MPS, DT, SPRINT_MPS, SPRINTS_FROM_MPS};
+use crate::football::pace::{
+    ARRIVAL_PER_S, DRIBBLES_FROM_MPS, DT, SPRINT_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS,
+};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
 use crate::state::player::{Intent, Lunge, Motion, Pose, SwingRun};
@@ -15,6 +17,9 @@ use glam::Vec2;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::Stat;
 
+/// How much faster than their run the body of a dribbler is who reaches for the ball, m/s. Measured
+/// of GRF's motions.
+const REACHES_MPS: f32 = 0.4;
 /// A player who wants to stand stops for a ball this near, metres, and lays it where they stop.
 const STOPPING_M: f32 = 1.1;
 
@@ -42,7 +47,7 @@ pub fn advance(game: &mut Match) -> Busy {
     let mut busy = Busy::default();
     let ball = game.ball.pos.truncate();
     let ball_vel = game.ball.vel.truncate();
-    let (owner, rim) = (game.owner, game.rim());
+    let (owner, last_touch, rim) = (game.owner, game.last_touch, game.rim());
     let now = game.tick as i32;
     let frozen = game.play.set_piece.map(|set_piece| set_piece.taker);
     let mut runners: ArrayVec<PlayerId, PLAYERS_MAX> = ArrayVec::new();
@@ -85,6 +90,13 @@ pub fn advance(game: &mut Match) -> Busy {
         {
             let to = dribble_motion::out(player, wish, out_dmps, brakes);
             carry_ball(player, wish, to, lunge.until() - now);
+            if now < lunge.at
+                && !brakes
+                && player.vel.length_squared() > WALKS_FROM_MPS * WALKS_FROM_MPS
+            {
+                player.pos += player.vel.normalize_or_zero() * (REACHES_MPS * DT);
+            }
+            player.body.stride = player.body.dribble;
             go(player, rim);
             continue;
         }
@@ -103,16 +115,31 @@ pub fn advance(game: &mut Match) -> Busy {
             go(player, rim);
             continue;
         }
+        let strides = has_ball
+            && last_touch == Some(id)
+            && dribble_motion::is_within_stride(player, now)
+            && player.body.kick.is_none();
+        if !strides {
+            player.body.stride = player.body.dribble;
+        }
+        let wish = player.body.stride;
         let (want, pace) = match player.body.intent {
             _ if frozen.is_some_and(|taker| taker != id) => (Vec2::ZERO, NO_POINT),
             _ if let Some(lunge) = player.body.lunge.filter(Lunge::stops) => {
                 let most = if lunge.at < now { STOPPED_MPS } else { 0.0 };
                 (player.body.dribble.clamp_length_max(most), NO_POINT)
             }
+            // A dribbler finishes the stride. (GRF's.)
+            _ if strides => {
+                let speed = wish.length().max(player.vel.length());
+                (go_for_ball(player, wish, ball, ball_vel, true, speed), NO_POINT)
+            }
             Intent::Stand => (Vec2::ZERO, NO_POINT),
             Intent::Run(velocity) => (velocity, NO_POINT),
             Intent::Go(to, speed) => (to - player.pos, speed),
-            Intent::Ball(speed) => (go_for_ball(player, ball, ball_vel, has_ball, speed), NO_POINT),
+            Intent::Ball(speed) => {
+                (go_for_ball(player, wish, ball, ball_vel, has_ball, speed), NO_POINT)
+            }
         };
         let (row, at) = (runners.len() / WIDTH, runners.len() % WIDTH);
         if at == 0 {
@@ -160,10 +187,16 @@ fn go(player: &mut Player, rim: Vec2) {
 }
 
 /// The velocity that brings a player to the ball and keeps them with it.
-fn go_for_ball(player: &Player, ball: Vec2, ball_vel: Vec2, has_ball: bool, speed: f32) -> Vec2 {
+fn go_for_ball(
+    player: &Player,
+    wish: Vec2,
+    ball: Vec2,
+    ball_vel: Vec2,
+    has_ball: bool,
+    speed: f32,
+) -> Vec2 {
     let to_ball = ball - player.pos;
     let distance = to_ball.length();
-    let wish = player.body.dribble;
     let lies = ball_vel.length_squared() < LIES_MPS * LIES_MPS;
     if !has_ball && lies && wish.length_squared() > 0.25 && distance > SOLE_M * 0.5 {
         // Players don't slow down for a ball that lies there, nor do they speed up close to it, but

@@ -9,7 +9,7 @@ pub const SPRINT_MPS: f32 = 8.0;
 /// Speed with the dribble key and the ball, m/s. Measured.
 pub const DRIBBLE_WITH_BALL_MPS: f32 = 4.1;
 /// Speed without sprint with the ball, m/s. Measured.
-pub const RUN_WITH_BALL_MPS: f32 = 5.12;
+pub const RUN_WITH_BALL_MPS: f32 = 5.0;
 
 /// From this speed on a runner dribbles rather than stands, m/s. (GRF's gaits.)
 pub const DRIBBLES_FROM_MPS: f32 = 1.8;

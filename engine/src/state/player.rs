@@ -97,6 +97,8 @@ pub struct Body {
     pub intent: Intent,
     /// The velocity that they want with the ball at their feet, world m/s.
     pub dribble: Vec2,
+    /// The same when their stride began: until its end they run on.
+    pub stride: Vec2,
     /// A kick that they want to make, as soon as possible.
     pub kick: Option<KickPlan>,
     /// What the body does.
@@ -334,6 +336,7 @@ impl Body {
             facing: Vec2::X,
             intent: Intent::Stand,
             dribble: Vec2::ZERO,
+            stride: Vec2::ZERO,
             kick: None,
             pose: Pose::Up,
             pose_ticks: 0,

@@ -9,7 +9,7 @@ use crate::football::{
 };
 use crate::math;
 use crate::state::event::Events;
-use crate::state::player::{KickKind, KickPlan, NEVER, Swing, SwingRun};
+use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
 use crate::state::{Match, Player, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
@@ -68,9 +68,14 @@ pub fn taken(kind: KickKind, mode: GameMode, tick: u32) -> KickPlan {
     KickPlan { swing: Some(swing), until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
 
+/// A speed in 0.1 m/s, below [`Swing::RUN`].
+fn dmps(mps: f32) -> u8 {
+    (mps * 10.0).round().clamp(0.0, f32::from(Swing::RUN - 1)) as u8
+}
+
 /// A bot's swing: where to is decided already.
 fn begun(ready_at: i32) -> Swing {
-    Swing { ready_at, way: None, mate: None, runs: true, run: None }
+    Swing { ready_at, way: None, mate: None, runs: true, end_dmps: Swing::RUN, left_m: 0.0 }
 }
 
 fn asked(kind: KickKind) -> KickPlan {
@@ -163,20 +168,18 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
         return None;
     }
     let (way, mate) = meant(game, id, plan);
-    let (ticks, run) = match game.play.set_piece {
-        Some(set_piece) => (run_up_ticks(set_piece.mode), None),
-        None if at_hand => (at_hand_ticks(plan.kind), None),
+    let (ticks, end_dmps, left_m) = match game.play.set_piece {
+        Some(set_piece) => (run_up_ticks(set_piece.mode), Swing::RUN, 0.0),
+        None if at_hand => (at_hand_ticks(plan.kind), Swing::RUN, 0.0),
         None => {
             let swing = swing::find(game, id, plan.kind, way)?;
             let pace = player.vel.length();
-            (
-                swing.ticks,
-                Some(SwingRun { end_mps: swing.end_mps(pace), left_m: swing.way_m(pace) }),
-            )
+            (swing.ticks, dmps(swing.end_mps(pace)), swing.way_m(pace))
         }
     };
     let runs = at_hand || shot::runs(player);
-    Some(Swing { ready_at: game.tick as i32 + ticks, way: Some(way), mate, runs, run })
+    let ready_at = game.tick as i32 + ticks;
+    Some(Swing { ready_at, way: Some(way), mate, runs, end_dmps, left_m })
 }
 
 /// Whether a player looks now whether a swing meets the ball: every other tick, the teams by turns.

@@ -10,7 +10,7 @@ use crate::football::pace::{
 };
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
-use crate::state::player::{Intent, Lunge, Motion, Pose, SwingRun};
+use crate::state::player::{Intent, Lunge, Motion, Pose, Swing};
 use crate::state::{Match, Player, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::Vec2;
@@ -96,7 +96,6 @@ pub fn advance(game: &mut Match) -> Busy {
             {
                 player.pos += player.vel.normalize_or_zero() * (REACHES_MPS * DT);
             }
-            player.body.stride = player.body.dribble;
             go(player, rim);
             continue;
         }
@@ -104,12 +103,12 @@ pub fn advance(game: &mut Match) -> Busy {
         if let Some(plan) = &mut player.body.kick
             && let Some(swing) = &mut plan.swing
             && swing.ready_at >= now
-            && let Some(run) = &mut swing.run
+            && swing.end_dmps != Swing::RUN
         {
             let ticks = swing.ready_at - now + 1;
             let ahead = player.vel.normalize_or(player.body.facing);
-            let pace = stride_of(player.vel.length(), run, ticks);
-            run.left_m -= pace * DT;
+            let pace = stride_of(player.vel.length(), swing, ticks);
+            swing.left_m -= pace * DT;
             player.vel = ahead * pace;
             player.body.lag_ticks = 0;
             go(player, rim);
@@ -119,10 +118,7 @@ pub fn advance(game: &mut Match) -> Busy {
             && last_touch == Some(id)
             && dribble_motion::is_within_stride(player, now)
             && player.body.kick.is_none();
-        if !strides {
-            player.body.stride = player.body.dribble;
-        }
-        let wish = player.body.stride;
+        let wish = if strides { run_on(player) } else { player.body.dribble };
         let (want, pace) = match player.body.intent {
             _ if frozen.is_some_and(|taker| taker != id) => (Vec2::ZERO, NO_POINT),
             _ if let Some(lunge) = player.body.lunge.filter(Lunge::stops) => {
@@ -184,6 +180,12 @@ fn give(four: &Four, at: usize, player: &mut Player) {
 fn go(player: &mut Player, rim: Vec2) {
     let aside = Vec2::new(player.vel.y, -player.vel.x) * stride::ASIDE;
     player.pos = (player.pos + (player.vel + aside) * DT).clamp(-rim, rim);
+}
+
+/// The velocity of a dribbler who finishes a stride: straight on, whatever else they want by now.
+fn run_on(player: &Player) -> Vec2 {
+    let (vel, wish) = (player.vel, player.body.dribble);
+    if vel.dot(wish) > 0.0 { vel.normalize_or_zero() * wish.length() } else { vel }
 }
 
 /// The velocity that brings a player to the ball and keeps them with it.
@@ -274,11 +276,12 @@ fn carry_ball(player: &mut Player, wish: Vec2, to: Vec2, ticks: i32) {
 
 /// The pace in the next tick of a run in a swing: it changes smoothly, so that the player comes as
 /// far, and is as fast then, as the swing takes them.
-fn stride_of(pace: f32, run: &SwingRun, ticks: i32) -> f32 {
+fn stride_of(pace: f32, swing: &Swing, ticks: i32) -> f32 {
     let left_s = ticks as f32 * DT;
+    let end_mps = f32::from(swing.end_dmps) * 0.1;
     // The beginning of the parabola through both paces with that mean.
-    let change = (6.0 * run.left_m / left_s - 4.0 * pace - 2.0 * run.end_mps) / left_s;
-    let next = if ticks > 2 { pace + change * DT } else { run.end_mps };
+    let change = (6.0 * swing.left_m / left_s - 4.0 * pace - 2.0 * end_mps) / left_s;
+    let next = if ticks > 2 { pace + change * DT } else { end_mps };
     next.clamp(0.0, SPRINT_MPS)
 }
 

@@ -111,7 +111,9 @@ fn near_bodies(game: &Match, near: Squad) -> ArrayVec<BallObstacle, BODIES_MAX> 
             .is_some_and(|save| !save.reaches || save.at_tick != u32::MAX);
         let by_hand =
             planned && player.role == Role::GK && foul::in_box(&game.pitch, flat, id.team());
-        if !lately && !by_hand {
+        // Whoever swings at the ball lets it come to the foot.
+        let swings = player.body.kick.is_some_and(|plan| plan.swing.is_some());
+        if !lately && !by_hand && !swings {
             bodies.push(BallObstacle {
                 id: id.0,
                 pos: player.pos,

@@ -39,8 +39,14 @@ fn busy() -> Match {
     let body = &mut game.players[0].body;
     body.intent = Intent::Go(spot, 1.0);
     let kind = KickKind::Shot;
-    let swing =
-        Some(Swing { ready_at: 0, way: Some(spot), mate: Some(id), runs: false, run: None });
+    let swing = Some(Swing {
+        ready_at: 0,
+        way: Some(spot),
+        mate: Some(id),
+        runs: false,
+        end_dmps: 0,
+        left_m: 0.0,
+    });
     let (dir, point) = (Some(spot), Some(spot));
     body.kick = Some(KickPlan { dir, mate: Some(id), point, swing, ..kick::pressed(kind, 0) });
     game.play.acting[0].key = Some(kind);

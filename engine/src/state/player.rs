@@ -97,8 +97,6 @@ pub struct Body {
     pub intent: Intent,
     /// The velocity that they want with the ball at their feet, world m/s.
     pub dribble: Vec2,
-    /// The same when their stride began: until its end they run on.
-    pub stride: Vec2,
     /// A kick that they want to make, as soon as possible.
     pub kick: Option<KickPlan>,
     /// What the body does.
@@ -223,17 +221,15 @@ pub struct Swing {
     pub mate: Option<PlayerId>,
     /// Whether the player was running when it began.
     pub runs: bool,
-    /// The run in it; none leaves it to the player.
-    pub run: Option<SwingRun>,
-}
-
-/// The run of a player in a swing.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct SwingRun {
-    /// How fast they are at the contact, m/s.
-    pub end_mps: f32,
+    /// How fast the player is at its end, 0.1 m/s; [`Swing::RUN`] leaves their run to them.
+    pub end_dmps: u8,
     /// How far they still run until then, metres.
     pub left_m: f32,
+}
+
+impl Swing {
+    /// The end of a swing in which the player runs as they want.
+    pub const RUN: u8 = u8::MAX;
 }
 
 /// What a foot does with a ball that it reaches for.
@@ -336,7 +332,6 @@ impl Body {
             facing: Vec2::X,
             intent: Intent::Stand,
             dribble: Vec2::ZERO,
-            stride: Vec2::ZERO,
             kick: None,
             pose: Pose::Up,
             pose_ticks: 0,

@@ -36,6 +36,17 @@ pub(super) const HABITS: &[Habit] = &[
         "seen¦visible",
         "an angle of view is a condition: `… when sees(me, ball, within: 120deg)`",
     ),
+    row(
+        Name,
+        "keeper¦goalkeeper¦goalie",
+        "name the player, `{1}: GK at …`; `for` and `to` also take the role, `GK`",
+    ),
+    row(Name, "scorer", "who scores is `event.by` after `on goal`; `give 1 to goal` pays them"),
+    row(
+        Name,
+        "passer¦assister",
+        "who passes is `event.by` after `on pass`; `give 1 to assist` pays who has prepared a goal",
+    ),
     row(Name, "end", "`end` is an event only after `on`: `give 1 on end`"),
     // Letters.
     row(Anywhere, "| é", "a name is of the letters a to z, digits and underscores"),

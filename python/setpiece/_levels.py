@@ -308,12 +308,13 @@ def _named(name: str, source: Source, allow_outside: bool) -> LevelSource:
     try:
         return _planned(path if text is None else text, name, allow_outside)
     except ParameterError as error:
-        helped = error.help
+        said, helped = str(error.args[0]), error.help
         if name in library_names():
+            said = f"no curriculum and no suite is called `{name}`"
             helped = f"a scenario stands in a list: `levels=[{name!r}]`"
         elif isinstance(source, Scenario):
             helped = "a loaded scenario has no curricula: give the file or the text instead of it"
-        raise ParameterError(str(error), name="levels", code=error.code, help=helped) from None
+        raise ParameterError(said, name="levels", code=error.code, help=helped) from None
 
 
 def _listed(

@@ -74,6 +74,10 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "| −¦–¦—", "the sign of a negative number is `-`"),
     row(Anywhere, "| #", "a comment begins with `//`"),
     row(Anywhere, "| ///", "a `///` comment stands above a statement; write `//` elsewhere"),
+    // Suites, checks and curricula.
+    row(File, "check | _", "what a check expects stands in quotes: `check \"{1}\"`"),
+    row(Anywhere, "play … | with _", "who plays stands before `for`: `play … with {1} for …`"),
+    row(Anywhere, "until … | and", "a stage ends when one of its goals holds: write `or`"),
     // How many players and how likely; before what their signs alone would tell.
     row(Team, "_ : | maybe 9 % ROLE", "`maybe` stands before the name: `maybe {2}% {1}: {3} …`"),
     row(Team, "_ : maybe | 9 % ROLE", "`maybe` stands before the name: `maybe {2}% {1}: {3} …`"),

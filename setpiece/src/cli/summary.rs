@@ -176,7 +176,7 @@ pub(crate) fn unclear(
 ) -> Result<(), Error> {
     for (name, times) in faulty_numbers(scenario, options)? {
         let report = format!(
-            "observed `{name}` could not be computed {times} times and was 0: a division by zero?"
+            "observed `{name}` could not be computed {times} times and was 0: a division by zero, or a player who isn't there?"
         );
         out.line(StyledText::from(format!("  {:width$}    ", "")).paint(&report, Paint::Failure));
     }
@@ -206,8 +206,9 @@ pub(crate) fn means(summary: &Summary, faulty: &[FaultyTerm], width: usize, out:
     }
     if summary.faults > 0 {
         let values = summary.faults;
-        let mut report =
-            format!("{values} values were not finite and were not paid: a division by zero?");
+        let mut report = format!(
+            "{values} values were not finite and were not paid: a division by zero, or a player who isn't there?"
+        );
         for FaultyTerm { reward, term, episode, step } in faulty {
             let part = match term {
                 Some(term) => format!("`{term}` of the reward `{reward}`"),

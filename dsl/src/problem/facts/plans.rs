@@ -99,8 +99,13 @@ facts! {
             say(format!("`{text}` belongs to curricula"), "a check measures all of its episodes")
                 .help("leave it out"),
         /// A share outside of 0 to 1.
-        Share { what: &'static str, text: String } = Code::OutOfRange =>
-            say(format!("{what} is `{text}`, outside 0%..100%"), "").help("write a share in 0%..100%"),
+        Share { what: &'static str, text: String } = Code::OutOfRange => {
+            let said = say(format!("{what} is `{text}`, outside 0%..100%"), "");
+            match text.parse::<f64>() {
+                Ok(number) if (1.0..=100.0).contains(&number) => said.help(format!("write `{text}%`")),
+                _ => said.help("write a share in 0%..100%"),
+            }
+        },
         /// A band whose lower bound isn't below the upper one.
         EmptyBand { low: String, high: String } = Code::OutOfRange =>
             say(format!("nothing is kept in {low}..{high}"), "")

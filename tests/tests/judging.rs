@@ -13,6 +13,7 @@ use setpiece_engine::batch::{EpisodeSummary, ReadyMade, run_episodes};
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece_engine::judge::Recorded;
+use setpiece_engine::observe::Floats;
 use setpiece_engine::random::{Purpose, Stream};
 use setpiece_scenario::vocabulary::{EventKind, Team};
 use setpiece_scenario::{Action, Scenario};
@@ -241,7 +242,7 @@ fn a_potential_leaves_out_nothing_that_moves_the_ball_or_the_agent() {
         }
         assert!((sum - (before.unwrap()[0] - start)).abs() < 1e-6, "{sum}");
     }
-    assert!(restarts > 2 && handed_over > 20, "{restarts} restarts, {handed_over} times");
+    assert!(restarts > 1 && handed_over > 20, "{restarts} restarts, {handed_over} times");
 }
 
 #[test]
@@ -413,7 +414,7 @@ fn who_is_absent_ends_nothing_and_has_no_record_and_no_view() {
             env.step(&[Action::Idle; 2], &mut Scratch::default()).unwrap();
         }
         let mut seen = vec![0.0; 4];
-        env.observe(0, Floats::Vector, &mut seen).unwrap();
+        env.observe(Floats::Vector, 0, &mut seen).unwrap();
         let records: Vec<Option<f64>> = env
             .records()
             .map(|(_, value)| match value {

@@ -39,7 +39,7 @@ pub(super) const HABITS: &[Habit] = &[
     row(
         Name,
         "keeper¦goalkeeper¦goalie",
-        "name the player, `{1}: GK at …`; `for` and `to` also take the role, `GK`",
+        "the role is `GK`; a player's own name stands before it: `{1}: GK at …`",
     ),
     row(Name, "scorer", "who scores is `event.by` after `on goal`; `give 1 to goal` pays them"),
     row(

@@ -285,8 +285,8 @@ pub(super) fn adjust<'w>(
     }
 }
 
-/// `each …` of a scope: defaults, behind the players' own options; `is_own` tells whether it must fit
-/// somebody.
+/// `each …` of a scope: defaults, behind the players' own options; `is_own` tells whether it must
+/// fit somebody.
 pub(super) fn apply_each<'w>(
     world: &World<'w>,
     players: &mut [Rostered<'w>],

@@ -174,8 +174,8 @@ impl<'w> Lower<'_, 'w> {
     /// What a potential pays in a step: γ Φ(s') - Φ(s) (Ng, Harada and Russell 1999, theorem 1).
     ///
     /// A state in which the episode terminates has the potential 0. Otherwise the best policy would
-    /// depend on where episodes end (Grzes 2017). Φ(s) is what was paid for in the last step, before
-    /// any restart and for the player of that step. So the payments of an episode add up to -Φ of
+    /// depend on where episodes end (Grzes 2017). Φ(s) is what the last step was judged by: before
+    /// any restart, and for the player of that step. So the payments of an episode add up to -Φ of
     /// its start, and nothing that moves the ball or the agent in between is left out.
     fn potential(&mut self, e: &'w Expr, gamma: &'w Expr) -> Value<'w> {
         let now = self.want_reg(e, Ty::Number);

@@ -33,7 +33,8 @@ facts! {
                 ))
             }
         },
-        /// A player of a parent is read that a child's own players replace; `by`: the first of these.
+        /// A player of a parent is read that a child's own players replace; `by`: the first of
+        /// these.
         ReplacedPlayer {
             name: String,
             child: String,

@@ -391,6 +391,7 @@ fn with_unit(text: &str, wanted: Ty) -> Option<String> {
     text.replace('_', "").parse::<f64>().ok()?;
     Some(match wanted {
         Ty::LENGTH => format!("{text}m"),
+        Ty::DURATION if text.contains('.') => format!("{text}s"),
         Ty::DURATION => format!("{text}s` or `{text} steps"),
         Ty::SPEED => format!("{text}m/s"),
         Ty::ANGLE => format!("{text}deg"),

@@ -28,6 +28,10 @@ enum SourceKind {
     Other(Arc<Mutex<dyn LevelSource>>),
 }
 
+/// A level of a list: the place of its scenario, its parameters, and its seed and index if it is
+/// one episode.
+type GivenListed<'py> = (usize, Bound<'py, PyDict>, Option<(u64, u64)>);
+
 /// How `Levels.prioritized` keeps levels; the package has validated it.
 #[derive(FromPyObject)]
 pub(crate) struct PrioritizedArguments {
@@ -71,9 +75,9 @@ impl Levels {
     fn listed(
         py: Python<'_>,
         scenarios: Vec<PyRef<'_, Scenario>>,
-        levels: Vec<(usize, Bound<'_, PyDict>, Option<(u64, u64)>)>,
+        levels: Vec<GivenListed<'_>>,
     ) -> PyResult<Levels> {
-        let level = |(scenario, given, episode): (usize, Bound<'_, PyDict>, _)| {
+        let level = |(scenario, given, episode): GivenListed<'_>| {
             let of = scenarios.get(scenario).map_or(&[][..], |it| &it.inner().params);
             Ok(ListedLevel { scenario, bindings: params::bind(py, of, &given)?, episode })
         };

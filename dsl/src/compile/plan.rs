@@ -269,14 +269,11 @@ impl<'c, 'w> Planner<'c, 'w> {
                     }
                     let stage = self.stage(name, scenario, how);
                     let found = stage.as_ref().and_then(|stage| agents::agents_of(&stage.played));
-                    if let (Some(found), Some((first, known))) = (found, crew) {
-                        if found != known {
-                            let (stage, known) = (name.node.clone(), (first, known));
-                            self.report(
-                                scenario.name.span,
-                                Facts::OtherAgents { stage, found, known },
-                            );
-                        }
+                    if let (Some(found), Some((first, known))) = (found, crew)
+                        && found != known
+                    {
+                        let (stage, known) = (name.node.clone(), (first, known));
+                        self.report(scenario.name.span, Facts::OtherAgents { stage, found, known });
                     }
                     crew = crew.or(found.map(|found| (scenario.name.span, found)));
                     stages.extend(stage);

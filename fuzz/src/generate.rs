@@ -27,6 +27,8 @@ struct Writer<'a, 'b> {
     tables: Vec<String>,
     /// Names of behaviours that take no arguments.
     behaviors: Vec<String>,
+    /// Names of formations.
+    formations: Vec<String>,
 }
 
 /// The context of an expression, which decides what it may contain.
@@ -74,6 +76,7 @@ pub fn scenario(choices: &mut Choices<'_>) -> String {
         regions: vec![],
         tables: vec![],
         behaviors: vec![],
+        formations: vec![],
     };
     writer.file();
     writer.out
@@ -93,6 +96,11 @@ impl Writer<'_, '_> {
         }
         for n in 0..self.choices.below(3) {
             self.table(n);
+        }
+        if self.choices.rarely(3) {
+            for n in 0..=self.choices.below(2) {
+                self.formation(n);
+            }
         }
         let squads = std::mem::take(&mut self.squads);
         for n in 0..self.choices.below(3) {

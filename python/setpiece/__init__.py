@@ -39,6 +39,7 @@ from setpiece._errors import (
     UnknownScenarioError,
 )
 from setpiece._groups import FootballGroups, make_groups
+from setpiece._level import Level
 from setpiece._levels import Curriculum, LevelResult, curriculum
 from setpiece._library import Entry, list, register_envs
 from setpiece._make import make
@@ -75,6 +76,7 @@ __all__ = [
     "GrfScriptError",
     "InUseError",
     "Label",
+    "Level",
     "LevelError",
     "LevelResult",
     "MissingPackageError",

@@ -50,25 +50,29 @@ def revivable(opponents: Mapping[str, Opponent] | None) -> dict[str, Opponent] |
 
 
 def scripted_scenario(
-    scenario: Source, options: EnvOptions, params: Mapping[str, ParamValue]
+    scenario: Source,
+    options: EnvOptions,
+    params: Mapping[str, ParamValue],
+    name: str | None = None,
 ) -> Scenario:
     """Returns a scenario whose players are played by the behaviours and scripts of `options`.
 
     A side's behaviour plays its players without an `ai` of their own; an agent's behaviour plays
     the player that the agent keeps. `params` are bound only to determine the agents; the returned
-    scenario doesn't have them.
+    scenario doesn't have them. `name` is which of several in a file or a text, as in
+    `setpiece.load`.
 
     Raises `ParameterError` for an unknown behaviour, for an agent that doesn't exist or that
     changes players, and for a compiled scenario, which can't be changed.
     """
     ai, outside = options.scripted, options.allow_outside
     if not ai:
-        return load(scenario, allow_outside=outside)
+        return load(scenario, name, allow_outside=outside)
     casting = [Casting(SIDES.index(who), None, word) for who, word in ai.items() if who in SIDES]
     named = {who: word for who, word in ai.items() if who not in SIDES}
     if named:
         agents = _native.agents(
-            load(scenario, allow_outside=outside).with_params(**params), options
+            load(scenario, name, allow_outside=outside).with_params(**params), options
         )
         casting += [
             one
@@ -86,11 +90,11 @@ def scripted_scenario(
     text = text_of(scenario)
     try:
         if text is None:
-            return _native.load_cast(path_of(scenario), casting, allow_outside=outside)
-        return _native.compile_cast(text, name_of(scenario), casting, allow_outside=outside)
+            return _native.load_cast(path_of(scenario), name, casting, allow_outside=outside)
+        return _native.compile_cast(text, name_of(scenario), name, casting, allow_outside=outside)
     except CompileError as error:
         # A scenario with errors of its own raises them here.
-        base = load(scenario, allow_outside=outside)
+        base = load(scenario, name, allow_outside=outside)
         first = next(one for one in error.diagnostics if one.severity == "error")
         message = f"`{base.name}` can't be played with {words}: {first.message}"
         raise ParameterError(message, name="opponents", code=first.code, help=first.help) from None

@@ -17,9 +17,12 @@ from setpiece._callbacks import (
     read_rewards,
 )
 from setpiece._casting import behaviors, revivable
+from setpiece._errors import ParameterError
+from setpiece._level import Level
 from setpiece._opponents import Opponent, native_action_set
 from setpiece._options import ParamValue, check_flag, check_number, check_params
 from setpiece._seats import Seats
+from setpiece._source import Source, level_of
 from setpiece._spaces import (
     MAP_MAX,
     PICTURE_MAX,
@@ -178,3 +181,19 @@ class EnvOptions:
         return replace(
             self, reward_functions=copied(self.reward_functions, memo), ends=copied(self.ends, memo)
         )
+
+
+def begun_in(scenario: Source, options: EnvOptions) -> tuple[Source, Level | None, EnvOptions]:
+    """What an environment is made of: a scenario, and the level that is given instead of one.
+
+    The options bind the parameters of the level. Raises `ParameterError` for options that the level
+    decides.
+    """
+    level = level_of(scenario)
+    if level is None:
+        return scenario, None, options
+    for name, given in (("params", options.params or None), ("seed", options.seed)):
+        if given is not None and (name == "params" or level.seed is not None):
+            raise ParameterError(f"a level and `{name}` exclude each other", name=name)
+    begun = None if level.seed is None else level
+    return level.scenario, begun, replace(options, params=level.params)

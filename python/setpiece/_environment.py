@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._casting import scripted_scenario
-from setpiece._env_options import CAMERAS, RENDER_MODES, EnvArguments, EnvOptions
+from setpiece._env_options import CAMERAS, RENDER_MODES, EnvArguments, EnvOptions, begun_in
 from setpiece._errors import CallbackError, DrawError, OpponentError, ParameterError, ScriptError
 from setpiece._match import Match, match_of
 from setpiece._native import Moment, Scenario
@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 Mirror = Callable[[Callable[[], bytes]], object]
 """Takes an episode that has ended: a function that returns its replay."""
 
-COPIED = ("spec", "_np_random", "_np_random_seed", "_playing", "_same_agents")
+COPIED = ("spec", "_np_random", "_np_random_seed", "_playing", "_same_agents", "_level")
 """Attributes that a copy or pickle keeps unchanged."""
 
 
@@ -127,6 +127,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                 "a watched file says itself who plays: write it there", name="watch"
             )
         self._record = read_record(record, record_when, record_quality)
+        scenario, self._level, options = begun_in(scenario, options)
         self.source = scenario
         self._watcher = (
             Watcher(scenario, watch, on_reload, allow_outside=options.allow_outside)
@@ -138,6 +139,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             if self._watcher
             else scripted_scenario(scenario, options, options.params)
         )
+        if self._level is not None:
+            # A path may have stood for the name.
+            self._level = replace(self._level, scenario=found.name)
+            self._level.check(found)
         self._set_up(found, options)
 
     def _set_up(self, scenario: Scenario, options: EnvOptions) -> None:
@@ -179,7 +184,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             accepts, with its own parameters and the given `params`. From then on the environment is
             like one made with these two and otherwise the same arguments. The spaces must stay;
           - `{"episode": n}` sets the index;
-          - `{"level": …}` begins the episode of a level: the text of an earlier
+          - `{"level": …}` begins the episode of a level: a `Level`, its text as in an earlier
             `info["setpiece"]["level"]`, or a dict with the keys of its JSON (`scenario`, `params`,
             `seed`, `episode`, `digest`). It stands for `seed`, `params` and `episode`, and is of
             the environment's scenario, or of the `scenario` given with it;
@@ -187,6 +192,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             or of another with the same players and agents. Places, ball, everything under way,
             score, cards, fatigue and clock are the snapshot's; rules, difficulty and limit are the
             scenario's; rewards, records and random numbers start as at any reset.
+
+        An environment that was made of a level begins it again if neither is given.
 
         Raises `LevelError` for a level of another scenario, `ParameterError` for unknown options or
         parameters and for a scenario that would change the spaces, what `setpiece.make` does for
@@ -198,6 +205,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         change, ends it.
         """
         with self._turn:
+            if self._level is not None and seed is None and not options:
+                options = {"level": self._level}
             begun = self._begun(read_reset_options(seed, options))
         if self.render_mode == "human":
             self.render()
@@ -305,6 +314,18 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def last_reload(self) -> Reload | None:
         """The result of the last change of the scenario's files; None before the first."""
         return None if self._watcher is None else self._watcher.last
+
+    @property
+    def level(self) -> str:
+        """The level that is played, as text.
+
+        Raises `ResetNeeded` before the first `reset`.
+        """
+        with one_thread:
+            level = self._native.level
+        if level is None:
+            raise gymnasium.error.ResetNeeded("call `reset` first: no level is being played")
+        return level
 
     @property
     def slots(self) -> list[_native.AgentInfo]:
@@ -478,6 +499,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
         # A failed reset leaves no trace, except that no episode is running.
         if switched is not None:
             self._enter(switched)
+            self._level = None
         self._seed, self._index, self._params = number, (at + 1) & NUMBER_MAX, params
         if self._watcher is not None:
             info["scenario"] = self._match.digest

@@ -6,15 +6,19 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
 
 from setpiece import _native
 from setpiece._callbacks import failed
 from setpiece._errors import ParameterError, SetpieceError
-from setpiece._level import Level, read_level
+from setpiece._level import Level, LevelLike, read_level, read_listed
+from setpiece._library import list as library_names
 from setpiece._native import Scenario
 from setpiece._options import ParamValue, check_flag, check_number, check_path
-from setpiece._source import Source, path_of, text_of
+from setpiece._source import Source, is_file, is_text, path_of, text_of
 
 
 class LevelSource:
@@ -61,6 +65,10 @@ class LevelSource:
                 f"expected a `state_dict`, found `{type(state).__name__}`", name="state"
             ) from None
         self._native.set_state(text)
+
+
+class ListedLevels(LevelSource):
+    """Levels in their order, again and again."""
 
 
 class Curriculum(LevelSource):
@@ -119,7 +127,7 @@ def place_of(
 ) -> tuple[str | PathLike[str] | None, bool, str | None]:
     """Where a plan stands: its file or text (None: the library), whether a text, and its name."""
     if not isinstance(source, str) or is_plan(source):
-        return source, _is_text(source), name
+        return source, is_text(source), name
     if name is not None:
         raise ParameterError(
             f"`{source}` is a name of the library, which has no `{name}` in it",
@@ -138,11 +146,7 @@ def is_plan(source: object) -> bool:
     """Whether it is a text or the path of a `.pitch` file."""
     if isinstance(source, PathLike):
         source = str(check_path("levels", source))
-    return isinstance(source, str) and (source.endswith(".pitch") or _is_text(source))
-
-
-def _is_text(source: object) -> bool:
-    return isinstance(source, str) and text_of(source) is not None
+    return is_file(source) or (isinstance(source, str) and is_text(source))
 
 
 @dataclass(frozen=True)
@@ -163,6 +167,14 @@ class LevelResult:
     records: dict[str, Any]
 
 
+class HasLevels(Protocol):
+    """What has levels of its own: a suite."""
+
+    @property
+    def levels(self) -> LevelSource:
+        """Its levels."""
+
+
 class GivenLevel(NamedTuple):
     """A level with its scenario; the native module reads its attributes."""
 
@@ -175,17 +187,23 @@ class GivenLevel(NamedTuple):
     def of(cls, level: Level, scenario: Scenario) -> GivenLevel:
         """Checks that a level is of a scenario, or raises `LevelError`."""
         level.check(scenario)
-        return cls(scenario, level.params, level.seed, level.episode)
+        return cls(scenario, level.params, *level.key)
 
 
-LevelFunction = Callable[[LevelResult | None], str | Mapping[str, Any]]
+LevelFunction = Callable[[LevelResult | None], LevelLike]
 """From the result of an environment's last level to its next level.
 
 The result is None before the first, and after an episode that has failed.
 """
 
 LevelsArgument = (
-    LevelSource | LevelFunction | Sequence[str | Mapping[str, Any]] | str | PathLike[str]
+    LevelSource
+    | LevelFunction
+    | Sequence[LevelLike | Scenario]
+    | NDArray[Any]
+    | HasLevels
+    | LevelLike
+    | PathLike[str]
 )
 """Where the levels of a vector come from: see `setpiece.make_vec`."""
 
@@ -223,17 +241,28 @@ class FunctionLevels:
 
 
 def read_levels(
-    given: object, source: Source, load: Callable[[str], Scenario], allow_outside: bool
+    given: object,
+    source: Source,
+    scenario: str,
+    load: Callable[[str], Scenario],
+    allow_outside: bool,
 ) -> LevelSource | FunctionLevels:
     """Reads `levels` of a vector of a scenario, or raises `ParameterError`.
 
-    `load` returns the scenario of a level's name: the vector's own, or one of the library.
+    `load` returns the scenario of a level's name: the vector's own, one of its file, or one of the
+    library.
     """
     if isinstance(given, LevelSource):
         return given
+    if (own := source_of(given)) is not None:
+        return own
+    if isinstance(given, np.ndarray):
+        given = given.tolist()
+    if isinstance(given, Level | Mapping) or (isinstance(given, str) and "#" in given):
+        given = [given]
     if isinstance(given, str | PathLike):
         if is_plan(given):
-            return curriculum(given, allow_outside=allow_outside)
+            return _planned(given, None, allow_outside)
         return _named(str(given), source, allow_outside)
     if isinstance(given, type):
         raise ParameterError(
@@ -244,40 +273,61 @@ def read_levels(
     if callable(given):
         return FunctionLevels(given, load)
     if isinstance(given, Sequence) and not isinstance(given, bytes):
-        return _listed(given, load)
+        return _listed(given, scenario, load)
     raise ParameterError(
-        f"expected `levels` as a curriculum, a sampler, a list or a function, found `{given!r}`",
+        f"expected `levels` as a curriculum, a suite, a sampler, a list or a function, "
+        f"found `{given!r}`",
         name="levels",
     )
 
 
-def _named(name: str, source: Source, allow_outside: bool) -> Curriculum:
-    """A curriculum that stands beside the vector's scenario, or in the library."""
+def source_of(given: object) -> LevelSource | None:
+    """The levels of a suite; None for anything else."""
+    levels = None if isinstance(given, type) else getattr(given, "levels", None)
+    return levels if isinstance(levels, LevelSource) else None
+
+
+def _planned(
+    source: str | PathLike[str] | None, name: str | None, allow_outside: bool
+) -> LevelSource:
+    """The curriculum of a name, or the suite; without a name the only one of a file or text."""
+    at = (source, is_text(source), name)
+    try:
+        return Curriculum(_native.Levels.curriculum(*at, None, allow_outside))
+    except ParameterError as no_curriculum:
+        try:
+            return ListedLevels(_native.Suite(*at, allow_outside).listed())
+        except ParameterError as no_suite:
+            raise (no_suite if no_suite.help else no_curriculum) from None
+
+
+def _named(name: str, source: Source, allow_outside: bool) -> LevelSource:
+    """A curriculum or a suite that stands beside the vector's scenario, or in the library."""
     text = None if isinstance(source, Scenario) else text_of(source)
     path = path_of(source) if text is None and is_plan(source) else None
-    where = path if text is None else text
     try:
-        return Curriculum(
-            _native.Levels.curriculum(where, text is not None, name, None, allow_outside)
-        )
+        return _planned(path if text is None else text, name, allow_outside)
     except ParameterError as error:
-        if not isinstance(source, Scenario):
-            raise
-        raise ParameterError(
-            str(error),
-            name="levels",
-            code=error.code,
-            help="a loaded scenario has no curricula: give the file or the text instead of it",
-        ) from None
+        said, helped = str(error.args[0]), error.help
+        if name in library_names():
+            said = f"no curriculum and no suite is called `{name}`"
+            helped = f"a scenario stands in a list: `levels=[{name!r}]`"
+        elif isinstance(source, Scenario):
+            helped = "a loaded scenario has no curricula: give the file or the text instead of it"
+        raise ParameterError(said, name="levels", code=error.code, help=helped) from None
 
 
-def _listed(given: Sequence[object], load: Callable[[str], Scenario]) -> LevelSource:
-    scenarios: dict[str, Scenario] = {}
+def _listed(
+    given: Sequence[object], scenario: str, load: Callable[[str], Scenario]
+) -> ListedLevels:
+    scenarios: dict[object, Scenario] = {}
     levels = []
-    for level in map(read_level, given):
-        if level.scenario not in scenarios:
-            scenarios[level.scenario] = load(level.scenario)
-        level.check(scenarios[level.scenario])
-        place = [*scenarios].index(level.scenario)
-        levels.append((place, level.params, level.seed, level.episode))
-    return LevelSource(_native.Levels.listed([*scenarios.values()], levels))
+    for one in given:
+        level = Level(one.name) if isinstance(one, Scenario) else read_listed(one, scenario)
+        key: object = id(one) if isinstance(one, Scenario) else level.scenario
+        if key not in scenarios:
+            scenarios[key] = one if isinstance(one, Scenario) else load(level.scenario)
+        level.check(scenarios[key])
+        episode = None if level.seed is None else level.key
+        levels.append(([*scenarios].index(key), level.params, episode))
+    return ListedLevels(_native.Levels.listed([*scenarios.values()], levels))

@@ -50,7 +50,9 @@ def make(
     """Makes an environment of a scenario.
 
     - `scenario`: a name of the library, the path of a `.pitch` or `.pitchc` file, a `Scenario`, a
-      text (a string with a `{`), or a dict: see `ScenarioDict`.
+      text (a string with a `{`), or a dict: see `ScenarioDict`. `setpiece.load` chooses one of
+      several in a file. A level, as a `Level` or its text, is one episode, which every `reset`
+      begins again that gets neither a seed nor options.
     - `left`, `right`: how many agents play on each side: a count, `"all"`, a list of players'
       names; None: as the scenario says.
     - `opponents`: what plays some of these agents instead of the caller: by side (`"left"`,

@@ -15,7 +15,7 @@ from setpiece._callbacks import Rewards, refuse_functions
 from setpiece._crowd import Crowd
 from setpiece._env_options import EnvOptions
 from setpiece._errors import ParameterError
-from setpiece._levels import LevelSource, place_of
+from setpiece._levels import LevelSource, ListedLevels, place_of
 from setpiece._native import ACTION_SETS, AGENTS, EPISODES_MAX
 from setpiece._opponents import SIDES, Opponent, Table, is_onnx, is_word, policy_of
 from setpiece._optional import need
@@ -162,7 +162,7 @@ class Suite:
     @property
     def levels(self) -> LevelSource:
         """Its levels, again and again: `levels` of `setpiece.make_vec`."""
-        return LevelSource(self._native.listed())
+        return ListedLevels(self._native.listed())
 
     def __repr__(self) -> str:
         """Returns the name and the number of entries."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -19,7 +20,13 @@ from setpiece._callbacks import Rewards, refuse_functions
 from setpiece._casting import scripted_scenario
 from setpiece._crowd import Crowd
 from setpiece._endings import endings
-from setpiece._env_options import RENDER_MODES, EnvOptions, SharedArguments, VectorArguments
+from setpiece._env_options import (
+    RENDER_MODES,
+    EnvOptions,
+    SharedArguments,
+    VectorArguments,
+    begun_in,
+)
 from setpiece._environment import FootballEnv, Mirror
 from setpiece._errors import ActionError, ParameterError, ReplayError, UnavailableError
 from setpiece._levels import LevelsArgument
@@ -89,6 +96,10 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         each = isinstance(params, list | tuple)
         shared = {} if each else {"params": params}
         options = EnvOptions.read({**arguments, **shared}, SharedArguments)
+        scenario, level, options = begun_in(scenario, options)
+        if level is not None and (levels is not None or each):
+            other = "levels" if levels is not None else "params"
+            raise ParameterError(f"a level and `{other}` exclude each other", name=other)
         self.source = scenario
         self.mirrors: list[Mirror] = []
         self._acts: list[Any] | None = None
@@ -109,6 +120,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self.scenario = scripted_scenario(scenario, options, options.params).with_params(
             **options.params
         )
+        if level is not None:
+            # A path may have stood for the name.
+            levels, params = [replace(level, scenario=self.scenario.name)], None
         self._levels = VectorLevels(levels, params, scenario, self.scenario, options)
         self.level_source = self._levels.source
         self._batch = _native.Batch(
@@ -472,10 +486,13 @@ def make_vec(
     - `levels`: what chooses the scenario, the parameters and the seed of every episode. An
       environment that begins takes the next level; which environment has which doesn't depend on
       the threads. `levels` of the vector names those that are played.
-      - a curriculum: its name in the scenario's file or in the library, the path of a file, or
-        `setpiece.curriculum(…)`;
+      - a curriculum or a suite: its name in the scenario's file or in the library, the path of a
+        file, `setpiece.curriculum(…)` or `setpiece.suite(…)`;
       - a sampler of `setpiece.samplers`;
-      - a list of levels, as texts or dicts, which begins again after its end;
+      - a level (a `Level`, its text or a dict), or a list of levels, which begins again after its
+        end. A level of a list may lack its seed: then it is another episode every time, under the
+        seed of the vector. So a list may also hold names of scenarios (of the scenario's file, or
+        of the library), loaded scenarios, and parameters: `{"params": {…}}`;
       - a function from the `LevelResult` of an environment's last level, None before the first, to
         its next level.
 

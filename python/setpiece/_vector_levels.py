@@ -7,12 +7,19 @@ from collections.abc import Mapping, Sequence
 from setpiece import _native
 from setpiece._casting import scripted_scenario
 from setpiece._env_options import EnvOptions
-from setpiece._errors import ParameterError
+from setpiece._errors import CompileError, ParameterError
 from setpiece._level import Level
-from setpiece._levels import FunctionLevels, GivenLevel, LevelsArgument, LevelSource, read_levels
+from setpiece._levels import (
+    FunctionLevels,
+    GivenLevel,
+    LevelsArgument,
+    LevelSource,
+    ListedLevels,
+    read_levels,
+)
 from setpiece._native import Scenario
 from setpiece._options import ParamValue
-from setpiece._source import Source
+from setpiece._source import Source, is_file, is_text
 
 Params = Mapping[str, ParamValue] | Sequence[Mapping[str, ParamValue]] | None
 """Parameters of all environments, or of each."""
@@ -35,12 +42,12 @@ class VectorLevels:
         options: EnvOptions,
     ) -> None:
         """Reads `levels` of a vector of a scenario, or raises `ParameterError`."""
-        self._scenario, self._options = scenario, options
+        self._source, self._scenario, self._options = source, scenario, options
         self.chosen = levels is not None
         if levels is None:
             return
-        read = read_levels(levels, source, self._load, options.allow_outside)
-        is_given = isinstance(read, FunctionLevels) or isinstance(levels, list | tuple)
+        read = read_levels(levels, source, scenario.name, self._load, options.allow_outside)
+        is_given = isinstance(read, FunctionLevels | ListedLevels)
         if isinstance(params, list | tuple) or (params is not None and not is_given):
             raise ParameterError(
                 "`levels` chooses the parameters",
@@ -59,9 +66,15 @@ class VectorLevels:
         self.source, self.native = read, read.native
 
     def _load(self, name: str) -> Scenario:
-        """The scenario of a level's name: the vector's own, or one of the library."""
+        """The scenario of a level's name: the vector's, another one of its file, or the library's."""
         if name == self._scenario.name:
             return self._scenario
+        if is_text(self._source) or is_file(self._source):
+            try:
+                return scripted_scenario(self._source, self._options, {}, name)
+            except CompileError as error:
+                if error.code != "SP0214":
+                    raise
         return scripted_scenario(name, self._options, {})
 
     def given(

@@ -139,7 +139,7 @@ class Prioritized(LevelSource):
             if not isfinite(score):
                 raise ParameterError(f"the score of `{given}` is {score}", name="scores")
         for level, score in zip(read, scores, strict=True):
-            self._native.score(level.params, level.seed, level.episode, float(score))
+            self._native.score(level.params, *level.key, float(score))
 
 
 def _varied(scenario: Scenario, params: Sequence[str] | None) -> list[int]:

@@ -3,6 +3,7 @@
 use crate::actions::{self, ActionSet, GivenAction};
 use crate::errors;
 use crate::info::{InfoOptions, InfoWriter};
+use crate::level;
 use crate::observation::{self, BlockInfo, ObservationForm, ObservationKind, Observer, Wanted};
 use crate::options::EnvOptions;
 use crate::params::{bind, to_python};
@@ -215,6 +216,13 @@ impl Environment {
     fn episode(&self) -> Option<EpisodeKey> {
         let engine = &self.engine;
         engine.has_begun().then(|| EpisodeKey { seed: engine.seed(), index: engine.index() })
+    }
+
+    /// The level of the episode as text; None before the first.
+    #[getter]
+    fn level(&self) -> Option<String> {
+        let engine = &self.engine;
+        engine.has_begun().then(|| level::of_episode(engine, engine.bindings()))
     }
 
     /// Whether each agent's player was sent off, leaving it nobody to control.

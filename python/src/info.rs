@@ -188,6 +188,7 @@ pub(crate) fn records<'py>(py: Python<'py>, engine: &Engine) -> PyResult<Bound<'
 fn recorded(py: Python<'_>, value: Recorded) -> PyResult<Bound<'_, PyAny>> {
     Ok(match value {
         Recorded::Number(value) => value.into_pyobject(py)?,
+        Recorded::Place([x, y]) if x.is_nan() || y.is_nan() => py.None().into_bound(py),
         Recorded::Place([x, y]) => (x, y).into_pyobject(py)?.into_any(),
         Recorded::Numbers(values) => PyArray1::from_vec(py, values).into_any(),
         Recorded::Places(places) => {

@@ -21,15 +21,25 @@ pub(crate) fn of_episode(engine: &Engine, bindings: &Bindings) -> String {
     level.to_string()
 }
 
+/// The text of a level's JSON.
+#[pyfunction]
+pub(crate) fn level_text(text: &Bound<'_, PyAny>) -> PyResult<String> {
+    Ok(read(text)?.to_string())
+}
+
+fn read(text: &Bound<'_, PyAny>) -> PyResult<Level> {
+    let (py, text) = (text.py(), given::text("level", text)?);
+    Level::read(&text)
+        .map_err(|why| errors::parameter(py, "level", &format!("`{text}` is no level: {why}")))
+}
+
 /// A level's text or JSON as a dict with the keys of the JSON.
 #[pyfunction]
 pub(crate) fn level<'py>(
     py: Python<'py>,
     text: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let text = given::text("level", text)?;
-    let level = Level::read(&text)
-        .map_err(|why| errors::parameter(py, "level", &format!("`{text}` is no level: {why}")))?;
+    let level = read(text)?;
     let dict = PyDict::new(py);
     dict.set_item("scenario", level.scenario)?;
     dict.set_item("digest", level.digest)?;

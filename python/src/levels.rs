@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use setpiece::evaluate::Results;
 use setpiece::levels::{
-    ChosenLevel, CurriculumRun, LevelScore, LevelSource, ListedLevels, Numbering, PlannedLevels,
+    CurriculumRun, LevelScore, LevelSource, ListedLevel, ListedLevels, Numbering, PlannedLevels,
     PrioritizedLevels, RandomizedLevels, ReplayOptions, SourcedScenario,
 };
 use setpiece::plans::{PlansOf, curriculum_of};
@@ -27,6 +27,10 @@ enum SourceKind {
     Prioritized(Arc<Mutex<PrioritizedLevels>>),
     Other(Arc<Mutex<dyn LevelSource>>),
 }
+
+/// A level of a list: the place of its scenario, its parameters, and its seed and index if it is
+/// one episode.
+type GivenListed<'py> = (usize, Bound<'py, PyDict>, Option<(u64, u64)>);
 
 /// How `Levels.prioritized` keeps levels; the package has validated it.
 #[derive(FromPyObject)]
@@ -65,21 +69,19 @@ impl Levels {
         Ok(Levels { kind: SourceKind::Curriculum(Arc::new(Mutex::new(run))) })
     }
 
-    /// A list of levels: the place of each one's scenario, its parameters, seed and index.
+    /// A list of levels: the place of each one's scenario, its parameters, and its seed and index,
+    /// or none for an episode that is another one every time.
     #[staticmethod]
     fn listed(
         py: Python<'_>,
         scenarios: Vec<PyRef<'_, Scenario>>,
-        levels: Vec<(usize, Bound<'_, PyDict>, u64, u64)>,
+        levels: Vec<GivenListed<'_>>,
     ) -> PyResult<Levels> {
-        let level = |(at, (scenario, given, seed, episode)): (usize, _)| {
-            let (scenario, given): (usize, Bound<'_, PyDict>) = (scenario, given);
+        let level = |(scenario, given, episode): GivenListed<'_>| {
             let of = scenarios.get(scenario).map_or(&[][..], |it| &it.inner().params);
-            let bindings = params::bind(py, of, &given)?;
-            Ok(ChosenLevel { scenario, bindings, seed, episode, tag: at as u64 })
+            Ok(ListedLevel { scenario, bindings: params::bind(py, of, &given)?, episode })
         };
-        let levels: PyResult<Vec<ChosenLevel>> =
-            levels.into_iter().enumerate().map(level).collect();
+        let levels: PyResult<Vec<ListedLevel>> = levels.into_iter().map(level).collect();
         let sourced = scenarios.iter().map(|scenario| SourcedScenario {
             place: format!("`{}` of the list", scenario.inner().name),
             scenario: scenario.inner().clone(),

@@ -44,7 +44,7 @@ mod _native {
     #[pymodule_export]
     use crate::grf::{grf_name, grf_text};
     #[pymodule_export]
-    use crate::level::level;
+    use crate::level::{level, level_text};
     #[pymodule_export]
     use crate::levels::Levels;
     #[pymodule_export]

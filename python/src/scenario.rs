@@ -102,6 +102,16 @@ impl Scenario {
         self.inner.rewards.iter().map(|reward| reward.name.as_str()).collect()
     }
 
+    /// The records with their units, in the file's order; an empty unit is that of a plain number.
+    #[getter]
+    fn records<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyMappingProxy>> {
+        let records = PyDict::new(py);
+        for record in &self.inner.records {
+            records.set_item(&record.name, record.unit.to_string())?;
+        }
+        Ok(PyMappingProxy::new(py, records.as_mapping()))
+    }
+
     /// The compiler's warnings: a list of `Diagnostic`.
     #[getter]
     fn warnings<'py>(&self, py: Python<'py>) -> Bound<'py, PyList> {
@@ -173,40 +183,51 @@ impl Scenario {
 
 /// Loads a scenario by its name in the library, or from a `.pitch` or compiled `.pitchc` file.
 ///
-/// With `allow_outside` imports and scripts may lie outside the file's folder. Raises
+/// `wanted` is the scenario's name among several of a file, whose last it is otherwise. With
+/// `allow_outside` imports and scripts may lie outside the file's folder. Raises
 /// `UnknownScenarioError`, `FileError`, `CompileError` or `FormatError`.
 #[pyfunction]
-#[pyo3(signature = (name_or_path, *, allow_outside = false))]
+#[pyo3(signature = (name_or_path, wanted = None, *, allow_outside = false))]
 pub(crate) fn load(
     py: Python<'_>,
     name_or_path: &Bound<'_, PyAny>,
+    wanted: Option<String>,
     allow_outside: bool,
 ) -> PyResult<Scenario> {
     let name_or_path = given::path("scenario", name_or_path)?;
-    let options = LoadOptions { allow_outside, ..LoadOptions::default() };
-    let loaded = interruptible(py, move || setpiece::load_with(&name_or_path, &options))?;
+    let loaded = interruptible(py, move || {
+        let scenario = wanted.as_deref();
+        let options = LoadOptions { scenario, allow_outside, ..LoadOptions::default() };
+        setpiece::load_with(&name_or_path, &options)
+    })?;
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
-/// Compiles a text in the language; `name` is its name in reports.
+/// Compiles a text in the language; `name` is its name in reports, `scenario` the scenario that is
+/// wanted of several, without it the last.
 ///
 /// With `allow_outside` imports and scripts may lie outside the folder of `name`, which is the
 /// working directory for a name without one. Raises `CompileError`, whose `diagnostics` lists every
 /// problem, `FileError` above 1 MiB, or `ParameterError` for anything but a text.
 #[pyfunction]
 #[pyo3(
-    signature = (text, name = None, *, allow_outside = false),
-    text_signature = "(text, name='<text>', *, allow_outside=False)"
+    signature = (text, name = None, *, scenario = None, allow_outside = false),
+    text_signature = "(text, name='<text>', *, scenario=None, allow_outside=False)"
 )]
 pub(crate) fn compile(
     text: &Bound<'_, PyAny>,
     name: Option<&Bound<'_, PyAny>>,
+    scenario: Option<&Bound<'_, PyAny>>,
     allow_outside: bool,
 ) -> PyResult<Scenario> {
     let py = text.py();
     let (text, name) = (given::text("text", text)?, text_name(name)?);
-    let options = LoadOptions { allow_outside, ..LoadOptions::default() };
-    let loaded = interruptible(py, move || setpiece::compile_text_with(&text, &name, &options))?;
+    let wanted = scenario.map(|wanted| given::text("scenario", wanted)).transpose()?;
+    let loaded = interruptible(py, move || {
+        let scenario = wanted.as_deref();
+        let options = LoadOptions { scenario, allow_outside, ..LoadOptions::default() };
+        setpiece::compile_text_with(&text, &name, &options)
+    })?;
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
 }
 
@@ -237,16 +258,19 @@ fn cast_of(casting: Vec<CastingArgument<'_>>) -> PyResult<Vec<Cast>> {
 
 /// Loads a scenario like `load`, with a cast that plays players.
 #[pyfunction]
-#[pyo3(signature = (name_or_path, casting, *, allow_outside = false))]
+#[pyo3(signature = (name_or_path, wanted, casting, *, allow_outside = false))]
 pub(crate) fn load_cast(
     py: Python<'_>,
     name_or_path: &Bound<'_, PyAny>,
+    wanted: Option<String>,
     casting: Vec<CastingArgument<'_>>,
     allow_outside: bool,
 ) -> PyResult<Scenario> {
     let (name_or_path, cast) = (given::path("scenario", name_or_path)?, cast_of(casting)?);
     let loaded = interruptible(py, move || {
-        let options = LoadOptions { cast: &cast, allow_outside, ..LoadOptions::default() };
+        let scenario = wanted.as_deref();
+        let options =
+            LoadOptions { scenario, cast: &cast, allow_outside, ..LoadOptions::default() };
         setpiece::load_with(&name_or_path, &options)
     })?;
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)
@@ -254,10 +278,11 @@ pub(crate) fn load_cast(
 
 /// Compiles a text like `compile`, with a cast that plays players.
 #[pyfunction]
-#[pyo3(signature = (text, name, casting, *, allow_outside = false))]
+#[pyo3(signature = (text, name, wanted, casting, *, allow_outside = false))]
 pub(crate) fn compile_cast(
     text: &Bound<'_, PyAny>,
     name: &Bound<'_, PyAny>,
+    wanted: Option<String>,
     casting: Vec<CastingArgument<'_>>,
     allow_outside: bool,
 ) -> PyResult<Scenario> {
@@ -265,7 +290,9 @@ pub(crate) fn compile_cast(
     let (text, name, cast) =
         (given::text("text", text)?, given::text("name", name)?, cast_of(casting)?);
     let loaded = interruptible(py, move || {
-        let options = LoadOptions { cast: &cast, allow_outside, ..LoadOptions::default() };
+        let scenario = wanted.as_deref();
+        let options =
+            LoadOptions { scenario, cast: &cast, allow_outside, ..LoadOptions::default() };
         setpiece::compile_text_with(&text, &name, &options)
     })?;
     Scenario::from_loaded(py, loaded.map_err(|error| errors::from_facade(py, &error))?)

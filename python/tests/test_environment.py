@@ -398,3 +398,34 @@ def test_a_copy_goes_over_to_scenarios_that_lack_the_first_ones_parameters() -> 
         for again in (copy.clone(), pickle.loads(pickle.dumps(copy))):
             assert again.scenario.name == "s"
             assert again.step(0)[4]["score"] == [0, 0]
+
+
+def test_records_have_units_and_those_of_absent_players_none() -> None:
+    text = """
+    scenario s extends academy {
+        ball at (0.5, 0)
+        team left { CM at (0.48, 0) }
+        team right { maybe 0% ghost: CB at (0.6, 0) }
+        record gap = min of distance(ball, right.goal)
+        record speed = max of ball.speed
+        record touches = count of touch
+        record place = last of ghost
+        record near = min of distance(ghost, ball)
+        end limit 3 steps
+    }
+    """
+    scenario = setpiece.load(text)
+    assert dict(scenario.records) == {
+        "gap": "m",
+        "speed": "m/s",
+        "touches": "",
+        "place": "",
+        "near": "m",
+    }
+    env = setpiece.make(scenario)
+    env.reset(seed=1)
+    for _ in range(3):
+        *_, info = env.step(setpiece.Action.IDLE)
+    assert info["records"]["place"] is None
+    assert info["records"]["near"] is None
+    assert info["records"]["gap"] > 20

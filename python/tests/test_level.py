@@ -1,5 +1,9 @@
 """Levels: an episode begins again from the text that its last `info` has."""
 
+import copy
+import pickle
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -166,3 +170,72 @@ def test_a_level_of_another_scenario_may_say_who_plays() -> None:
     env = setpiece.make(grown, params={"n": 1})
     env.reset(options={"scenario": grown, "level": "grown{n=1}#1"})
     assert last_info(env)["level"] == "grown{gap=2m,n=1}#1"
+
+
+def test_a_level_is_a_value() -> None:
+    level = setpiece.Level("drill", seed=12, episode=1, params={"gap": 5})
+    assert str(level) == "drill{gap=5}#12:1"
+    same = {level, setpiece.Level.of(str(level).replace("gap=5", "gap=5")), level}
+    assert len({setpiece.Level("a", 1), setpiece.Level("a", 1), setpiece.Level("a", 2)}) == 2
+    assert len(same) == 2  # A text says texts: the scenario says what they mean.
+    assert setpiece.Level.of({"scenario": "drill", "seed": 3}) == setpiece.Level("drill", 3)
+    assert setpiece.Level.of(level) == level
+    assert str(setpiece.Level("drill", params={"on": True, "word": "a,b"})) == (
+        'drill{on=on,word="a,b"}'
+    )
+    assert pickle.loads(pickle.dumps(level)) == level
+    env = setpiece.make(DRILL)
+    env.reset(options={"level": level})
+    assert last_info(env)["level"] == "drill{gap=5m}#12:1"
+
+
+def test_a_level_stands_for_a_scenario() -> None:
+    text = "academy_corner{difficulty=0.8}#12:3"
+    level = setpiece.Level.of(text)
+    fields = {"scenario": "academy_corner", "params": {"difficulty": 0.8}, "seed": 12, "episode": 3}
+    for given in (text, level, fields):
+        scenario = setpiece.load(given)
+        assert (scenario.name, scenario.params["difficulty"].default) == ("academy_corner", 0.8)
+        env = setpiece.make(given)
+        for one in (env, copy.deepcopy(env), pickle.loads(pickle.dumps(env))):
+            for _ in range(2):
+                one.reset()
+                assert one.level == "academy_corner{difficulty=0.8,left_difficulty=1}#12:3"
+        env.reset(seed=5)
+        env.reset(options={"episode": 7})
+        assert env.level.endswith("#5:7")
+        env.reset()
+        assert env.level.endswith("#12:3")
+        envs = setpiece.make_vec(given, 2)
+        envs.reset()
+        assert envs.levels == ["academy_corner{difficulty=0.8,left_difficulty=1}#12:3"] * 2
+    # Without a seed it is the scenario with its parameters.
+    env = setpiece.make(setpiece.Level("academy_corner", params={"difficulty": 0.8}), seed=4)
+    env.reset()
+    env.reset()
+    assert env.level.endswith("{difficulty=0.8,left_difficulty=1}#4:1")
+    with pytest.raises(setpiece.LevelError, match="another version"):
+        setpiece.make(setpiece.Level("academy_corner", 1, digest="0" * 16))
+
+
+def test_a_level_may_name_a_file(pitch_file: Callable[[str], Path]) -> None:
+    path = pitch_file(DRILL)
+    level = setpiece.Level(str(path), 3, params={"gap": "5m"})
+    env = setpiece.make(level)
+    env.reset()
+    assert env.level == "drill{gap=5m}#3"
+    envs = setpiece.make_vec(level, 2)
+    envs.reset()
+    assert envs.levels == ["drill{gap=5m}#3"] * 2
+
+
+def test_one_of_several_scenarios_is_loaded_by_its_name(pitch_file: Callable[[str], Path]) -> None:
+    text = DRILL + DRILL.replace("drill", "second")
+    for source in (text, pitch_file(text)):
+        assert setpiece.load(source).name == "second"
+        assert setpiece.load(source, "drill").name == "drill"
+        env = setpiece.make(setpiece.load(source, "drill"), params={"gap": 4})
+        env.reset(seed=1)
+        assert env.level == "drill{gap=4m}#1"
+    assert setpiece.load("academy_corner", "academy_corner").name == "academy_corner"
+    assert setpiece.compile(text, scenario="drill").name == "drill"

@@ -3,6 +3,8 @@
 import json
 import re
 import sys
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -141,10 +143,55 @@ def test_a_loaded_scenario_brings_no_curriculum() -> None:
     assert "give the file or the text" in str(caught.value.help)
 
 
-@pytest.mark.parametrize("level", ["academy_corner#1", "academy_corner{difficulty=0.8}#12:3"])
-def test_a_level_is_no_scenario(level: str) -> None:
-    with pytest.raises(
-        setpiece.ParameterError, match="is a level, one episode of `academy_corner`"
-    ) as why:
-        setpiece.make(level)
-    assert "reset(options={'level': ...})" in str(why.value)
+def test_a_name_of_no_plan_says_what_it_is() -> None:
+    with pytest.raises(setpiece.ParameterError, match="no curriculum") as caught:
+        setpiece.make_vec("academy_corner", 2, levels="academy_empty_goal")
+    assert caught.value.help == "a scenario stands in a list: `levels=['academy_empty_goal']`"
+
+
+@pytest.mark.parametrize(
+    ("levels", "words", "helped"),
+    [
+        ([{"gap": 3}], "no key of a level is called `gap`", "{'params': {'gap': 3}}"),
+        (["far{gap=3#1"], "is no level", None),
+        (["farr"], "`farr`", None),
+        ([3], "expected a level", None),
+        ([{"scenario": "far", "episode": 3}], "needs its `seed`", None),
+    ],
+)
+def test_a_slip_in_a_list_is_named(levels: Any, words: str, helped: str | None) -> None:
+    with pytest.raises(setpiece.SetpieceError, match=words) as caught:
+        setpiece.make_vec(TEXT, 2, levels=levels)
+    assert helped is None or helped in str(caught.value.help)
+
+
+def test_an_episode_has_a_seed() -> None:
+    env = setpiece.make("academy_corner")
+    with pytest.raises(setpiece.ParameterError, match="no `seed`") as caught:
+        env.reset(options={"level": setpiece.Level("academy_corner", params={"difficulty": 0.5})})
+    assert "`academy_corner{difficulty=0.5}#7`" in str(caught.value.help)
+
+
+def test_a_level_decides_seed_and_parameters() -> None:
+    for arguments in ({"seed": 3}, {"params": {"difficulty": 0.5}}):
+        for made in (setpiece.make, lambda level, **given: setpiece.make_vec(level, 2, **given)):
+            with pytest.raises(setpiece.ParameterError, match="exclude each other"):
+                made("academy_corner#1", **arguments)
+    with pytest.raises(setpiece.ParameterError, match="exclude each other"):
+        setpiece.make_vec("academy_corner#1", 2, levels=["academy_corner#2"])
+
+
+def test_a_scenario_of_a_file_is_chosen_by_its_name(pitch_file: Callable[[str], Path]) -> None:
+    path = pitch_file(TEXT)
+    for source in (path, str(path), TEXT):
+        with pytest.raises(setpiece.CompileError, match="it has `near`, `other`") as caught:
+            setpiece.load(source, "nobody")
+        assert caught.value.code == "SP0214"
+    with pytest.raises(setpiece.SetpieceError, match="`nobody`"):
+        setpiece.load("academy_corner", "nobody")
+    loaded = setpiece.load(TEXT)
+    assert setpiece.load(loaded, loaded.name) is loaded
+    with pytest.raises(setpiece.UnknownScenarioError, match="the loaded scenario is"):
+        setpiece.load(loaded, "nobody")
+    with pytest.raises(setpiece.ParameterError, match="expected a scenario's name"):
+        setpiece.load(TEXT, 3)  # type: ignore[arg-type]

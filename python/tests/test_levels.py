@@ -197,6 +197,54 @@ def test_a_list_begins_again_after_its_end() -> None:
     ] or library.levels[1].startswith("academy_empty_goal")
 
 
+def test_a_list_holds_whatever_a_user_would_write(pitch_file: Callable[[str], Path]) -> None:
+    level = setpiece.Level("far", 3, params={"gap": 5})
+    # One level alone.
+    array = np.array(["far{gap=5m}#3"], object)
+    for one in (
+        level,
+        array,
+        "far{gap=5m}#3",
+        {"scenario": "far", "seed": 3, "params": {"gap": 5}},
+    ):
+        envs = setpiece.make_vec(COURSE, 2, levels=one)
+        envs.reset()
+        assert envs.levels == ["far{gap=5m,n=1}#3"] * 2
+    # What has no seed is another episode every time, under the seed of the vector.
+    for source in (COURSE, pitch_file(COURSE)):
+        levels = ["near", {"params": {"gap": 4}}, level, "far{gap=6m}", setpiece.load(COURSE)]
+        envs = setpiece.make_vec(source, 5, levels=levels, seed=8)
+        envs.reset()
+        assert envs.levels == [
+            *("near#8", "far{gap=4m,n=1}#8:1", "far{gap=5m,n=1}#3", "far{gap=6m,n=1}#8:3"),
+            "far{gap=2m,n=1}#8:4",
+        ]
+        assert played(envs, 12)[0] == "near#8"
+        envs.reset(seed=9)
+        assert envs.levels[:2] == ["near#9", "far{gap=4m,n=1}#9:1"]
+    # Names of the library.
+    names = ["academy_empty_goal", "academy_run_to_score"]
+    library = setpiece.make_vec("academy_empty_goal", 2, levels=names, seed=1)
+    library.reset()
+    assert [level.split("{")[0].split("#")[0] for level in library.levels] == names
+
+
+def test_a_suite_is_played_by_its_name_or_as_it_is(pitch_file: Callable[[str], Path]) -> None:
+    text = COURSE + "suite two { near for 2 episodes  far(gap: 3m) for 1 episode seed 5 }"
+    suite = setpiece.suite(text)
+    alone = pitch_file(text.replace(COURSE[COURSE.index("curriculum") :], ""))
+    for source, levels in ((text, "two"), (text, suite), (text, suite.levels), (alone, alone)):
+        envs = setpiece.make_vec(source, 4, levels=levels)
+        envs.reset()
+        assert envs.levels == ["near#0", "near#0:1", "far{gap=3m,n=1}#5", "near#0"]
+    with pytest.raises(setpiece.ParameterError, match="no suite is called `acadmy`") as caught:
+        setpiece.make_vec("academy_corner", 2, levels="acadmy")
+    assert caught.value.help == "did you mean `academy`?"
+    envs = setpiece.make_vec("academy_corner", 2, levels="academy")
+    envs.reset()
+    assert envs.levels[0].startswith("academy_empty_goal_close")
+
+
 def test_a_function_gets_the_result_and_returns_the_next_level() -> None:
     results: list[Any] = []
 

@@ -10,6 +10,7 @@
 pub mod behavior;
 pub mod bounds;
 pub mod container;
+mod dimension;
 pub mod file;
 pub mod module;
 mod named;
@@ -27,6 +28,7 @@ pub mod verify;
 pub mod vocabulary;
 
 pub use behavior::{Act, Behavior, Do, Node, ScriptArg, Then, Watch};
+pub use dimension::Dimension;
 pub use file::{FORMAT_VERSION, FormatError};
 pub use module::{MODULES_MAX, ScriptModule, module_name};
 pub use named::{NamedKind, NamedValue};

@@ -3,7 +3,7 @@
 //! A [`Played`] scenario with a seed and an index is a *level*: it decides an episode's start and
 //! chance.
 
-use crate::{Bindings, Scenario};
+use crate::{Bindings, Dimension, Scenario};
 use std::sync::Arc;
 
 /// An entry of a suite and a check play this many episodes at most.
@@ -156,8 +156,8 @@ pub enum Quantity {
     Return,
     /// Goals of the left team less those of the right one.
     Score,
-    /// A record's value, in SI units.
-    Record(String),
+    /// A record's value, in SI units, and its unit.
+    Record(String, Dimension),
     /// The mean return of its agents by a term.
     Term(String),
 }

@@ -166,6 +166,14 @@ pub enum Instr {
         /// 0 undecided, 1 released, 2 broken.
         cell: u32,
     },
+    /// What the value was when the last step was judged, before any restart; in the silent run what
+    /// it is. A value that can't be computed leaves the last one in place.
+    Before {
+        /// The value.
+        of: Reg,
+        /// The value in the last step.
+        cell: u32,
+    },
     /// 1 in the first step in which the condition holds, else 0; never in the silent run.
     Once {
         /// The condition.
@@ -454,6 +462,7 @@ impl Instr {
                 | Instr::Ever { .. }
                 | Instr::Since { .. }
                 | Instr::Until { .. }
+                | Instr::Before { .. }
                 | Instr::Once { .. }
         )
     }
@@ -508,7 +517,10 @@ impl Instr {
                 f(*of);
                 f(*seconds);
             }
-            Instr::Ever { of, .. } | Instr::Since { of, .. } | Instr::Once { of, .. } => f(*of),
+            Instr::Ever { of, .. }
+            | Instr::Since { of, .. }
+            | Instr::Before { of, .. }
+            | Instr::Once { of, .. } => f(*of),
             Instr::Until { of, release, .. } => {
                 f(*of);
                 f(*release);
@@ -544,6 +556,7 @@ impl Instr {
             | Instr::Ever { cell, .. }
             | Instr::Since { cell, .. }
             | Instr::Until { cell, .. }
+            | Instr::Before { cell, .. }
             | Instr::Once { cell, .. }
             | Instr::Assign { cell, .. } => Some(*cell),
             _ => None,

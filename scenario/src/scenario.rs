@@ -1,6 +1,7 @@
 //! The compiled scenario.
 
 use crate::behavior::{Behavior, ScriptArg};
+use crate::dimension::Dimension;
 use crate::module::ScriptModule;
 use crate::named::NamedValue;
 use crate::params::Param;
@@ -519,6 +520,9 @@ pub struct Record {
     /// Whether every step's value is kept instead of the last one's.
     #[serde(default)]
     pub series: bool,
+    /// The unit of a quantity; a place is in normalised numbers.
+    #[serde(default, skip_serializing_if = "Dimension::is_none")]
+    pub unit: Dimension,
 }
 
 /// An observation that a scenario declares: a program run for each agent, one register per number.

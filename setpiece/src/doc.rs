@@ -150,7 +150,9 @@ fn measured(page: &mut String, scenario: &Scenario) {
         page.push_str("## Records\n\n");
         for record in &scenario.records {
             let series = if record.series { ", a value for every step" } else { "" };
-            let _ = writeln!(page, "- {}{series}", code(&record.name));
+            let unit = record.unit.to_string();
+            let unit = if unit.is_empty() { unit } else { format!(", in {unit}") };
+            let _ = writeln!(page, "- {}{unit}{series}", code(&record.name));
         }
         page.push('\n');
     }

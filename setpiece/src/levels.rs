@@ -12,7 +12,7 @@ mod prioritized;
 mod randomized;
 
 pub use curriculum::CurriculumRun;
-pub use listed::ListedLevels;
+pub use listed::{ListedLevel, ListedLevels};
 pub use planned::PlannedLevels;
 pub use prioritized::{LevelScore, PrioritizedLevels, ReplayOptions};
 pub use randomized::RandomizedLevels;

@@ -103,7 +103,7 @@ pub fn number(quantity: &Quantity, episode: &EpisodeSummary, terms: &[String]) -
             let [left, right] = episode.score;
             Some(f64::from(left) - f64::from(right))
         }
-        Quantity::Record(name) => {
+        Quantity::Record(name, _) => {
             let (_, value) = episode.records.iter().find(|(known, _)| known == name)?;
             value.number()
         }

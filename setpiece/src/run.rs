@@ -9,8 +9,8 @@ use setpiece_engine::control::agents::Agent;
 use setpiece_engine::digest;
 use setpiece_engine::environment::{Environment, EnvironmentOptions};
 use setpiece_engine::statistics::{MatchMeans, MatchStatistics};
-use setpiece_scenario::Scenario;
 use setpiece_scenario::vocabulary::{Team, Verdict};
+use setpiece_scenario::{Dimension, Record, Scenario};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
@@ -31,6 +31,17 @@ pub struct RunOptions {
     pub threads: usize,
     /// Parameters, rewards, physics.
     pub environment: EnvironmentOptions,
+}
+
+/// The mean of a record over the episodes that have a number for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordMean {
+    /// Its name.
+    pub name: String,
+    /// The mean, in SI units.
+    pub mean: f64,
+    /// Its unit.
+    pub unit: Dimension,
 }
 
 /// The results of some episodes.
@@ -56,7 +67,7 @@ pub struct Summary {
     pub steps_per_second: f64,
     /// Mean of each numeric record over the episodes that have it; for one value per agent, their
     /// mean.
-    pub records: Vec<(String, f64)>,
+    pub records: Vec<RecordMean>,
     /// Values paid by rewards that weren't finite and were dropped, over all episodes.
     pub faults: u64,
     /// Digest of all episodes' final states, in order.
@@ -174,7 +185,7 @@ pub(crate) fn summarise(
             .map(|(index, name)| (name.clone(), term(&all, index)))
             .collect(),
         steps_per_second: if seconds > 0.0 { steps as f64 / seconds } else { 0.0 },
-        records: record_means(&played),
+        records: record_means(&played, &environment.scenario().records),
         faults: played.iter().map(|episode| u64::from(episode.faults)).sum(),
         digest: digest::of_all(played.iter().map(|episode| episode.digest)),
         match_stats: MatchStatistics::mean(&statistics),
@@ -182,14 +193,14 @@ pub(crate) fn summarise(
     }
 }
 
-fn record_means(played: &[&EpisodeSummary]) -> Vec<(String, f64)> {
-    let Some(first) = played.first() else { return Vec::new() };
+fn record_means(played: &[&EpisodeSummary], records: &[Record]) -> Vec<RecordMean> {
     let mut means = Vec::new();
-    for (which, (name, _)) in first.records.iter().enumerate() {
+    for (which, record) in records.iter().enumerate() {
         let numbers: Vec<f64> =
             played.iter().filter_map(|episode| episode.records.get(which)?.1.number()).collect();
         if !numbers.is_empty() {
-            means.push((name.clone(), numbers.iter().sum::<f64>() / numbers.len() as f64));
+            let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+            means.push(RecordMean { name: record.name.clone(), mean, unit: record.unit });
         }
     }
     means

@@ -115,7 +115,7 @@ export type Reply =
   | { type: "step" } & RawScenes
   | { type: "cloud"; starts: [number, number][][] }
   | { type: "summary"; episodes: number; outcomes: [string, number][]; mean_return: number;
-      score: [number, number]; terms: [string, number][]; records: [string, number][] }
+      score: [number, number]; terms: [string, number][]; records: [string, number, string][] }
   | { type: "sketch"; pitch: Measures; regions: Region[]; requires: Require[] }
   | { type: "recording"; name: string; hex: string }
   | { type: "saved" }

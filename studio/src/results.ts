@@ -22,7 +22,7 @@ export function showSummary(parent: HTMLElement, reply: Extract<Reply, { type: "
   row("mean score", reply.score.map((goals) => goals.toFixed(2)).join(" : "));
   row("mean return", reply.mean_return.toFixed(3));
   for (const [name, value] of reply.terms) row(`  ${name}`, value.toFixed(3));
-  for (const [name, value] of reply.records) row(`  ${name}`, value.toFixed(3));
+  for (const [name, value, unit] of reply.records) row(`  ${name}`, `${value.toFixed(3)} ${unit}`.trim());
   parent.replaceChildren(table);
 }
 

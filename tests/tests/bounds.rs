@@ -14,8 +14,8 @@ use setpiece::scenario::bounds::{
 };
 use setpiece::scenario::file::{binary, from_json, to_json};
 use setpiece::scenario::{
-    Action, Each, Fold, FoldKind, Instr, Over, Program, Record, Reg, Reward, RewardBody, Scenario,
-    Script,
+    Action, Dimension, Each, Fold, FoldKind, Instr, Over, Program, Record, Reg, Reward, RewardBody,
+    Scenario, Script,
 };
 
 fn corner() -> Scenario {
@@ -35,7 +35,8 @@ fn refused(change: impl Fn(&mut Scenario)) -> String {
 }
 
 fn record(program: Program) -> Record {
-    Record { name: "r".to_owned(), program, values: vec![Reg(0)], series: false }
+    let unit = Dimension::NONE;
+    Record { name: "r".to_owned(), program, values: vec![Reg(0)], series: false, unit }
 }
 
 /// Four nested loops over all players around this many instructions.

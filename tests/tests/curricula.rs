@@ -9,7 +9,7 @@
 use setpiece::engine::batch::EpisodeSummary;
 use setpiece::engine::environment::{Environment, EnvironmentOptions};
 use setpiece::levels::{
-    ChosenLevel, CurriculumRun, LevelScore, LevelSource, ListedLevels, Numbering,
+    ChosenLevel, CurriculumRun, LevelScore, LevelSource, ListedLevel, ListedLevels, Numbering,
     PrioritizedLevels, RandomizedLevels, ReplayOptions,
 };
 use setpiece::plans::plans_of_text;
@@ -209,11 +209,18 @@ fn drawn_parameters_are_the_named_ones() {
 #[test]
 fn a_list_begins_again_after_its_end() {
     let random = RandomizedLevels::new(far(), vec![0], Some(3));
-    let level =
-        |seed| ChosenLevel { scenario: 0, bindings: far().bindings, seed, episode: 0, tag: 0 };
-    let mut list = ListedLevels::new(random.scenarios(), vec![level(4), level(2)]).unwrap();
+    let level = |episode| ListedLevel { scenario: 0, bindings: far().bindings, episode };
+    let one = |seed| level(Some((seed, 0)));
+    let mut list = ListedLevels::new(random.scenarios(), vec![one(4), one(2)]).unwrap();
     let seeds: Vec<u64> = (0..5).map(|_| list.next().unwrap().seed).collect();
     assert_eq!(seeds, [4, 2, 4, 2, 4]);
+    // One without a seed is another episode every time.
+    let mut list = ListedLevels::new(random.scenarios(), vec![one(4), level(None)]).unwrap();
+    assert_eq!(list.numbering().seed, None);
+    list.set_numbering(Numbering::of(Some(9)));
+    let played: Vec<_> = (0..4).map(|_| list.next().unwrap()).collect();
+    let played: Vec<(u64, u64)> = played.iter().map(|it| (it.seed, it.episode)).collect();
+    assert_eq!(played, [(4, 0), (9, 1), (4, 0), (9, 3)]);
     assert!(ListedLevels::new(random.scenarios(), vec![]).is_none());
 }
 

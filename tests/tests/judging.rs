@@ -13,6 +13,7 @@ use setpiece_engine::batch::{EpisodeSummary, ReadyMade, run_episodes};
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece_engine::judge::Recorded;
+use setpiece_engine::observe::Floats;
 use setpiece_engine::random::{Purpose, Stream};
 use setpiece_scenario::vocabulary::{EventKind, Team};
 use setpiece_scenario::{Action, Scenario};
@@ -191,6 +192,60 @@ fn a_potential_pays_its_difference_over_an_episode() {
 }
 
 #[test]
+fn a_potential_leaves_out_nothing_that_moves_the_ball_or_the_agent() {
+    // Restarts place the ball, and control goes from player to player.
+    let mut environment = setpiece_tests::environment(
+        "scenario s extends 5_vs_5 {
+            reward of_the_ball { give potential(ball.x, gamma: 1) as \"ball\" }
+            reward of_me { give potential(me.x, gamma: 0.5) as \"me\" }
+            record ball = last of ball.x
+            record me = last of me.x
+            end limit 600 steps
+        }",
+    );
+    let term = |name: &str, environment: &Environment| {
+        environment.term_names().iter().position(|known| known == name).unwrap()
+    };
+    let terms = ["of_the_ball/ball", "of_me/me"].map(|name| term(name, &environment));
+    let (mut restarts, mut handed_over) = (0, 0);
+    for seed in 0..3 {
+        environment.reset(Some(seed), None).unwrap();
+        let mut scratch = Scratch::default();
+        let mut stream = Stream::new(seed, 0, Purpose::Agent);
+        let mut before: Option<[f64; 2]> = None;
+        let (mut player, mut sum, mut start) = (None, 0.0, 0.0);
+        while environment.is_running() {
+            let action = Agent::Bot.act(environment.state(), 0, &mut stream);
+            environment.step(&[action], &mut scratch).unwrap();
+            let judged: Vec<f64> = environment
+                .records()
+                .map(|(_, value)| match value {
+                    Recorded::PerAgent(values) => values[0].number().unwrap(),
+                    one => one.number().unwrap(),
+                })
+                .collect();
+            let [ball, me] = [judged[0], judged[1]];
+            let paid = terms.map(|term| environment.terms(0)[term]);
+            match before {
+                Some([ball_before, me_before]) => {
+                    assert!((paid[0] - (ball - ball_before)).abs() < 1e-6, "{paid:?} {ball}");
+                    assert!((paid[1] - (0.5 * me - me_before)).abs() < 1e-6, "{paid:?} {me}");
+                }
+                None => start = ball - paid[0],
+            }
+            sum += paid[0];
+            before = Some([ball, me]);
+            let game = environment.state();
+            restarts += u32::from(environment.judged_state().ball.pos != game.ball.pos);
+            handed_over += u32::from(player.is_some_and(|known| known != game.agents[0].player));
+            player = Some(game.agents[0].player);
+        }
+        assert!((sum - (before.unwrap()[0] - start)).abs() < 1e-6, "{sum}");
+    }
+    assert!(restarts > 1 && handed_over > 20, "{restarts} restarts, {handed_over} times");
+}
+
+#[test]
 fn agents_judged_together_are_paid_as_if_judged_alone() {
     // Rewards run for a whole team, records agent by agent.
     let paid = [
@@ -283,15 +338,41 @@ fn who_is_absent_has_no_place() {
         "distance(me, ghost) < 300m",
         "sees(me, ghost, within: 180deg)",
         "nearest(left, to: ghost) == striker",
+        "ghost in right",
+        "ghost in them",
+        "ghost in players",
     ];
-    for read in reads {
+    let scripted = [
+        "distance(ghost, now.ball) < 300.0",
+        "ghost.x > -2.0",
+        "ghost.at.y > -2.0",
+        "ghost.speed < 300.0",
+        "speed(ghost) < 300.0",
+        "ghost.fatigue < 2.0",
+        "ghost.action != ()",
+        "ghost.active",
+        "pressed(ghost, 300.0)",
+        "now.them.players.contains(ghost)",
+    ];
+    let reads = reads.map(|read| format!("reward r {{ give 1 when {read} as \"seen\" }}"));
+    let scripted = scripted.map(|read| {
+        format!(
+            "reward script rhai \"\"\"
+                fn reward(ctx, now, prev, events) {{
+                    let ghost = now.named.ghost;
+                    if {read} {{ 1 }} else {{ 0 }}
+                }}
+            \"\"\" as \"seen\""
+        )
+    });
+    for read in reads.into_iter().chain(scripted) {
         let text = |share| {
             format!(
                 "scenario t extends academy {{
                     ball at (0.5, 0)
                     team left {{ GK at (-1, 0)  striker: CF at (0.48, 0) }}
                     team right {{ GK at (1, 0)  maybe {share}% ghost: CB at (0.6, 0) }}
-                    reward r {{ give 1 when {read} as \"seen\" }}
+                    {read}
                     agents {{ left: 1 }}
                 }}"
             )
@@ -306,4 +387,49 @@ fn who_is_absent_has_no_place() {
         });
         assert_eq!((absent, there), (0.0, 1.0), "{read}");
     }
+}
+
+#[test]
+fn who_is_absent_ends_nothing_and_has_no_record_and_no_view() {
+    let play = |share| {
+        let mut env = setpiece_tests::environment(&format!(
+            "scenario t extends academy {{
+                ball at (0.5, 0)
+                agents {{ left: all }}
+                team left {{ striker: CF at (0.48, 0)  maybe {share}% mate: CF at (0.4, 0.2) }}
+                team right {{ GK at (1, 0)  maybe {share}% ghost: CB at (0.6, 0) }}
+                record fastest = max of ghost.speed
+                record near = min of distance(ghost, ball)
+                record place = last of ghost
+                record member = count of (ghost in right)
+                record closest = last of nearest(mates, to: ball).x
+                record side = last of ghost.team
+                end seen when ghost in pitch and elapsed > 0.2s
+                end limit 5 steps
+                observe vector {{ ghost as \"ghost\"  exists(ghost) as \"there\"  ghost.speed as \"speed\" }}
+            }}"
+        ));
+        env.reset(Some(0), Some(0)).unwrap();
+        while env.is_running() {
+            env.step(&[Action::Idle; 2], &mut Scratch::default()).unwrap();
+        }
+        let mut seen = vec![0.0; 4];
+        env.observe(Floats::Vector, 0, &mut seen).unwrap();
+        let records: Vec<Option<f64>> = env
+            .records()
+            .map(|(_, value)| match value {
+                Recorded::Place([x, _]) => Some(x).filter(|x| !x.is_nan()),
+                Recorded::PerAgent(values) => values[0].number(),
+                one => one.number(),
+            })
+            .collect();
+        (env.outcome().unwrap().label.to_string(), seen, records)
+    };
+    let (outcome, seen, records) = play(0);
+    assert_eq!((outcome.as_str(), seen), ("limit", vec![0.0; 4]));
+    // The team is the text's, whether or not they play.
+    assert_eq!(records, [None, None, None, Some(0.0), None, Some(1.0)]);
+    let (outcome, seen, records) = play(100);
+    assert_eq!((outcome.as_str(), seen[2]), ("seen", 1.0));
+    assert!(records.iter().all(Option::is_some), "{records:?}");
 }

@@ -203,7 +203,7 @@ fn a_run_averages_records_over_its_episodes() {
     };
     let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
     let mean =
-        |name: &str| summary.records.iter().find(|(known, _)| known == name).map(|(_, mean)| *mean);
+        |name: &str| summary.records.iter().find(|it| it.name == name).map(|record| record.mean);
     let attempted: f64 = summary
         .episodes
         .iter()

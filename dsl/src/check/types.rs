@@ -1,50 +1,7 @@
 //! The types of expressions: the language's own, with units as exponents.
 
+pub(crate) use setpiece_scenario::Dimension as Dim;
 use setpiece_scenario::vocabulary::{Type, Unit};
-
-/// Exponents of metre, second and radian.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Dim {
-    /// Of the metre.
-    pub(crate) m: i8,
-    /// Of the second.
-    pub(crate) s: i8,
-    /// Of the radian.
-    pub(crate) rad: i8,
-}
-
-impl Dim {
-    /// Of a plain number.
-    pub(crate) const NONE: Dim = Dim { m: 0, s: 0, rad: 0 };
-    /// Of a length.
-    pub(crate) const LENGTH: Dim = Dim { m: 1, s: 0, rad: 0 };
-    /// Of a duration.
-    pub(crate) const DURATION: Dim = Dim { m: 0, s: 1, rad: 0 };
-    /// Of a speed.
-    pub(crate) const SPEED: Dim = Dim { m: 1, s: -1, rad: 0 };
-    /// Of an angle.
-    pub(crate) const ANGLE: Dim = Dim { m: 0, s: 0, rad: 1 };
-
-    /// Of a product.
-    pub(crate) fn times(self, other: Dim) -> Dim {
-        Dim {
-            m: self.m.saturating_add(other.m),
-            s: self.s.saturating_add(other.s),
-            rad: self.rad.saturating_add(other.rad),
-        }
-    }
-
-    /// Of a quotient.
-    pub(crate) fn over(self, other: Dim) -> Dim {
-        self.times(Dim { m: -other.m, s: -other.s, rad: -other.rad })
-    }
-
-    /// Of a square root, if it has one.
-    pub(crate) fn root(self) -> Option<Dim> {
-        let even = self.m % 2 == 0 && self.s % 2 == 0 && self.rad % 2 == 0;
-        even.then_some(Dim { m: self.m / 2, s: self.s / 2, rad: self.rad / 2 })
-    }
-}
 
 /// The type of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -230,7 +187,7 @@ impl Ty {
             Ty::DURATION => "a duration",
             Ty::SPEED => "a speed",
             Ty::ANGLE => "an angle",
-            Ty::Quantity(dim) => return format!("a quantity in {}", unit_name(dim)),
+            Ty::Quantity(dim) => return format!("a quantity in {dim}"),
             Ty::Bool => "a condition",
             Ty::Point => "a point",
             Ty::Vector => "a vector",
@@ -271,15 +228,4 @@ impl Ty {
             _ => return None,
         })
     }
-}
-
-fn unit_name(dim: Dim) -> String {
-    let part = |name: &str, exponent: i8| match exponent {
-        0 => None,
-        1 => Some(name.to_owned()),
-        n => Some(format!("{name}^{n}")),
-    };
-    let parts: Vec<String> =
-        [part("m", dim.m), part("s", dim.s), part("rad", dim.rad)].into_iter().flatten().collect();
-    parts.join("·")
 }

@@ -3,6 +3,7 @@
 //! A plan plays compiled scenarios. So this stands above the compilation of one scenario, which it
 //! asks for by item.
 
+mod agents;
 mod argument;
 mod measure;
 
@@ -251,6 +252,7 @@ impl<'c, 'w> Planner<'c, 'w> {
         let mut mixed: Option<Span> = None;
         let mut endless: Option<&'w Ident> = None;
         let mut names: Vec<&'w Ident> = Vec::new();
+        let mut crew: Option<(Span, [usize; 2])> = None;
         for stmt in &item.body {
             match &stmt.kind {
                 CurriculumStmtKind::Stage { name, scenario, how } => {
@@ -265,7 +267,16 @@ impl<'c, 'w> Planner<'c, 'w> {
                     if matches!(how, StageRule::Forever) {
                         endless = Some(name);
                     }
-                    stages.extend(self.stage(name, scenario, how));
+                    let stage = self.stage(name, scenario, how);
+                    let found = stage.as_ref().and_then(|stage| agents::agents_of(&stage.played));
+                    if let (Some(found), Some((first, known))) = (found, crew)
+                        && found != known
+                    {
+                        let (stage, known) = (name.node.clone(), (first, known));
+                        self.report(scenario.name.span, Facts::OtherAgents { stage, found, known });
+                    }
+                    crew = crew.or(found.map(|found| (scenario.name.span, found)));
+                    stages.extend(stage);
                 }
                 CurriculumStmtKind::Mix { current: now, earlier } => {
                     if let Some(first) = mixed {

@@ -36,6 +36,17 @@ pub(super) const HABITS: &[Habit] = &[
         "seen¦visible",
         "an angle of view is a condition: `… when sees(me, ball, within: 120deg)`",
     ),
+    row(
+        Name,
+        "keeper¦goalkeeper¦goalie",
+        "the role is `GK`; a player's own name stands before it: `{1}: GK at …`",
+    ),
+    row(Name, "scorer", "who scores is `event.by` after `on goal`; `give 1 to goal` pays them"),
+    row(
+        Name,
+        "passer¦assister",
+        "who passes is `event.by` after `on pass`; `give 1 to assist` pays who has prepared a goal",
+    ),
     row(Name, "end", "`end` is an event only after `on`: `give 1 on end`"),
     // Letters.
     row(Anywhere, "| é", "a name is of the letters a to z, digits and underscores"),
@@ -63,6 +74,10 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "| −¦–¦—", "the sign of a negative number is `-`"),
     row(Anywhere, "| #", "a comment begins with `//`"),
     row(Anywhere, "| ///", "a `///` comment stands above a statement; write `//` elsewhere"),
+    // Suites, checks and curricula.
+    row(File, "check | _", "what a check expects stands in quotes: `check \"{1}\"`"),
+    row(Anywhere, "play … | with _", "who plays stands before `for`: `play … with {1} for …`"),
+    row(Anywhere, "until … | and", "a stage ends when one of its goals holds: write `or`"),
     // How many players and how likely; before what their signs alone would tell.
     row(Team, "_ : | maybe 9 % ROLE", "`maybe` stands before the name: `maybe {2}% {1}: {3} …`"),
     row(Team, "_ : maybe | 9 % ROLE", "`maybe` stands before the name: `maybe {2}% {1}: {3} …`"),

@@ -60,6 +60,7 @@ enum Key {
     Ever(u32),
     Since(u32),
     Until(u32, u32),
+    Before(u32),
 }
 
 /// The open blocks that a hoisted piece of code has left behind; see [`Builder::leave_loops`].
@@ -389,6 +390,11 @@ impl Builder {
     /// `until`: outside every loop.
     pub(crate) fn until(&mut self, of: Reg, release: Reg) -> Reg {
         self.temporal(Key::Until(of.0, release.0), |cell| Instr::Until { of, release, cell })
+    }
+
+    /// What a value was when the last step was judged: outside every loop.
+    pub(crate) fn value_before(&mut self, of: Reg) -> Reg {
+        self.temporal(Key::Before(of.0), |cell| Instr::Before { of, cell })
     }
 
     /// `once`: outside every loop; each has its own memory.

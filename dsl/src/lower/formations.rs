@@ -134,7 +134,7 @@ fn chain_players<'w>(
             }
         }
         adjust(world, &mut players, &absent, &overrides, &scope);
-        apply_each(world, &mut players, &each, team, &|_| true);
+        apply_each(world, &mut players, &each, team, &scope, &|_| true);
     }
     players
 }

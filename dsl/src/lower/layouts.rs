@@ -55,21 +55,23 @@ fn roles<'a, 'w: 'a>(players: impl Iterator<Item = &'a Rostered<'w>>) -> String 
 
 /// Whether the second layout says something of a player beside the place that it doesn't share
 /// with the first, as a child shares what it inherits.
-pub(super) fn says_more(world: &World<'_>, one: &Rostered<'_>, other: &Rostered<'_>) -> bool {
-    let said = |player: &Rostered<'_>| -> Vec<Span> {
-        let facing = player.facing.map(|facing| facing.target.span);
-        let exprs =
-            [player.jitter, player.when, player.maybe].into_iter().flatten().map(|expr| expr.span);
-        facing
-            .into_iter()
-            .chain(exprs)
-            .chain(player.fields.iter().map(|field| whole(field)))
-            .collect()
-    };
+pub(super) fn says_more<'w>(world: &World<'_>, one: &Rostered<'w>, other: &Rostered<'w>) -> bool {
     let known = said(one);
-    said(other)
-        .into_iter()
-        .any(|part| !known.contains(&part) || !reads_alike(world, part, &one.scope, &other.scope))
+    let reads_as = |part: &(Span, Scope<'w>)| {
+        let same = known.iter().find(|known| known.0 == part.0);
+        same.is_some_and(|known| reads_alike(world, part.0, &known.1, &part.1))
+    };
+    !said(other).iter().all(reads_as)
+}
+
+/// What is said of a player beside the place, and the scopes in which it stands.
+fn said<'w>(player: &Rostered<'w>) -> Vec<(Span, Scope<'w>)> {
+    let facing = player.facing.iter().map(|part| (part.it.target.span, part.scope.clone()));
+    let jitter = player.jitter.iter().map(|part| (part.it.span, part.scope.clone()));
+    let plays = [player.when, player.maybe].into_iter().flatten();
+    let plays = plays.map(|expr| (expr.span, player.scope.clone()));
+    let fields = player.fields.iter().map(|part| (whole(part.it), part.scope.clone()));
+    facing.chain(jitter).chain(plays).chain(fields).collect()
 }
 
 fn whole(field: &Field) -> Span {

@@ -7,6 +7,23 @@ use setpiece_scenario::Reg;
 use setpiece_scenario::pitch::TEAM_MAX;
 use setpiece_scenario::vocabulary::{Role, Team};
 
+/// A part of what is said of a player, with the scope in which it stands: a formation, or the
+/// scenario that uses it.
+#[derive(Clone)]
+pub(crate) struct Scoped<'w, T> {
+    /// The part.
+    pub(crate) it: &'w T,
+    /// Its scope.
+    pub(crate) scope: Scope<'w>,
+}
+
+impl<'w, T> Scoped<'w, T> {
+    /// A part that stands in a scope.
+    pub(crate) fn new(it: &'w T, scope: &Scope<'w>) -> Scoped<'w, T> {
+        Scoped { it, scope: scope.clone() }
+    }
+}
+
 /// A player of the roster.
 #[derive(Clone)]
 pub(crate) struct Rostered<'w> {
@@ -28,14 +45,14 @@ pub(crate) struct Rostered<'w> {
     pub(crate) span: Span,
     /// Where they start; when their team kicks off, if there are layouts.
     pub(crate) stand: Stand<'w>,
-    /// In which scope the rest of the player is read.
+    /// In which scope it is read whether they play.
     pub(crate) scope: Scope<'w>,
     /// Where they stand when the others kick off, if there are layouts.
     pub(crate) receiving: Option<Stand<'w>>,
     /// Where they look.
-    pub(crate) facing: Option<&'w Facing>,
+    pub(crate) facing: Option<Scoped<'w, Facing>>,
     /// How far their place is moved.
-    pub(crate) jitter: Option<&'w Expr>,
+    pub(crate) jitter: Option<Scoped<'w, Expr>>,
     /// Whether they play.
     pub(crate) when: Option<&'w Expr>,
     /// In which share of the episodes.
@@ -43,7 +60,7 @@ pub(crate) struct Rostered<'w> {
     /// Which of a drawn number of players they are.
     pub(crate) numbered: Option<Numbered>,
     /// Options: what stands later wins.
-    pub(crate) fields: Vec<&'w Field>,
+    pub(crate) fields: Vec<Scoped<'w, Field>>,
 }
 
 /// Some of the formations of which an episode has one.

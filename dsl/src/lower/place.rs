@@ -1,7 +1,7 @@
 //! Where things are: at the start by their place statements, in the match by its state.
 
 use super::mirror::Mirror;
-use super::people::{Rostered, Stand};
+use super::people::{Rostered, Scoped, Stand};
 use super::seats::sharers;
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, ProgramStage};
@@ -197,16 +197,16 @@ impl<'w> Lower<'_, 'w> {
                 return self.first_place(&places);
             }
         };
-        self.within(scope.clone(), |lower| {
-            let place = if let Some(place) = place {
-                lower.place(place)
-            } else {
-                let team = lower.code.constant(player.team.index() as f64);
-                // The role is that of the mirrored player already.
-                lower.zone(lower.world.mirror.role(player.role), team)
-            };
-            lower.jittered(place, player.jitter)
-        })
+        let place = self.within(scope.clone(), |lower| {
+            if let Some(place) = place {
+                return lower.place(place);
+            }
+            let team = lower.code.constant(player.team.index() as f64);
+            // The role is that of the mirrored player already.
+            lower.zone(lower.world.mirror.role(player.role), team)
+        });
+        let Some(Scoped { it: jitter, scope }) = &player.jitter else { return place };
+        self.within(scope.clone(), |lower| lower.jittered(place, Some(*jitter)))
     }
 
     /// The first of several places whose condition holds; the last has none that matters.
@@ -356,7 +356,7 @@ impl<'w> Lower<'_, 'w> {
             Viewpoint::Team => None,
         };
         if let Some((index, player)) = player {
-            if player.facing.is_some_and(|facing| !self.is_being_placed(facing)) {
+            if player.facing.as_ref().is_some_and(|facing| !self.is_being_placed(facing.it)) {
                 let heading = self.heading_of(index, asked);
                 if let Some(heading) = heading {
                     return (
@@ -399,12 +399,12 @@ impl<'w> Lower<'_, 'w> {
         }
         let world = self.world;
         let player = world.roster.get(index)?;
-        let facing = player.facing?;
+        let Scoped { it: facing, scope } = player.facing.as_ref()?;
         *self.start_mut()?.headings.get_mut(index)? = OnDemand::Busy;
         let heading = self.for_team(player.team.index() as f64, |lower| {
             let name = format!("{} facing", player.stream());
             lower.drawing(&name, |lower| {
-                lower.within(player.scope.clone(), |lower| lower.facing(facing, index))
+                lower.within(scope.clone(), |lower| lower.facing(facing, index))
             })
         });
         *self.start_mut()?.headings.get_mut(index)? = OnDemand::Done(heading);

@@ -61,7 +61,8 @@ fn lower_record<'w>(step: &StepWorld<'_, 'w>, binding: &'w Binding) -> Option<Re
     let roots: Vec<Reg> = values.iter().copied().chain(me).collect();
     let (program, layout) = lower.code.finish(&roots);
     let values = values.iter().map(|&reg| layout.reg(reg)).collect();
-    Some(Record { name: binding.name.node.clone(), program, values, series: series.is_some() })
+    let (name, unit) = (binding.name.node.clone(), value.ty.dim().unwrap_or_default());
+    Some(Record { name, program, values, series: series.is_some(), unit })
 }
 
 /// Whether a record can hold a value.

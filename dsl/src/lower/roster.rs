@@ -2,7 +2,7 @@
 
 use super::formations::formation_players;
 use super::layouts::{check_same, check_whole};
-use super::people::{Numbered, Rostered, Stand};
+use super::people::{Numbered, Rostered, Scoped, Stand};
 use super::seats::take_seats;
 use super::value::{LiteralFrame, Scope};
 use super::{World, casting};
@@ -23,13 +23,8 @@ pub(super) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
             Some((_, fields, span)) => from_layouts(world, *team, flat, fields, *span),
             None => from_statements(world, *team, flat),
         };
-        adjust(
-            world,
-            &mut players,
-            &flat.absent,
-            &flat.overrides,
-            &Scope::new(true, LiteralFrame::World),
-        );
+        let scope = Scope::new(true, LiteralFrame::World);
+        adjust(world, &mut players, &flat.absent, &flat.overrides, &scope);
         // What a parent says of a role that the child has not is said of nobody.
         let side = world
             .casting
@@ -37,7 +32,7 @@ pub(super) fn lower_roster<'w>(world: &World<'w>) -> Vec<Rostered<'w>> {
             .filter(|cast| cast.target == CastTarget::Team(*team))
             .map(|cast| (cast.who, std::slice::from_ref(cast.field)));
         let each: Vec<_> = flat.each.iter().copied().chain(side).collect();
-        apply_each(world, &mut players, &each, *team, &|who| world.flat.is_own(who));
+        apply_each(world, &mut players, &each, *team, &scope, &|who| world.flat.is_own(who));
         casting::apply(world, &mut players, *team);
         let seats = take_seats(world, &mut players);
         check_size(world, &players, seats, *team);
@@ -200,12 +195,12 @@ pub(super) fn copies<'w>(
         stand: Stand::At(player.place.as_ref(), scope.clone()),
         scope: scope.clone(),
         receiving: None,
-        facing: player.facing.as_ref(),
-        jitter: player.jitter.as_ref(),
+        facing: player.facing.as_ref().map(|facing| Scoped::new(facing, scope)),
+        jitter: player.jitter.as_ref().map(|jitter| Scoped::new(jitter, scope)),
         when: player.when.as_ref(),
         maybe: player.maybe.as_ref(),
         numbered: None,
-        fields: player.fields.iter().collect(),
+        fields: player.fields.iter().map(|field| Scoped::new(field, scope)).collect(),
     };
     let mut players = vec![one; count.min(TEAM_MAX as u32 + 1) as usize];
     if let Some(least) = &player.least {
@@ -275,28 +270,32 @@ pub(super) fn adjust<'w>(
         if let Some(player) = players.iter_mut().find(|player| meant(player)) {
             if change.place.is_some() {
                 player.stand = Stand::At(change.place.as_ref(), scope.clone());
-                player.scope = scope.clone();
                 player.receiving = None;
-                player.jitter = change.jitter.as_ref();
+                player.jitter = None;
                 player.span = who.span;
             }
-            player.jitter = change.jitter.as_ref().or(player.jitter);
-            player.facing = change.facing.as_ref().or(player.facing);
-            player.fields.extend(&change.fields);
+            if let Some(jitter) = &change.jitter {
+                player.jitter = Some(Scoped::new(jitter, scope));
+            }
+            if let Some(facing) = &change.facing {
+                player.facing = Some(Scoped::new(facing, scope));
+            }
+            player.fields.extend(change.fields.iter().map(|field| Scoped::new(field, scope)));
         }
     }
 }
 
-/// `each …`: defaults, behind the players' own options; `is_own` tells whether it must fit
-/// somebody.
+/// `each …` of a scope: defaults, behind the players' own options; `is_own` tells whether it must
+/// fit somebody.
 pub(super) fn apply_each<'w>(
     world: &World<'w>,
     players: &mut [Rostered<'w>],
     each: &[(&'w Ident, &'w [Field])],
     team: Team,
+    scope: &Scope<'w>,
     is_own: &dyn Fn(Span) -> bool,
 ) {
-    let mut defaults: Vec<Vec<&'w Field>> = vec![Vec::new(); players.len()];
+    let mut defaults: Vec<Vec<Scoped<'w, Field>>> = vec![Vec::new(); players.len()];
     for (who, fields) in each {
         let role = Role::from_name(&who.node);
         if role.is_none() && !matches!(who.node.as_str(), "all" | "outfield") {
@@ -316,7 +315,7 @@ pub(super) fn apply_each<'w>(
             };
             if meant {
                 anyone = true;
-                defaults.extend(fields.iter());
+                defaults.extend(fields.iter().map(|field| Scoped::new(field, scope)));
             }
         }
         if !anyone && !players.is_empty() && is_own(who.span) {

@@ -1,7 +1,7 @@
 //! Options of teams and players.
 
 use super::expr::path_of;
-use super::people::Presence;
+use super::people::{Presence, Scoped};
 use super::value::Repr;
 use super::{Lower, fields};
 use crate::ast::{Arg, Expr, ExprKind, Field, FieldValue, ItemKind};
@@ -81,16 +81,15 @@ pub(crate) fn lower_player_options<'w>(
         stats: Vec::new(),
         presence: Presence::default(),
     };
-    let scope = player.scope.clone();
     let stream = player.stream();
     lower.for_team(player.team.index() as f64, |lower| {
-        lower.within(scope, |lower| {
-            for field in &player.fields {
+        for Scoped { it: field, scope } in &player.fields {
+            lower.within(scope.clone(), |lower| {
                 lower.drawing(&format!("{stream} {}", field.key.node), |lower| {
                     option(lower, field, &mut options);
                 });
-            }
-        });
+            });
+        }
     });
     options.presence = lower.presence_of(index, player.span);
     Some(options)

@@ -115,6 +115,7 @@ codes! {
     AgentOverScript = 414 Warning "an agent may take a scripted player";
     DeadParameter = 415 Warning "an inherited parameter does nothing";
     TooCostly = 418 Error "a scenario costs too much";
+    OtherAgents = 419 Warning "stages have other numbers of agents";
     // SP05xx: scripts.
     ScriptSyntax = 501 Error "a script can't be read";
     ScriptHook = 502 Error "a script lacks its hook";

@@ -171,6 +171,8 @@ pub(crate) struct FlatTeam<'a> {
     pub(crate) absent: Vec<Spanned<Role>>,
     /// Options of a parent that a child writes again: the parent's and the child's.
     pub(crate) rewritten: Vec<(&'a Field, &'a Field)>,
+    /// The names of a parent's players that a child's own players replace, and the first of these.
+    pub(crate) replaced: Vec<(&'a str, Span)>,
 }
 
 /// An ending.

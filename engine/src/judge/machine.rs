@@ -358,6 +358,7 @@ impl<const W: usize> Machine<'_, W> {
             | Instr::Ever { .. }
             | Instr::Since { .. }
             | Instr::Until { .. }
+            | Instr::Before { .. }
             | Instr::Once { .. }
             | Instr::Give { .. }
             | Instr::Assign { .. }
@@ -442,6 +443,17 @@ impl<const W: usize> Machine<'_, W> {
                         };
                     }
                     (*state != 2.0).into()
+                })
+            }
+            Instr::Before { of, cell } => {
+                let (now, silent) = (self.lanes::<W>(*of), self.input.silent);
+                let kept = &mut self.cells[*cell as usize];
+                each_lane(|lane| {
+                    let before = if silent { now[lane] } else { kept[lane] };
+                    if !now[lane].is_nan() {
+                        kept[lane] = now[lane];
+                    }
+                    before
                 })
             }
             Instr::Once { of, cell } => {

@@ -3,6 +3,8 @@
 use super::{View, Writer};
 
 const OUTFIELD: &[&str] = &["CM", "CB", "CF", "LB", "RB", "DM", "LM", "RM", "AM"];
+/// How many players a generated formation has.
+const FORMED: usize = 4;
 const STATS: &[&str] =
     &["speed", "shot_power", "agility", "stamina", "reaction", "dribble", "short_pass", "vision"];
 
@@ -60,11 +62,50 @@ impl Writer<'_, '_> {
         for (side, name) in ["left", "right"].into_iter().enumerate() {
             let difficulty = self.choices.between(1.0, 0.0);
             self.line(&format!("team {name} {{ difficulty: {difficulty:.2}"));
+            if self.squads[side].len() <= 11 - FORMED && self.choices.rarely(2) {
+                self.formed();
+            }
             // Players stand on separate lines, so that no two of them share a spot.
             for (n, player) in self.squads[side].clone().into_iter().enumerate() {
                 self.place(n, &player);
             }
             self.line("}");
+        }
+    }
+
+    /// A formation, of as many players as every other.
+    pub(super) fn formation(&mut self, n: usize) {
+        let share = self.choices.between(0.1, 0.9);
+        self.line(&format!("formation form{n}(tired: number = {share:.2}) {{"));
+        for at in 0..FORMED {
+            let (role, x) = (self.choices.one(OUTFIELD), self.choices.between(-0.9, 0.5));
+            let y = at as f64 * 0.15 - 0.3;
+            self.line(&format!(
+                "{role} at ({x:.2}, {y:.2}) {{ fatigue: tired, overlap: allowed }}"
+            ));
+        }
+        self.line("}");
+        self.formations.push(format!("form{n}"));
+    }
+
+    /// The formation of a team, or one of several, and what the scenario says of its players.
+    fn formed(&mut self) {
+        let Some(first) = self.formations.first().cloned() else { return };
+        let last = self.formations.last().cloned().unwrap_or_default();
+        let formation = match self.choices.below(4) {
+            0 => first,
+            1 => format!("{first}(tired: 0.9)"),
+            2 => format!("choice({first}: 2, {last}: 1)"),
+            _ => format!("if uniform(0, 1) > 0.5 then {first} else {last}"),
+        };
+        self.line(&format!("formation: {formation}"));
+        let who = self.somebody().unwrap_or_else(|| "ball".to_owned());
+        let value = self.numbers.first().cloned().unwrap_or_else(|| "0.3".to_owned());
+        match self.choices.below(4) {
+            0 => self.line("each all { ai: choice(press, hold) }"),
+            1 => self.line(&format!("each outfield {{ difficulty: clamp({value}, 0, 1) }}")),
+            2 if who != "ball" => self.line(&format!("each outfield {{ ai: mark({who}) }}")),
+            _ => {}
         }
     }
 

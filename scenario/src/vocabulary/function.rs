@@ -40,7 +40,7 @@ words! {
         Closing = "closing", "closing(a, b): how much closer they came in this step";
         Prev = "prev", "prev(e): e one step ago";
         Delta = "delta", "delta(e): e less prev(e)";
-        Potential = "potential", "potential(e, gamma: g): g times e less prev(e), e being 0 once the episode terminates: shaping that changes no best policy";
+        Potential = "potential", "potential(e, gamma: g): g times e less e a step ago, e being 0 once the episode terminates: shaping that changes no best policy";
         Held = "held", "held(c, for: d): c held in every step of the last d";
         Ever = "ever", "ever(c): c held at some step of the episode";
         Always = "always", "always(c): c held at every step of the episode";

@@ -8,7 +8,7 @@ use crate::engine::environment::Environment;
 use crate::engine::statistics::MatchMeans;
 use crate::level::Level;
 use crate::run::faults::{FaultyTerm, faulty_numbers, faulty_terms};
-use crate::run::{RunOptions, Summary};
+use crate::run::{RecordMean, RunOptions, Summary};
 use crate::scenario::{Scenario, Verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -33,6 +33,8 @@ struct Report<'a> {
     success_rate: f64,
     terms: BTreeMap<&'a str, f64>,
     records: BTreeMap<&'a str, f64>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    record_units: BTreeMap<&'a str, String>,
     faults: u64,
     steps_per_second: f64,
     match_stats: &'a MatchMeans,
@@ -67,7 +69,13 @@ pub(crate) fn json(scenario: &Scenario, options: &RunOptions, summary: &Summary)
         mean_length: summary.mean_length,
         success_rate: summary.success_rate,
         terms: summary.terms.iter().map(|(name, mean)| (name.as_str(), *mean)).collect(),
-        records: summary.records.iter().map(|(name, mean)| (name.as_str(), *mean)).collect(),
+        records: summary.records.iter().map(|it| (it.name.as_str(), it.mean)).collect(),
+        record_units: summary
+            .records
+            .iter()
+            .filter(|record| !record.unit.is_none())
+            .map(|record| (record.name.as_str(), record.unit.to_string()))
+            .collect(),
         faults: summary.faults,
         steps_per_second: summary.steps_per_second,
         match_stats: &summary.match_stats,
@@ -168,7 +176,7 @@ pub(crate) fn unclear(
 ) -> Result<(), Error> {
     for (name, times) in faulty_numbers(scenario, options)? {
         let report = format!(
-            "observed `{name}` could not be computed {times} times and was 0: a division by zero?"
+            "observed `{name}` could not be computed {times} times and was 0: a division by zero, or a player who isn't there?"
         );
         out.line(StyledText::from(format!("  {:width$}    ", "")).paint(&report, Paint::Failure));
     }
@@ -198,8 +206,9 @@ pub(crate) fn means(summary: &Summary, faulty: &[FaultyTerm], width: usize, out:
     }
     if summary.faults > 0 {
         let values = summary.faults;
-        let mut report =
-            format!("{values} values were not finite and were not paid: a division by zero?");
+        let mut report = format!(
+            "{values} values were not finite and were not paid: a division by zero, or a player who isn't there?"
+        );
         for FaultyTerm { reward, term, episode, step } in faulty {
             let part = match term {
                 Some(term) => format!("`{term}` of the reward `{reward}`"),
@@ -213,9 +222,10 @@ pub(crate) fn means(summary: &Summary, faulty: &[FaultyTerm], width: usize, out:
         out.line(StyledText::from(format!("  {:width$}    ", "")).paint(&report, Paint::Failure));
     }
     out.line(format!("  {:width$}  {:.1} steps", "mean length", summary.mean_length));
-    for (index, (name, mean)) in summary.records.iter().enumerate() {
+    for (index, RecordMean { name, mean, unit }) in summary.records.iter().enumerate() {
+        let unit = if unit.is_none() { String::new() } else { format!(" {unit}") };
         out.line(format!(
-            "  {:width$}  {mean:.3}  {name}",
+            "  {:width$}  {mean:.3}{unit}  {name}",
             if index == 0 { "records" } else { "" }
         ));
     }

@@ -14,13 +14,17 @@ pub fn shown(measure: &Measure, measured: &Estimate) -> String {
 }
 
 /// How a measure is shown: its scale, its unit and its decimals.
-fn unit(measure: &Measure) -> (f64, &'static str, usize) {
+fn unit(measure: &Measure) -> (f64, String, usize) {
     match measure {
-        Measure::SuccessRate | Measure::Rate(_) => (100.0, "%", 1),
-        Measure::Mean(Quantity::Length)
-        | Measure::Min(Quantity::Length)
-        | Measure::Max(Quantity::Length)
-        | Measure::Quantile(Quantity::Length, _) => (STEPS_PER_S, "steps", 1),
-        _ => (1.0, "", 3),
+        Measure::SuccessRate | Measure::Rate(_) => (100.0, "%".to_owned(), 1),
+        Measure::Mean(quantity)
+        | Measure::Min(quantity)
+        | Measure::Max(quantity)
+        | Measure::Quantile(quantity, _) => match quantity {
+            Quantity::Length => (STEPS_PER_S, "steps".to_owned(), 1),
+            Quantity::Record(_, unit) => (1.0, unit.to_string(), 3),
+            Quantity::Return | Quantity::Score | Quantity::Term(_) => (1.0, String::new(), 3),
+        },
+        Measure::Steps | Measure::Episodes => (1.0, String::new(), 3),
     }
 }

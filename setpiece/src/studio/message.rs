@@ -284,6 +284,6 @@ pub struct SummaryReply {
     pub score: [f64; 2],
     /// The mean return of every term.
     pub terms: Vec<(String, f64)>,
-    /// The mean of every record that has a value.
-    pub records: Vec<(String, f64)>,
+    /// The mean of every record that has a value, and its unit.
+    pub records: Vec<(String, f64, String)>,
 }

@@ -59,7 +59,11 @@ impl RunningSummary {
             mean_return: summary.mean_return,
             score: summary.score,
             terms: summary.terms,
-            records: summary.records,
+            records: summary
+                .records
+                .into_iter()
+                .map(|record| (record.name, record.mean, record.unit.to_string()))
+                .collect(),
         }
     }
 }

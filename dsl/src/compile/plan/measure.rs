@@ -3,10 +3,8 @@
 use super::{Planner, scope};
 use crate::ast::{Expr, ExprKind, GoalExpr, Ident, MeasureArg, MeasureRef};
 use crate::check::types::Ty;
-use crate::lower::Lower;
-use crate::lower::value::Repr;
 use crate::problem::Guess;
-use crate::problem::facts::{Instead, Plans as Facts};
+use crate::problem::facts::Plans as Facts;
 use setpiece_scenario::plan::{self, Comparison, Measure, Quantity};
 use setpiece_scenario::vocabulary::{
     EventKind, MeasureWord, Owner, PROPERTIES, QuantityWord, Type,
@@ -19,15 +17,6 @@ const MEASURES: &[&str] = MeasureWord::NAMES;
 const QUANTITIES: &[&str] = QuantityWord::NAMES;
 /// The most episodes that a curriculum looks back on.
 const LAST_MAX: u64 = 1_000_000;
-
-/// What a bound is written in.
-#[derive(Clone, Copy)]
-pub(super) enum BoundUnit {
-    /// This type.
-    Of(Ty),
-    /// A number with any unit: records and terms have their own.
-    Any,
-}
 
 impl<'w> Planner<'_, 'w> {
     /// A measure and its bound.
@@ -59,29 +48,7 @@ impl<'w> Planner<'_, 'w> {
     }
 
     /// The bound of a measure, in SI units.
-    pub(super) fn bound(&mut self, expr: &'w Expr, unit: BoundUnit) -> Option<f64> {
-        let BoundUnit::Of(ty) = unit else {
-            let mut lower = Lower::constant(self.world, scope());
-            let value = lower.expr(expr);
-            if value.is_error() {
-                return None;
-            }
-            let Repr::One(reg) = value.repr else {
-                self.not_constant(expr);
-                return None;
-            };
-            if value.ty.dim().is_none() {
-                let (found, at) = (value.ty, expr.span);
-                let mismatch = lower.mismatch_with(found, Ty::Number, at, Instead::Usual);
-                self.world.report(mismatch);
-                return None;
-            }
-            let found = lower.code.constant_of(reg);
-            if found.is_none() {
-                self.not_constant(expr);
-            }
-            return found;
-        };
+    pub(super) fn bound(&mut self, expr: &'w Expr, ty: Ty) -> Option<f64> {
         if ty == Ty::Percent {
             self.share(expr, "the bound")
         } else {
@@ -95,7 +62,7 @@ impl<'w> Planner<'_, 'w> {
         written: &'w MeasureRef,
         scenario: &Scenario,
         in_curriculum: bool,
-    ) -> Option<(Measure, Option<u32>, BoundUnit)> {
+    ) -> Option<(Measure, Option<u32>, Ty)> {
         let name = &written.name;
         let mut args: Vec<&'w MeasureArg> = Vec::new();
         let mut last = None;
@@ -114,10 +81,10 @@ impl<'w> Planner<'_, 'w> {
             }
         }
         let (measure, unit) = match (name.node.as_str(), args.as_slice()) {
-            ("success_rate", []) => (Measure::SuccessRate, BoundUnit::Of(Ty::Percent)),
+            ("success_rate", []) => (Measure::SuccessRate, Ty::Percent),
             ("rate", [MeasureArg::Of(kind, of)]) if kind.node == "outcome" => {
                 let outcome = self.outcome(&of.node, of, scenario)?;
-                (Measure::Rate(outcome), BoundUnit::Of(Ty::Percent))
+                (Measure::Rate(outcome), Ty::Percent)
             }
             ("mean" | "min" | "max", [of]) => {
                 let (quantity, unit) = self.quantity(of, scenario, (&name.node, ""))?;
@@ -133,8 +100,8 @@ impl<'w> Planner<'_, 'w> {
                 let (quantity, unit) = self.quantity(of, scenario, ("quantile", &more))?;
                 (Measure::Quantile(quantity, self.share(share, "the quantile")?), unit)
             }
-            ("steps", []) if in_curriculum => (Measure::Steps, BoundUnit::Of(Ty::Int)),
-            ("episodes", []) if in_curriculum => (Measure::Episodes, BoundUnit::Of(Ty::Int)),
+            ("steps", []) if in_curriculum => (Measure::Steps, Ty::Int),
+            ("episodes", []) if in_curriculum => (Measure::Episodes, Ty::Int),
             ("steps" | "episodes", []) => {
                 self.report(name.span, Facts::OnlyInCurricula { text: name.node.clone() });
                 return None;
@@ -171,39 +138,37 @@ impl<'w> Planner<'_, 'w> {
         arg: &'w MeasureArg,
         scenario: &Scenario,
         (measure, more): (&str, &str),
-    ) -> Option<(Quantity, BoundUnit)> {
+    ) -> Option<(Quantity, Ty)> {
         let (span, text) = match arg {
             MeasureArg::Of(kind, of) if kind.node == "record" => {
                 let known: Vec<&str> =
                     scenario.records.iter().map(|record| record.name.as_str()).collect();
                 self.known("record", of, &known, scenario)?;
-                let mut records = scenario.records.iter();
-                let what =
-                    records.find(|record| record.name == of.node).and_then(|record| {
-                        match (record.series, record.values.len()) {
-                            (true, _) => Some("a series"),
-                            (_, 1) => None,
-                            _ => Some("a place"),
-                        }
-                    });
+                let record = scenario.records.iter().find(|record| record.name == of.node)?;
+                let what = match (record.series, record.values.len()) {
+                    (true, _) => Some("a series"),
+                    (_, 1) => None,
+                    _ => Some("a place"),
+                };
                 if let Some(what) = what {
                     self.report(of.span, Facts::NoNumber { name: of.node.clone(), what });
                     return None;
                 }
-                return Some((Quantity::Record(of.node.clone()), BoundUnit::Any));
+                let quantity = Quantity::Record(of.node.clone(), record.unit);
+                return Some((quantity, Ty::with_dim(record.unit)));
             }
             MeasureArg::Of(kind, of) if kind.node == "term" => {
                 let terms: Vec<String> =
                     scenario.rewards.iter().flat_map(Reward::term_names).collect();
                 let known: Vec<&str> = terms.iter().map(String::as_str).collect();
                 self.known("term", of, &known, scenario)?;
-                return Some((Quantity::Term(of.node.clone()), BoundUnit::Any));
+                return Some((Quantity::Term(of.node.clone()), Ty::Number));
             }
             MeasureArg::Value(Expr { kind: ExprKind::Name(name), span }) => {
                 match name.as_str() {
-                    "length" => return Some((Quantity::Length, BoundUnit::Of(Ty::DURATION))),
-                    "return" => return Some((Quantity::Return, BoundUnit::Of(Ty::Number))),
-                    "score" => return Some((Quantity::Score, BoundUnit::Of(Ty::Number))),
+                    "length" => return Some((Quantity::Length, Ty::DURATION)),
+                    "return" => return Some((Quantity::Return, Ty::Number)),
+                    "score" => return Some((Quantity::Score, Ty::Number)),
                     _ => {}
                 }
                 if is_record(name, scenario) {

@@ -155,6 +155,7 @@ impl LaidOutCode {
             Instr::Until { of, release, cell } => {
                 Instr::Until { of: p(of), release: p(release), cell: *cell }
             }
+            Instr::Before { of, cell } => Instr::Before { of: p(of), cell: *cell },
             Instr::Once { of, cell } => Instr::Once { of: p(of), cell: *cell },
             Instr::Give { term, value, guard } => {
                 Instr::Give { term: *term, value: p(value), guard: guard.as_ref().map(p) }

@@ -455,6 +455,14 @@ impl<'w> Lower<'_, 'w> {
         y: (&Value<'w>, &'w Expr),
     ) -> Value<'w> {
         let ((x, a), (y, b)) = (x, y);
+        // `(0m, 0m)` is a vector beside one.
+        let like = |one: &Value<'w>, expr: &Expr, other: Ty| match (one.ty, &one.repr) {
+            (Ty::Point, Repr::Two(p, q)) if other == Ty::Vector && is_tuple(expr) => {
+                Value::two(Ty::Vector, (*p, *q))
+            }
+            _ => one.clone(),
+        };
+        let (x, y) = (&like(x, a, y.ty), &like(y, b, x.ty));
         let Some(ty) = x.ty.join(y.ty) else {
             let text = self.world.text(b.span);
             let fact = Types::ChoiceMismatch { wanted: x.ty, found: y.ty, text, other: a.span };
@@ -542,7 +550,13 @@ impl<'w> Lower<'_, 'w> {
                 let set = self.convert(y, Ty::Set, b);
                 let Repr::Set(set) = set.repr else { return Value::error() };
                 let player = self.reg(&x);
-                Value::one(Ty::Bool, self.in_set(player, set))
+                let mut inside = self.in_set(player, set);
+                if self.stage.is_step() {
+                    // No set contains who is off the pitch.
+                    let exists = self.code.unary(UnaryOp::Exists, player);
+                    inside = self.code.binary(BinaryOp::And, inside, exists);
+                }
+                Value::one(Ty::Bool, inside)
             }
             (_, Ty::List, Repr::List(list)) => {
                 let list = list.clone();

@@ -67,6 +67,12 @@ impl<'w> Lower<'_, 'w> {
         if let Some(fact) = self.of_the_scenario(name, span) {
             return self.fail(Problem::new(span, fact));
         }
+        let replaced = self.world.flat.teams.iter().flat_map(|team| &team.replaced);
+        let replaced = replaced.filter(|_| self.scope.scenario);
+        if let Some(&(_, by)) = replaced.into_iter().find(|(known, _)| *known == name) {
+            let (name, child) = (name.to_owned(), self.world.flat.item.name.node.clone());
+            return self.fail(Problem::new(span, Names::ReplacedPlayer { name, child, by }));
+        }
         let mut guess = Guess::of(name, candidates.iter().map(String::as_str));
         if !has_member {
             guess = guess.read_as(|meant| match self.states_read(meant) {

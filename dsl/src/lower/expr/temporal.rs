@@ -22,7 +22,6 @@ impl<'w> Lower<'_, 'w> {
             (F::Prev, &[e]) => self.before(e, span).unwrap_or_else(Value::error),
             (F::Delta, &[e]) => self.delta(e, span),
             (F::Closing, &[a, b]) => self.closing(a, b, span),
-            (F::Potential, &[e, gamma]) => self.potential(e, gamma, span),
             _ if matches!(self.stage, ProgramStage::Observation) => self.fail(Problem::new(
                 span,
                 Scopes::ObservationRemembersNothing { function: function.name() },
@@ -129,6 +128,7 @@ impl<'w> Lower<'_, 'w> {
                 let since = self.code.since(c);
                 Value::one(Ty::Bool, self.code.binary(BinaryOp::Le, since, d))
             }
+            (F::Potential, &[e, gamma]) => self.potential(e, gamma),
             _ => Value::error(),
         }
     }
@@ -174,15 +174,14 @@ impl<'w> Lower<'_, 'w> {
     /// What a potential pays in a step: γ Φ(s') - Φ(s) (Ng, Harada and Russell 1999, theorem 1).
     ///
     /// A state in which the episode terminates has the potential 0. Otherwise the best policy would
-    /// depend on where episodes end (Grzes 2017).
-    fn potential(&mut self, e: &'w Expr, gamma: &'w Expr, span: Span) -> Value<'w> {
+    /// depend on where episodes end (Grzes 2017). Φ(s) is what the last step was judged by: before
+    /// any restart, and for the player of that step. So the payments of an episode add up to -Φ of
+    /// its start, and nothing that moves the ball or the agent in between is left out.
+    fn potential(&mut self, e: &'w Expr, gamma: &'w Expr) -> Value<'w> {
         let now = self.want_reg(e, Ty::Number);
         let discount = self.want_reg(gamma, Ty::Number);
         self.check_range(discount, (0.0, 1.0), "`gamma`", gamma.span, "`0..1`");
-        let Some(before) = self.before(e, span).filter(|before| !before.is_error()) else {
-            return Value::error();
-        };
-        let before = self.reg(&before);
+        let before = self.code.value_before(now);
         let discounted = self.code.binary(BinaryOp::Mul, discount, now);
         let (over, nothing) = (self.code.terminated(), self.code.constant(0.0));
         let discounted = self.code.select(over, nothing, discounted);

@@ -33,6 +33,16 @@ facts! {
                 ))
             }
         },
+        /// A player of a parent is read that a child's own players replace; `by`: the first of
+        /// these.
+        ReplacedPlayer {
+            name: String,
+            child: String,
+            by: Span,
+        } = Code::UnknownName =>
+            say(format!("`{child}` has no player `{name}`"), "read here")
+                .at(by, format!("its own players replace those that `{child}` inherits"))
+                .help(format!("move a player and keep the others by `place {name} …`, or name one of its own `{name}`")),
         /// A value of the scenario is used outside of it.
         ///
         /// - `noun`: what uses it, with its article;
@@ -323,6 +333,7 @@ impl Names {
     pub(super) fn child_may_bring(&self) -> bool {
         match self {
             Names::NoValue { late, .. } => *late,
+            Names::ReplacedPlayer { .. } => true,
             Names::Unknown { kind, .. } => matches!(kind, Kind::Player | Kind::Reward),
             _ => false,
         }

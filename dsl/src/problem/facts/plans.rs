@@ -99,8 +99,13 @@ facts! {
             say(format!("`{text}` belongs to curricula"), "a check measures all of its episodes")
                 .help("leave it out"),
         /// A share outside of 0 to 1.
-        Share { what: &'static str, text: String } = Code::OutOfRange =>
-            say(format!("{what} is `{text}`, outside 0%..100%"), "").help("write a share in 0%..100%"),
+        Share { what: &'static str, text: String } = Code::OutOfRange => {
+            let said = say(format!("{what} is `{text}`, outside 0%..100%"), "");
+            match text.parse::<f64>() {
+                Ok(number) if (1.0..=100.0).contains(&number) => said.help(format!("write `{text}%`")),
+                _ => said.help("write a share in 0%..100%"),
+            }
+        },
         /// A band whose lower bound isn't below the upper one.
         EmptyBand { low: String, high: String } = Code::OutOfRange =>
             say(format!("nothing is kept in {low}..{high}"), "")
@@ -123,6 +128,25 @@ facts! {
         /// A curriculum mixes twice.
         MixTwice { first: Span } = Code::DuplicateOption =>
             say("`mix` is given twice", "given again here").at(first, "first given here").help("leave one of them out"),
+        /// A stage has other agents than the first one; `known`: those of the first, and where it
+        /// stands.
+        OtherAgents {
+            stage: String,
+            found: [usize; 2],
+            known: (Span, [usize; 2]),
+        } = Code::OtherAgents => {
+            let crew = |[left, right]: &[usize; 2]| match right {
+                0 => format!("{left} on the left"),
+                _ => format!("{left} on the left and {right} on the right"),
+            };
+            let (first, known) = known;
+            say(format!("stage `{stage}` has other agents than the first stage"), crew(found))
+                .at(first, crew(known))
+                .help(
+                    "a vector plays one number of agents: write the same `agents { … }` in a scenario that \
+                     extends this one, or set `left` and `right` of `make_vec`",
+                )
+        },
         /// The adapted name is no argument of the stage.
         AdaptsNothing { name: String, scenario: String } = Code::WrongArguments =>
             say(format!("`{name}` adapts nothing"), "")

@@ -379,10 +379,24 @@ fn usual(wanted: Ty, found: Ty, text: &str) -> Option<String> {
             Some("divide by a value of the same unit to get a plain number".to_owned())
         }
         (_, wanted) if found.is_plain() && both_numbers => {
-            wanted.example().map(|example| format!("write the unit: `{example}`"))
+            let own = with_unit(text, wanted).or_else(|| wanted.example().map(str::to_owned));
+            own.map(|written| format!("write the unit: `{written}`"))
         }
         (_, wanted) => wanted.example().map(|example| format!("write, for example, `{example}`")),
     }
+}
+
+/// A number as it was written, with the unit that is wanted.
+fn with_unit(text: &str, wanted: Ty) -> Option<String> {
+    text.replace('_', "").parse::<f64>().ok()?;
+    Some(match wanted {
+        Ty::LENGTH => format!("{text}m"),
+        Ty::DURATION if text.contains('.') => format!("{text}s"),
+        Ty::DURATION => format!("{text}s` or `{text} steps"),
+        Ty::SPEED => format!("{text}m/s"),
+        Ty::ANGLE => format!("{text}deg"),
+        _ => return None,
+    })
 }
 
 /// How a coordinate is written in metres.

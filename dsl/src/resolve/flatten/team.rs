@@ -17,10 +17,12 @@ impl<'a> Adding<'a, '_> {
                 TeamStmtKind::Field(field) => field.key.node == "formation",
                 _ => false,
             };
-            if body.iter().any(writes) {
+            if let Some(first) = body.iter().find(|stmt| writes(stmt)) {
                 self.flat.kickoff = None;
                 if let Some(team) = self.flat.teams.get_mut(team.index()) {
-                    team.players.clear();
+                    let names =
+                        team.players.drain(..).filter_map(|(player, _)| player.name.as_ref());
+                    team.replaced.extend(names.map(|name| (name.node.as_str(), first.span)));
                     team.overrides.clear();
                     team.absent.clear();
                     team.fields.retain(|field| field.key.node != "formation");

@@ -162,6 +162,18 @@ fn temporal_series() {
 }
 
 #[test]
+fn a_value_before_is_that_of_the_last_step_that_had_one() {
+    let before = |code: &mut Code, of, there| {
+        // Without a value where the second is 0.
+        let value = code.push(Instr::Binary(BinaryOp::Div, of, there));
+        let cell = code.cell();
+        code.push(Instr::Before { of: value, cell })
+    };
+    let states = [[true, true], [false, true], [true, true], [false, false], [false, true]];
+    assert_eq!(series(&states, before), [1., 1., 0., 1., 1.]);
+}
+
+#[test]
 fn until_is_decided_once() {
     let until = |code: &mut Code, of, release| {
         let cell = code.cell();

@@ -297,8 +297,23 @@ impl SeenTeam {
 }
 
 impl SeenPlayer {
-    pub(super) fn view(&self) -> &PlayerView {
-        self.0.player(self.1)
+    /// What is seen of them: who is off the pitch is nowhere and has no speed, as in programs.
+    pub(super) fn view(&self) -> PlayerView {
+        const NONE: f32 = f32::NAN;
+        let seen = *self.0.player(self.1);
+        if seen.active {
+            return seen;
+        }
+        PlayerView {
+            pos: [NONE; 2],
+            vel: [NONE; 2],
+            heading_rad: NONE,
+            fatigue: NONE,
+            sprinting: false,
+            dribbling: false,
+            controlled: false,
+            ..seen
+        }
     }
 
     pub(super) fn point(&self) -> Point {

@@ -165,7 +165,10 @@ fn player(name: &str) -> Option<Getter<SeenPlayer>> {
         "team" => |player| player.0.team_word(Some(player.1.team())),
         "active" => |player| player.view().active.into(),
         "controlled" => |player| player.view().controlled.into(),
-        "action" => |player| player.view().action.name().into(),
+        "action" => |player| {
+            let seen = player.view();
+            if seen.active { seen.action.name().into() } else { Dynamic::UNIT }
+        },
         "sprinting" => |player| player.view().sprinting.into(),
         "dribbling" => |player| player.view().dribbling.into(),
         "has_ball" => |player| (player.0.view().owner == Some(player.1)).into(),

@@ -68,14 +68,17 @@ What was found by playing the same keys in both games, step by step, and built:
 - A ball that a rival has just touched springs off the legs of whoever stands in its way. Who takes the ball, or stops
   it, minds their own motion to its end: a ball that is touched meanwhile rolls on between their feet.
 - How somebody takes a rival's ball depends on the angle between their run and the way that they want with it.
-- A sprinter's ball hops, runs further, and is touched every 0.72 s.
 - A shooter turns in the swing: a shot across the run goes where it is aimed.
 - An opponent close by makes a dribbler push the ball further, most a nervous one.
 - The swing of a shot brakes the runner, who follows through and only then speeds up again.
 - A shot struck while setting off scatters twice as much as one on the run.
 - A keeper who faces the ball sets off slowly.
-- Every touch of a dribble is a motion, and kicks begin between motions. A pass on the run reaches further for the ball
-  than a shot, so that it leaves sooner after a touch.
+- Touches of a dribble and kicks are motions, each made for one place of the ball. Where the ball may be instead follows
+  one rule: far behind that place but hardly ahead of it, less aside, and hardly any way off right after the player's
+  own touch. So a kick leaves as soon as one of its swings meets the ball, with or without a first touch.
+- A dribbler runs at full speed between two touches, and finishes a stride before the next one.
+- A pushed ball hops and turns as there: walkers touch it every 0.25 s, sprinters every 0.72 s.
+- Whoever has the ball at a start waits for up to 0.2 s; whoever hasn't sets off at once.
 - A rolling ball lends half of its speed to a pass. A ball kicked off the grass gets topspin, so that floating passes
   fly lower: receivers meet them, and strike them first time.
 - A shot behind the back leaves a player who has turned round in the swing.

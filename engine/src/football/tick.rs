@@ -8,6 +8,7 @@ use crate::laps::Phase;
 use crate::physics::{self, BallObstacle, Contact, Scratch};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
+use crate::state::player::Swing;
 use crate::state::{Match, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
@@ -112,7 +113,11 @@ fn near_bodies(game: &Match, near: Squad) -> ArrayVec<BallObstacle, BODIES_MAX> 
         let by_hand =
             planned && player.role == Role::GK && foul::in_box(&game.pitch, flat, id.team());
         // Whoever swings at the ball lets it come to the foot.
-        let swings = player.body.kick.is_some_and(|plan| plan.swing.is_some());
+        let swings = player
+            .body
+            .kick
+            .and_then(|plan| plan.swing)
+            .is_some_and(|swing| swing.end_dmps != Swing::RUN);
         if !lately && !by_hand && !swings {
             bodies.push(BallObstacle {
                 id: id.0,

@@ -55,11 +55,16 @@ pub fn stands(game: &mut Match, view: &TeamView, id: PlayerId) -> bool {
         return false;
     }
     let called = game.play.rush[view.team.index()] && !view.attacks(game);
-    if called || comes_out(game, view, id) {
+    let first = game.play.chaser[view.team.index()] == Some(id);
+    // A keeper who is at the ball before its dribbler plays it. (GRF's.)
+    let steals = first
+        && game
+            .controller()
+            .is_some_and(|rival| rival.team() != view.team && press::is_sooner(game, id, rival));
+    if called || steals || comes_out(game, view, id) {
         let body = &mut game.players[id.index()].body;
         body.intent = Intent::Ball(SPRINT_MPS);
         body.dribble = Vec2::ZERO;
-        let first = game.play.chaser[view.team.index()] == Some(id);
         if first && view.rival(game).is_some_and(|rival| press::is_sooner(game, id, rival)) {
             on_ball::before_touch(game, view, id);
         }

@@ -6,7 +6,7 @@
 
 use crate::football::carry::{self, Carry};
 use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
-use crate::football::leg::{self, Touch};
+use crate::football::leg::{self, MotionTouch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::football::{contact, noise, possession, touch};
 use crate::math;
@@ -206,7 +206,7 @@ fn fits(game: &Match, id: PlayerId, motion: &DribbleMotion) -> bool {
 
 impl DribbleMotion {
     /// The touch of this motion, and where the ball will be then, in the frame of the run.
-    fn touch(&self, game: &Match, id: PlayerId) -> (Touch, Vec2) {
+    fn touch(&self, game: &Match, id: PlayerId) -> (MotionTouch, Vec2) {
         let player = game.player(id);
         let (pace, run) = (player.vel.length(), run(player));
         let out_mps = match self.out {
@@ -217,7 +217,7 @@ impl DribbleMotion {
         let ball = game.play.forecast.at(game.tick + self.ticks as u32).truncate();
         let way_m = (self.mean[0] + self.mean[1] * pace) * self.ticks as f32 * 0.01;
         let place = ball - player.pos - run * way_m;
-        let touch = Touch {
+        let touch = MotionTouch {
             ticks: self.ticks,
             made_for: Vec2::new(self.ahead_m, 0.0),
             pace,

@@ -164,7 +164,8 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     }
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
     let player = game.player(id);
-    if !at_hand && !(is_free(game, id) && looks(game, id)) {
+    let may = at_hand || is_free(game, id) && looks(game, id);
+    if !may {
         return None;
     }
     let (way, mate) = meant(game, id, plan);

@@ -41,7 +41,7 @@ const PULLED: f32 = 0.6;
 const SLACK_M: f32 = 0.02;
 
 /// A motion's touch, in the frame of the player's run: x along it, y to one side.
-pub(super) struct Touch {
+pub(super) struct MotionTouch {
     /// Ticks until then.
     pub(super) ticks: i32,
     /// The place of the ball that it is made for, metres from the body.
@@ -83,7 +83,7 @@ fn after(since_s: f32, control: f32) -> f32 {
 }
 
 /// Whether a motion meets a ball that will be here at the touch, metres from the body.
-pub(super) fn meets(touch: &Touch, ball: Vec2, reach: Reach, fresh: f32) -> bool {
+pub(super) fn meets(touch: &MotionTouch, ball: Vec2, reach: Reach, fresh: f32) -> bool {
     let ease = |place: Vec2, smooth: f32| {
         let far = (place.distance(Vec2::new(FRONT_M, 0.0)) / EASY_M).min(1.0);
         1.0 - math::mix(far, math::ease(far), smooth)
@@ -116,7 +116,7 @@ mod tests {
     use super::*;
 
     /// A sprinter's shot.
-    const SHOT: Touch = Touch {
+    const SHOT: MotionTouch = MotionTouch {
         ticks: 17,
         made_for: Vec2::new(0.54, 0.14),
         pace: 7.64,
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn a_sprinter_shoots_a_ball_that_is_no_further_than_the_motion_is_made_for() {
-        // Measured: 1.82 m ahead of the start is the motion's place, 1.86 too far, 1.77 near enough.
+        // Measured: its place is 1.82 m ahead of the start, 1.86 m is too far, 1.77 near enough.
         let ball = |ahead: f32| Vec2::new(0.54 + ahead - 1.82, 0.0);
         assert!(!meets(&SHOT, ball(1.86), KICK, 1.0));
         assert!(meets(&SHOT, ball(1.77), KICK, 1.0));

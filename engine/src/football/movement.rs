@@ -85,35 +85,11 @@ pub fn advance(game: &mut Match) -> Busy {
                 continue;
             }
         }
-        if let Some(lunge) = player.body.lunge
-            && let Motion::Dribble { brakes, out_dmps, wish } = lunge.motion
-        {
-            let to = dribble_motion::out(player, wish, out_dmps, brakes);
-            carry_ball(player, wish, to, lunge.until() - now);
-            if now < lunge.at
-                && !brakes
-                && player.vel.length_squared() > WALKS_FROM_MPS * WALKS_FROM_MPS
-            {
-                player.pos += player.vel.normalize_or_zero() * (REACHES_MPS * DT);
-            }
+        if commits(player, now) {
             go(player, rim);
             continue;
         }
         let has_ball = owner == Some(id);
-        if let Some(plan) = &mut player.body.kick
-            && let Some(swing) = &mut plan.swing
-            && swing.ready_at >= now
-            && swing.end_dmps != Swing::RUN
-        {
-            let ticks = swing.ready_at - now + 1;
-            let ahead = player.vel.normalize_or(player.body.facing);
-            let pace = stride_of(player.vel.length(), swing, ticks);
-            swing.left_m -= pace * DT;
-            player.vel = ahead * pace;
-            player.body.lag_ticks = 0;
-            go(player, rim);
-            continue;
-        }
         let strides = has_ball
             && last_touch == Some(id)
             && dribble_motion::is_within_stride(player, now)
@@ -272,6 +248,34 @@ fn carry_ball(player: &mut Player, wish: Vec2, to: Vec2, ticks: i32) {
     let half_way = if facing.dot(wish) < -0.9 { wish.perp() } else { wish };
     player.body.facing = (facing + (half_way - facing) * (2.0 * left).min(1.0)).normalize_or(wish);
     player.body.lag_ticks = 0;
+}
+
+/// Moves the body of a player who is in the touch of a dribble or in the swing of a kick. False for
+/// anybody else.
+fn commits(player: &mut Player, now: i32) -> bool {
+    if let Some(lunge) = player.body.lunge
+        && let Motion::Dribble { brakes, out_dmps, wish } = lunge.motion
+    {
+        let to = dribble_motion::out(player, wish, out_dmps, brakes);
+        carry_ball(player, wish, to, lunge.until() - now);
+        let walks = player.vel.length_squared() > WALKS_FROM_MPS * WALKS_FROM_MPS;
+        if now < lunge.at && walks && !brakes {
+            player.pos += player.vel.normalize_or_zero() * (REACHES_MPS * DT);
+        }
+        return true;
+    }
+    if let Some(plan) = &mut player.body.kick
+        && let Some(swing) = &mut plan.swing
+        && swing.ready_at >= now
+        && swing.end_dmps != Swing::RUN
+    {
+        let pace = stride_of(player.vel.length(), swing, swing.ready_at - now + 1);
+        swing.left_m -= pace * DT;
+        player.vel = player.vel.normalize_or(player.body.facing) * pace;
+        player.body.lag_ticks = 0;
+        return true;
+    }
+    false
 }
 
 /// The pace in the next tick of a run in a swing: it changes smoothly, so that the player comes as

@@ -2,7 +2,7 @@
 //!
 //! A kick takes the first swing that leads its way and meets the ball. (Measured of GRF's motions.)
 
-use crate::football::leg::{self, KICK, Touch};
+use crate::football::leg::{self, KICK, MotionTouch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::math;
 use crate::state::player::KickKind;
@@ -188,9 +188,9 @@ pub(super) fn find(
 
 impl SwingMotion {
     /// The touch of this swing to one side (1 or -1).
-    fn touch(&self, pace: f32, side: f32) -> Touch {
+    fn touch(&self, pace: f32, side: f32) -> MotionTouch {
         let [ahead_m, aside_m, _] = self.ball_m;
-        Touch {
+        MotionTouch {
             ticks: self.ticks,
             made_for: Vec2::new(ahead_m, side * aside_m),
             pace,

@@ -47,6 +47,7 @@ __all__ = [
     "grf_name",
     "grf_text",
     "level",
+    "level_text",
     "library",
     "library_suites",
     "load",

@@ -26,6 +26,7 @@ mod dribble_motion;
 pub mod duel;
 pub mod fatigue;
 mod first_touch;
+mod foot;
 pub mod forecast;
 pub mod foul;
 pub mod frame;

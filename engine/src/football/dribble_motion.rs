@@ -6,6 +6,7 @@
 
 use crate::football::carry::{self, Carry};
 use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
+use crate::football::foot;
 use crate::football::leg::{self, MotionTouch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::football::{contact, noise, possession, touch};
@@ -36,6 +37,8 @@ pub(super) struct DribbleMotion {
     /// the run.
     mean: [f32; 2],
     end: [f32; 2],
+    /// Whether the other foot leads afterwards.
+    changes_feet: bool,
 }
 
 /// How a player comes out of a motion.
@@ -60,7 +63,25 @@ const fn motion(
     mean: [f32; 2],
     end: [f32; 2],
 ) -> DribbleMotion {
-    DribbleMotion { from_mps, to_degrees, ticks, lasts, out, ahead_m, mean, end }
+    DribbleMotion {
+        from_mps,
+        to_degrees,
+        ticks,
+        lasts,
+        out,
+        ahead_m,
+        mean,
+        end,
+        changes_feet: true,
+    }
+}
+
+impl DribbleMotion {
+    /// The same with an even number of steps.
+    const fn even(mut self) -> DribbleMotion {
+        self.changes_feet = false;
+        self
+    }
 }
 
 /// Angles up to which a motion leads on, and turns by 45, 90, 135 and 180 degrees.
@@ -76,13 +97,16 @@ const WALKS: f32 = DRIBBLES_FROM_MPS;
 /// The touches: fastest gait first, and those of a gait by their angles.
 const TOUCHES: [DribbleMotion; 12] = [
     motion(SPRINTS, ON_DEG, [12, 25], MotionEnd::On, 0.48, [1.36, 0.9], [2.22, 0.7]),
-    motion(SPRINTS, SQUARE_DEG, [14, 40], MotionEnd::Bent, 0.59, [2.41, 0.73], [4.01, 0.43]),
+    motion(SPRINTS, SQUARE_DEG, [14, 40], MotionEnd::Bent, 0.59, [2.41, 0.73], [4.01, 0.43]).even(),
     motion(SPRINTS, ABOUT_DEG, [22, 59], MotionEnd::Braked(0.8), 0.66, [1.85, 0.65], [4.8, 0.0]),
     motion(WALKS, ON_DEG, [12, 26], MotionEnd::On, 0.5, [1.22, 0.84], [2.04, 0.59]),
-    motion(WALKS, HALF_DEG, [10, 41], MotionEnd::Turned(4.2), 0.47, [1.11, 0.81], [1.84, 0.52]),
+    motion(WALKS, HALF_DEG, [10, 41], MotionEnd::Turned(4.2), 0.47, [1.11, 0.81], [1.84, 0.52])
+        .even(),
     motion(WALKS, SQUARE_DEG, [19, 53], MotionEnd::Turned(4.0), 0.42, [2.24, 0.46], [3.4, 0.0]),
-    motion(WALKS, BACK_DEG, [20, 47], MotionEnd::Braked(0.6), 0.68, [2.56, 0.37], [3.1, 0.0]),
-    motion(WALKS, ABOUT_DEG, [12, 75], MotionEnd::Turned(2.2), 0.51, [1.64, 0.57], [2.12, 0.22]),
+    motion(WALKS, BACK_DEG, [20, 47], MotionEnd::Braked(0.6), 0.68, [2.56, 0.37], [3.1, 0.0])
+        .even(),
+    motion(WALKS, ABOUT_DEG, [12, 75], MotionEnd::Turned(2.2), 0.51, [1.64, 0.57], [2.12, 0.22])
+        .even(),
     motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(2.6), 0.49, [1.6, 0.0], [2.0, 0.0]),
     motion(0.0, HALF_DEG, [7, 36], MotionEnd::Turned(3.3), 0.4, [0.3, 0.0], [0.5, 0.0]),
     motion(0.0, SQUARE_DEG, [8, 32], MotionEnd::Turned(3.1), 0.4, [0.3, 0.0], [0.5, 0.0]),
@@ -91,18 +115,20 @@ const TOUCHES: [DribbleMotion; 12] = [
 /// The same for a player who wants to sprint: walking, on and by 45 degrees, and from a standstill.
 const SPEEDING: [DribbleMotion; 3] = [
     motion(WALKS, ON_DEG, [15, 26], MotionEnd::On, 0.32, [1.33, 0.8], [2.13, 0.62]),
-    motion(WALKS, HALF_DEG, [27, 50], MotionEnd::Turned(5.1), 0.29, [1.96, 0.63], [3.56, 0.23]),
+    motion(WALKS, HALF_DEG, [27, 50], MotionEnd::Turned(5.1), 0.29, [1.96, 0.63], [3.56, 0.23])
+        .even(),
     motion(0.0, ON_DEG, [8, 28], MotionEnd::Turned(3.6), 0.49, [1.6, 0.0], [2.0, 0.0]),
 ];
 /// The same for a player who wants to stand: sprinting, and walking. How long they last is fitted
 /// to how soon players stop.
 const STOPPING: [DribbleMotion; 2] = [
     motion(SPRINTS, ABOUT_DEG, [12, 45], MotionEnd::Braked(4.1), 0.52, [1.36, 0.9], [2.2, 0.6]),
-    motion(WALKS, ABOUT_DEG, [12, 22], MotionEnd::Braked(0.0), 0.4, [1.47, 0.61], [1.87, 0.28]),
+    motion(WALKS, ABOUT_DEG, [12, 22], MotionEnd::Braked(0.0), 0.4, [1.47, 0.61], [1.87, 0.28])
+        .even(),
 ];
 /// How long a stride lasts, ticks; up to how long after their own touch players finish it; and by
 /// how much they may want another velocity, m/s. (GRF's.)
-const STRIDE_TICKS: i32 = 24;
+pub(super) const STRIDE_TICKS: i32 = 24;
 const LATELY_TICKS: i32 = 60;
 const ALIKE_MPS: f32 = 1.0;
 /// For how many ticks a motion can be left for another one (GRF's), and up to which cosine of what
@@ -155,14 +181,24 @@ pub(super) fn begin(game: &mut Match, near: Squad) {
     };
     let at = game.tick as i32 + motion.ticks;
     let (out, back) = (motion.ticks as u8, (motion.lasts - motion.ticks) as u8);
+    let changes_feet = motion.changes_feet;
+    let leads = left_leads(player, motion, run, game.tick as i32);
     let motion = Motion::Dribble { brakes, out_dmps: (mps * 10.0).round() as u8, wish };
     let stands = player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS;
     if stands {
         game.players[id.index()].pos += run.perp() * OFF_ASIDE_M;
     }
     let body = &mut game.players[id.index()].body;
-    body.lunge = Some(Lunge { at, out, back, motion });
+    body.left_leads = leads != changes_feet;
+    body.lunge = Some(Lunge { at, out, back, changes_feet, motion });
     body.ready_at = at + i32::from(back);
+}
+
+/// Whether the left foot leads in a motion: in a turn, that of its side.
+fn left_leads(player: &Player, motion: &DribbleMotion, run: Vec2, now: i32) -> bool {
+    let wish = player.body.dribble;
+    let turns = motion.to_degrees > ON_DEG && wish.length_squared() > STOPS_MPS * STOPS_MPS;
+    if turns { run.perp_dot(wish) < 0.0 } else { foot::left_leads(player, now) }
 }
 
 /// The velocity with which a player comes out of a motion.

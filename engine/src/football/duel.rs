@@ -9,8 +9,8 @@ use crate::football::reach_motion::{
     BACK_DEG, KEEPER_POKES, KICKS, RUNNING_POKES, ReachMotion, STANDING_POKES, TAKES, TRAP, motions,
 };
 use crate::football::{
-    bounce, contact, dribble_motion, first_touch, forecast, kick, noise, possession, reach, report,
-    slide, touch,
+    bounce, contact, dribble_motion, first_touch, foot, forecast, kick, noise, possession, reach,
+    report, slide, touch,
 };
 use crate::math;
 use crate::state::event::Events;
@@ -192,15 +192,16 @@ fn comes_late(game: &Match, id: PlayerId, player: &Player, carrier: &Player) -> 
 /// Reaches for the ball in a way, if that meets it where it will be.
 fn lunges(game: &mut Match, id: PlayerId, way: &ReachMotion, aim: Aim, seen: bool) -> bool {
     let ball = ball_in(game, seen, way.ticks as u32);
+    let now = game.tick as i32;
     let player = &mut game.players[id.index()];
     if ball.z >= LOW_M || !reaches(player, ball.truncate(), way) {
         return false;
     }
-    let now = game.tick as i32;
+    player.body.left_leads = !foot::left_leads(player, now);
     let (at, place) = (now + way.ticks, ball.truncate());
     let (out, back) = (way.ticks as u8, (way.lasts - way.ticks) as u8);
-    player.body.lunge =
-        Some(Lunge { at, out, back, motion: Motion::Reach { aim, stops: way.stops, place } });
+    let motion = Motion::Reach { aim, stops: way.stops, place };
+    player.body.lunge = Some(Lunge { at, out, back, changes_feet: true, motion });
     player.body.ready_at = now + way.lasts;
     true
 }

@@ -1,7 +1,9 @@
 //! The swings of kicks: how long they last, where they meet the ball, and what becomes of the run.
 //!
-//! A kick takes the first swing that leads its way and meets the ball. (Measured of GRF's motions.)
+//! A kick takes the first swing that leads its way and meets the ball; those for the foot that leads
+//! now come first. (Measured of GRF's motions.)
 
+use crate::football::foot;
 use crate::football::leg::{self, KICK, MotionTouch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::math;
@@ -24,6 +26,8 @@ pub(super) struct SwingMotion {
     end: [f32; 2],
     /// How fast the player comes out of it, m/s.
     out_mps: f32,
+    /// Whether the foot away from the kick's side leads, not that of its side.
+    crosses: bool,
 }
 
 impl SwingMotion {
@@ -38,7 +42,7 @@ impl SwingMotion {
     }
 }
 
-/// A swing at a ball on the grass.
+/// A swing at a ball on the grass, for which the foot of the kick's side leads.
 const fn swing(
     [to_degrees, within_degrees]: [f32; 2],
     ticks: i32,
@@ -47,21 +51,22 @@ const fn swing(
     end: [f32; 2],
     out_mps: f32,
 ) -> SwingMotion {
-    at_height(0.1, [to_degrees, within_degrees], ticks, [ahead_m, aside_m], mean, end, out_mps)
+    let ball_m = [ahead_m, aside_m, 0.1];
+    SwingMotion { to_degrees, within_degrees, ticks, ball_m, mean, end, out_mps, crosses: false }
 }
 
-/// A swing at a ball in the air.
-const fn at_height(
-    high_m: f32,
-    [to_degrees, within_degrees]: [f32; 2],
-    ticks: i32,
-    [ahead_m, aside_m]: [f32; 2],
-    mean: [f32; 2],
-    end: [f32; 2],
-    out_mps: f32,
-) -> SwingMotion {
-    let ball_m = [ahead_m, aside_m, high_m];
-    SwingMotion { to_degrees, within_degrees, ticks, ball_m, mean, end, out_mps }
+impl SwingMotion {
+    /// The same at a ball in the air.
+    const fn at_height(mut self, high_m: f32) -> SwingMotion {
+        self.ball_m[2] = high_m;
+        self
+    }
+
+    /// The same with the other foot in front.
+    const fn crossed(mut self) -> SwingMotion {
+        self.crosses = true;
+        self
+    }
 }
 
 /// The swings of a kind by the gait that they begin at: standing, dribbling, walking, sprinting.
@@ -73,17 +78,17 @@ const SHOTS: ByGait = [
         swing([90.0, 45.0], 24, [0.67, 0.0], [0.0, 0.0], [0.0, 0.0], 0.9),
         swing([169.0, 45.0], 36, [-0.06, -0.06], [1.0, 0.0], [1.8, 0.0], 0.7),
     ],
-    &[at_height(0.73, [90.0, 45.0], 29, [1.02, 0.0], [2.63, 0.2], [1.8, 0.0], 0.8)],
+    &[swing([90.0, 45.0], 29, [1.02, 0.0], [2.63, 0.2], [1.8, 0.0], 0.8).at_height(0.73)],
     &[
         swing([11.0, 45.0], 15, [0.22, -0.33], [0.53, 0.92], [2.28, 0.5], 3.4),
         swing([11.0, 45.0], 23, [0.22, -0.33], [2.14, 0.61], [4.8, 0.0], 3.3),
         swing([90.0, 45.0], 28, [0.83, 0.0], [1.45, 0.77], [2.05, 0.27], 0.7),
-        swing([169.0, 45.0], 36, [-0.06, -0.06], [2.38, 0.28], [1.8, 0.0], 0.7),
+        swing([169.0, 45.0], 36, [-0.06, -0.06], [2.38, 0.28], [1.8, 0.0], 0.7).crossed(),
     ],
     &[
         swing([11.0, 45.0], 15, [0.22, -0.28], [2.25, 0.69], [4.36, 0.23], 3.4),
         swing([11.0, 45.0], 24, [0.22, -0.33], [2.96, 0.51], [4.06, 0.11], 3.4),
-        swing([31.0, 45.0], 26, [0.02, 0.64], [2.75, 0.51], [4.6, 0.0], 4.1),
+        swing([31.0, 45.0], 26, [0.02, 0.64], [2.75, 0.51], [4.6, 0.0], 4.1).crossed(),
         swing([25.0, 45.0], 17, [0.54, -0.14], [2.48, 0.65], [4.1, 0.27], 3.4),
         swing([80.0, 45.0], 29, [0.77, 0.0], [1.46, 0.77], [2.35, 0.19], 1.3),
     ],
@@ -92,26 +97,26 @@ const PASSES: ByGait = [
     &[
         swing([22.0, 23.0], 35, [0.37, 0.03], [0.0, 0.0], [0.3, 0.0], 0.4),
         swing([90.0, 45.0], 31, [0.26, 0.17], [0.0, 0.0], [0.3, 0.0], 0.6),
-        at_height(0.36, [90.0, 45.0], 30, [0.69, 0.05], [0.0, 0.0], [0.5, 0.0], 0.4),
+        swing([90.0, 45.0], 30, [0.69, 0.05], [0.0, 0.0], [0.5, 0.0], 0.4).at_height(0.36),
         swing([180.0, 45.0], 39, [0.0, 0.05], [0.72, 0.0], [1.3, 0.0], 0.8),
     ],
     &[
-        at_height(0.44, [90.0, 45.0], 31, [0.95, 0.05], [2.69, 0.16], [2.5, 0.0], 0.6),
+        swing([90.0, 45.0], 31, [0.95, 0.05], [2.69, 0.16], [2.5, 0.0], 0.6).at_height(0.44),
         swing([180.0, 23.0], 38, [-0.28, 0.18], [-0.92, 0.83], [1.73, 0.05], 0.8),
     ],
     &[
-        swing([22.0, 23.0], 10, [0.42, 0.0], [0.77, 0.95], [1.85, 0.65], 3.6),
         swing([22.0, 23.0], 27, [0.33, -0.16], [1.78, 0.59], [1.87, 0.25], 2.9),
-        at_height(0.41, [0.0, 45.0], 16, [0.68, 0.03], [2.33, 0.57], [3.89, 0.13], 3.3),
+        swing([22.0, 23.0], 10, [0.42, 0.0], [0.77, 0.95], [1.85, 0.65], 3.6).crossed(),
+        swing([0.0, 45.0], 16, [0.68, 0.03], [2.33, 0.57], [3.89, 0.13], 3.3).at_height(0.41),
         swing([45.0, 23.0], 27, [0.36, -0.03], [1.6, 0.62], [1.79, 0.27], 4.4),
-        swing([90.0, 23.0], 10, [0.26, 0.1], [0.96, 0.88], [1.84, 0.55], 3.4),
         swing([90.0, 23.0], 35, [0.18, 0.02], [2.73, 0.29], [3.6, 0.0], 3.4),
-        swing([135.0, 23.0], 36, [0.05, 0.0], [2.7, 0.3], [3.0, 0.0], 2.0),
+        swing([90.0, 23.0], 10, [0.26, 0.1], [0.96, 0.88], [1.84, 0.55], 3.4).crossed(),
+        swing([135.0, 23.0], 36, [0.05, 0.0], [2.7, 0.3], [3.0, 0.0], 2.0).crossed(),
     ],
     &[
         swing([22.0, 23.0], 27, [0.32, -0.16], [3.28, 0.47], [4.61, 0.08], 5.0),
         swing([45.0, 23.0], 27, [0.36, -0.03], [3.43, 0.44], [5.15, 0.05], 5.3),
-        swing([31.0, 18.0], 26, [0.03, 0.55], [2.46, 0.54], [4.6, 0.0], 4.1),
+        swing([31.0, 18.0], 26, [0.03, 0.55], [2.46, 0.54], [4.6, 0.0], 4.1).crossed(),
         swing([90.0, 23.0], 35, [0.3, 0.04], [2.82, 0.47], [4.4, 0.0], 3.4),
         swing([180.0, 45.0], 36, [-0.08, 0.03], [2.92, 0.55], [5.13, 0.08], 3.2),
     ],
@@ -127,16 +132,21 @@ const LOFTS: ByGait = [
     &[
         swing([0.0, 45.0], 12, [0.62, 0.07], [0.95, 0.9], [1.12, 0.71], 3.3),
         swing([0.0, 45.0], 41, [0.29, 0.1], [3.36, 0.33], [3.4, 0.0], 3.3),
-        swing([84.0, 45.0], 14, [0.6, 0.0], [0.69, 0.89], [1.1, 0.65], 3.0),
+        swing([84.0, 45.0], 14, [0.6, 0.0], [0.69, 0.89], [1.1, 0.65], 3.0).crossed(),
         swing([90.0, 45.0], 29, [0.79, 0.0], [1.35, 0.58], [1.12, 0.24], 0.4),
-        swing([169.0, 45.0], 36, [-0.06, -0.09], [1.39, 0.54], [1.46, 0.08], 0.7),
-        at_height(0.95, [39.0, 45.0], 24, [0.13, -1.06], [2.02, 0.44], [2.3, 0.0], 3.6),
+        swing([169.0, 45.0], 36, [-0.06, -0.09], [1.39, 0.54], [1.46, 0.08], 0.7).crossed(),
+        swing([39.0, 45.0], 24, [0.13, -1.06], [2.02, 0.44], [2.3, 0.0], 3.6).at_height(0.95),
     ],
     &[
         swing([90.0, 45.0], 30, [0.45, 0.06], [2.38, 0.63], [4.31, 0.15], 2.5),
-        swing([90.0, 45.0], 16, [0.82, 0.06], [1.53, 0.83], [3.1, 0.49], 5.0),
+        swing([90.0, 45.0], 16, [0.82, 0.06], [1.53, 0.83], [3.1, 0.49], 5.0).crossed(),
     ],
 ];
+/// The gait of a player who stands: either foot may lead.
+const STANDING: usize = 0;
+/// The sides to which a swing goes.
+const RIGHT: f32 = 1.0;
+const LEFT: f32 = -1.0;
 /// In which order a player at a gait tries the swings of the others.
 const ORDER: [&[usize]; 4] = [&[0], &[1, 2, 3], &[2, 1, 3], &[3, 2, 1]];
 /// How far above or below its place a swing meets the ball, metres; what the heights of both take
@@ -168,21 +178,34 @@ pub(super) fn find(
         KickKind::High => &LOFTS,
         KickKind::Shot | KickKind::Clear => &SHOTS,
     };
-    let swings = ORDER[gait].iter().flat_map(|gait| by_gait[*gait]);
-    swings.into_iter().find(|swing| {
+    let meets = |swing: &SwingMotion, side: f32| {
         let ball = game.play.forecast.at(game.tick + swing.ticks as u32);
-        if !is_high_enough(ball.z, swing.ball_m[2]) {
-            return false;
-        }
         let place = ball.truncate() - player.pos - run * swing.way_m(pace);
         let place = Vec2::new(place.dot(run), run.perp_dot(place));
-        let fresh = leg::freshness(game, id, swing.ticks);
+        let off = math::wrap((turn - side * swing.to_degrees).to_radians()).to_degrees();
+        is_high_enough(ball.z, swing.ball_m[2])
+            && off.abs() <= swing.within_degrees
+            && leg::meets(
+                &swing.touch(pace, side),
+                place,
+                KICK,
+                leg::freshness(game, id, swing.ticks),
+            )
+    };
+    let left_leads = foot::left_leads(player, game.tick as i32);
+    ORDER[gait].iter().find_map(|&gait| {
         // Every swing has its mirror image.
-        [1.0, -1.0].into_iter().any(|side| {
-            let off = math::wrap((turn - side * swing.to_degrees).to_radians()).to_degrees();
-            off.abs() <= swing.within_degrees
-                && leg::meets(&swing.touch(pace, side), place, KICK, fresh)
-        })
+        let suits = |swing: &SwingMotion, side: f32| {
+            gait == STANDING || ((side == LEFT) != swing.crosses) == left_leads
+        };
+        let find = |first: bool| {
+            by_gait[gait].iter().find(|swing| {
+                [RIGHT, LEFT]
+                    .into_iter()
+                    .any(|side| suits(swing, side) == first && meets(swing, side))
+            })
+        };
+        find(true).or_else(|| find(false))
     })
 }
 

@@ -115,6 +115,8 @@ pub struct Body {
     pub follows_until: i32,
     /// A leg that is out for the ball: a rival's, a free one or their own.
     pub lunge: Option<Lunge>,
+    /// Whether the left foot leads, once their motion is over.
+    pub left_leads: bool,
     /// Where they can first meet the ball.
     pub meet: Vec2,
     /// Seconds until then.
@@ -275,6 +277,8 @@ pub struct Lunge {
     pub out: u8,
     /// How many ticks after that the player is free again.
     pub back: u8,
+    /// Whether the other foot leads afterwards.
+    pub changes_feet: bool,
     /// What for.
     pub motion: Motion,
 }
@@ -341,6 +345,7 @@ impl Body {
             ready_at: NEVER,
             follows_until: NEVER,
             lunge: None,
+            left_leads: false,
             meet: Vec2::ZERO,
             meet_s: 9.0,
             mean_mps: 0.0,

@@ -15,6 +15,7 @@
 //!   agent controls.
 
 pub mod advantage;
+mod awkward;
 pub mod begin;
 pub mod block;
 pub mod bounce;

@@ -1,19 +1,32 @@
 //! Bounces of the ball off a player who could not see it coming.
 
-use crate::football::{contact, forecast};
+use crate::football::{contact, forecast, foul, offside};
+use crate::math;
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
-use crate::state::player::Aim;
-use crate::state::{Match, Squad};
+use crate::state::player::{Aim, Pose, Swing};
+use crate::state::{Match, Player, Squad};
 
 /// For `UNSEEN_TICKS` nobody has seen where a rival's touch sends the ball. Between two bounces off
-/// a body there are at least `BOUNCE_TICKS`. Legs are `LEGS_M` high. (GRF's.)
+/// a body there are at least `BOUNCE_TICKS`. (GRF's.)
 const UNSEEN_TICKS: i32 = 20;
 const BOUNCE_TICKS: i32 = 15;
-const LEGS_M: f32 = 1.0;
-/// The ball meets the legs this near to a body's middle, metres. Fitted to how often the ball
-/// changes sides at once.
-const BODY_M: f32 = 0.45;
+/// The ball meets a body this near to its middle, metres. Measured of GRF's bounces; fitted to how
+/// many there are in a match.
+const BODY_M: f32 = 0.3;
+/// How fast the ball leaves a body at least, m/s, how much of its speed adds to that, and how much
+/// of its own way it loses. (GRF's.)
+const LEAVES_MPS: f32 = 6.0;
+const LEAVES: f32 = 0.6;
+const BACK: f32 = 0.2;
+/// What is left of the speed. (GRF's.)
+const LEFT: f32 = 0.7;
+/// How much of a bounce is left at the edge of a body, and of the way back how much there. (GRF's.)
+const AT_EDGE: [f32; 2] = [0.5, 0.1];
+/// How much a bounce is pressed down by the leg above the ball. Measured of GRF's bounces.
+const DOWN: f32 = 0.3;
+/// How much the body's own run counts in the way of a bounce: least right after the touch. (GRF's.)
+const RUN: f32 = 0.8;
 
 /// Lets the ball bounce off a player whose rival has just touched it. `near`: the players that it
 /// may hit. Who takes the ball or kicks it minds their own motion, whether it meets the ball or
@@ -22,19 +35,19 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     let Some(last) = game.last_touch else { return };
     let touched = game.player(last).body.touched_at;
     let since = ticks_since(game.tick, touched);
-    let ball = game.ball.pos;
-    if since >= UNSEEN_TICKS
-        || ball.z > LEGS_M
-        || ticks_since(game.tick, game.play.bounced_at) <= BOUNCE_TICKS
-    {
+    let (ball, velocity) = (game.ball.pos, game.ball.vel);
+    if since >= UNSEEN_TICKS || ticks_since(game.tick, game.play.bounced_at) <= BOUNCE_TICKS {
         return;
     }
     let hit = game.order_of(near).find(|&id| {
         let player = game.player(id);
         id.team() != last.team()
-            && player.is_on_feet()
+            && player.active
+            && player.body.pose != Pose::Diving
+            && ball.z < player.body.height_m
             && player.pos.distance_squared(ball.truncate()) < BODY_M * BODY_M
             && ticks_since(game.tick, player.body.touched_at) >= UNSEEN_TICKS
+            && !swings(player)
             && player
                 .body
                 .lunge
@@ -43,15 +56,26 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     let Some(id) = hit else { return };
     let player = *game.player(id);
     let from = ball.truncate() - player.pos;
-    let recent = 0.2 + 0.8 * (1.0 - since as f32 / UNSEEN_TICKS as f32);
-    let away = (from.normalize_or(player.body.facing) * recent + player.vel * (1.0 - recent))
-        .normalize_or_zero();
-    let velocity = game.ball.vel;
+    let run = RUN * since as f32 / UNSEEN_TICKS as f32;
+    let away = from.normalize_or(player.body.facing) * (1.0 - run) + player.vel * run;
+    let away = (away.normalize_or_zero().extend(-DOWN)).normalize();
     let speed = velocity.length();
-    let full = away.extend(0.0) * (6.0 + 0.6 * speed) - velocity * 0.2;
-    let squarely = 1.0 - 0.25 * from.length() / BODY_M;
+    let full = away * (LEAVES_MPS + LEAVES * speed) - velocity * BACK;
+    let inside = 1.0 - from.length() / BODY_M;
+    let squarely = math::mix(AT_EDGE[0], 1.0, math::mix(AT_EDGE[1], 1.0, inside));
+    if offside::caught(game, events, id) {
+        return;
+    }
+    let shot = game.play.shot.is_some_and(|shot| shot.by.team() != id.team());
     contact::sprang(game, events, id);
+    foul::handball(game, events, id, shot);
     game.play.bounced_at = game.tick as i32;
-    game.ball.vel = velocity.lerp(full, squarely).clamp_length_max(speed) * 0.7;
+    game.ball.vel = velocity.lerp(full, squarely).clamp_length_max(speed) * LEFT;
     forecast::renew(game);
+}
+
+/// Whether a player swings at the ball, and so lets it come to the foot.
+fn swings(player: &Player) -> bool {
+    let swing = player.body.kick.and_then(|plan| plan.swing);
+    swing.is_some_and(|swing| swing.end_dmps != Swing::RUN)
 }

@@ -3,6 +3,7 @@
 //! `pass_target` chooses a pass's target. `pass` and `shot` decide how the ball leaves the foot.
 
 use crate::football::pass::Struck;
+use crate::football::swing::Begun;
 use crate::football::{
     contact, dribble_motion, forecast, noise, offside, pass, pass_target, report, shot, swing,
     switching, whistle,
@@ -75,7 +76,15 @@ fn dmps(mps: f32) -> u8 {
 
 /// A bot's swing: where to is decided already.
 fn begun(ready_at: i32) -> Swing {
-    Swing { ready_at, way: None, mate: None, runs: true, end_dmps: Swing::RUN, left_m: 0.0 }
+    Swing {
+        ready_at,
+        way: None,
+        mate: None,
+        runs: true,
+        end_dmps: Swing::RUN,
+        left_m: 0.0,
+        stroke: None,
+    }
 }
 
 fn asked(kind: KickKind) -> KickPlan {
@@ -169,18 +178,23 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
         return None;
     }
     let (way, mate) = meant(game, id, plan);
-    let (ticks, end_dmps, left_m) = match game.play.set_piece {
-        Some(set_piece) => (run_up_ticks(set_piece.mode), Swing::RUN, 0.0),
-        None if at_hand => (at_hand_ticks(plan.kind), Swing::RUN, 0.0),
-        None => {
-            let swing = swing::find(game, id, plan.kind, way)?;
-            let pace = player.vel.length();
-            (swing.ticks, dmps(swing.end_mps(pace)), swing.way_m(pace))
-        }
-    };
+    let now = game.tick as i32;
     let runs = at_hand || shot::runs(player);
-    let ready_at = game.tick as i32 + ticks;
-    Some(Swing { ready_at, way: Some(way), mate, runs, end_dmps, left_m })
+    let swing = |ticks: i32| Swing { way: Some(way), mate, runs, ..begun(now + ticks) };
+    Some(match game.play.set_piece {
+        Some(set_piece) => swing(run_up_ticks(set_piece.mode)),
+        None if at_hand => swing(at_hand_ticks(plan.kind)),
+        None => {
+            let Begun { motion, stroke } = swing::find(game, id, plan.kind, way)?;
+            let pace = player.vel.length();
+            Swing {
+                end_dmps: dmps(motion.end_mps(pace)),
+                left_m: motion.way_m(pace),
+                stroke: Some(stroke),
+                ..swing(motion.ticks)
+            }
+        }
+    })
 }
 
 /// Whether a player looks now whether a swing meets the ball: every other tick, the teams by turns.
@@ -299,7 +313,7 @@ pub(super) fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: 
             let ball = if mode == Some(GameMode::ThrowIn) {
                 pass::thrown(game, id, way)
             } else {
-                pass::struck(game, id, &plan, way, rough, from_hands)
+                pass::struck(game, id, &plan, way, from_hands)
             };
             send(game, id, ball);
         }

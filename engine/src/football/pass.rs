@@ -2,7 +2,7 @@
 //!
 //! `pass_target` decides its target, and `kick` its direction.
 
-use crate::football::noise;
+use crate::football::{awkward, noise, swing};
 use crate::math;
 use crate::physics::constants::MAGNUS;
 use crate::state::player::{KickKind, KickPlan};
@@ -10,21 +10,43 @@ use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;
 
-/// Speed of the hardest ground pass at a resting ball, m/s. Measured.
-const GROUND_MPS: f32 = 27.6;
-/// The most that running adds to it, m/s (measured), and how much of the ball's speed does
-/// (GRF's).
-const STRIDE_MPS: f32 = 2.0;
+/// How hard a pass is meant at least and at most, and the speed of either, m/s; how far that is,
+/// metres, by which power. Of ground passes and of lofted ones. (GRF's.)
+const MEANT: [f32; 2] = [1.8, 1.15];
+const LEAST: f32 = 0.3;
+const MEANT_MPS: f32 = 36.0;
+const MEANT_M: f32 = 60.0;
+const MEANT_BY: f32 = 1.4;
+/// How much a ground pass rises, and a lofted one over the least and the longest way. (GRF's.)
+const RISES: f32 = 0.11;
+const LOFTED: [f32; 2] = [0.45, 0.3];
+/// The hardest ground pass and lofted pass, m/s; what every swing has of that; how much a push
+/// takes off, per metre and at most; and how much of the ball's speed adds to it. (GRF's.)
+const MOST_MPS: [f32; 2] = [30.0, 42.0];
+const ANY_SWING: f32 = 0.3;
+const PUSHED_PER_M: f32 = 2.5;
+const PUSHED_MOST: f32 = 0.25;
 const MOMENTUM: f32 = 0.5;
-/// Speed of the hardest pass behind the player's back, m/s. Measured.
-const HEEL_MPS: f32 = 16.8;
-/// Speed of the hardest lofted pass behind the player's back, m/s. Measured.
-const HIGH_HEEL_MPS: f32 = 33.0;
-/// The most that a pass to the side loses, m/s. Measured.
-const ASIDE_LESS_MPS: f32 = 2.0;
-/// How much faster the ball rises when played to the side, and behind the back, m/s. Measured.
-const ASIDE_UP_MPS: f32 = 0.3;
-const HEEL_UP_MPS: f32 = 0.4;
+/// How much of the speed that is missing becomes height, and up to which. (GRF's.)
+const LACKS: f32 = 0.25;
+const LACKS_MPS: f32 = 10.0;
+/// How much skill takes off a hard swing, and how much a ball that is far, high, moving or hard to
+/// swing at goes the swing's own way instead. (GRF's.)
+const SKILLED: f32 = 0.5;
+const NATURAL: [f32; 4] = [0.15, 0.15, 0.3, 0.5];
+const NATURALLY: f32 = 1.5;
+/// What an awkward ball does to a pass: the share of its speed that a far one loses; how fast it
+/// rises, m/s: a far one, a high one (and how much of its own rise it keeps), and a hard swing at
+/// most. (GRF's.)
+const FAR_LOSES: f32 = 0.3;
+const FAR_UP_MPS: f32 = 1.5;
+const HIGH_UP_MPS: f32 = 1.0;
+const HIGH_KEEPS: f32 = 0.5;
+const HARD_UP_MPS: f32 = 5.0;
+/// What the grass leaves of the speed of a ball that is kicked off it. Measured.
+const OFF_GRASS: f32 = 0.97;
+/// Speed of the hardest pass out of the hands, m/s. Measured.
+const HANDS_MPS: f32 = 15.0;
 /// From this angle to the run on, a kick goes behind the back, and a pass is played with the heel,
 /// degrees; chosen.
 pub const BEHIND_DEG: f32 = 135.0;
@@ -51,61 +73,57 @@ pub struct Struck {
 
 /// Strikes a pass along a way, metres; its side spin bends it back to that way.
 ///
-/// GRF's: how hard a pass of a length is struck, how hard a foot can strike at most, and that
-/// missing speed becomes height.
-pub fn struck(
-    game: &mut Match,
-    id: PlayerId,
-    plan: &KickPlan,
-    way: Vec2,
-    rough: f32,
-    by_hand: bool,
-) -> Struck {
-    let player = *game.player(id);
-    let kind = plan.kind;
-    let stat = if kind == KickKind::High { Stat::HighPass } else { Stat::ShortPass };
-    let skill = player.skill(stat);
-    let distance = way.length().clamp(1.0, 60.0);
-    let far = libm::powf(distance / 60.0, 1.4);
-    let degrees = off_run(&player, way);
-    let strides = (player.vel.length() / 2.0).min(1.0);
-    let aside = (degrees / 30.0).min(1.0);
-    let heel = is_behind(&player, way);
-    let (level, up) = if kind == KickKind::High {
-        // A pass to the side is struck a little harder.
-        let rise = 0.45 - 0.15 * distance / 60.0;
-        let speed = (0.97 * 36.0 * (1.15 * far + 0.3)).min(if heel { HIGH_HEEL_MPS } else { 36.0 })
-            * (1.0 + 0.05 * aside);
-        let level = speed / libm::sqrtf(1.0 + rise * rise);
-        (level, level * rise)
-    } else {
-        let wanted = 0.97 * 36.0 * (1.8 * far + 0.3);
-        let most = match (by_hand, heel) {
-            (true, _) => 15.0,
-            (_, true) => HEEL_MPS,
-            _ => {
-                let rolls = game.ball.vel.truncate().length();
-                GROUND_MPS - ASIDE_LESS_MPS * aside + STRIDE_MPS * strides + MOMENTUM * rolls
-            }
-        };
-        let level = wanted.min(most);
-        let lifted = ASIDE_UP_MPS * aside + if heel { HEEL_UP_MPS } else { 0.0 };
-        (level, level * 0.11 + 0.25 * (wanted - level).clamp(0.0, 10.0) + lifted)
-    };
-    // Measured: passes without pressure hardly scatter; awkward passes and those of poor passers
-    // do.
-    let wild = (0.015 + 0.26 * rough + 0.02 * (1.0 - player.body.level)) * (1.2 - 0.8 * skill);
-    let aside = noise::bell(game) * wild;
-    let power = 1.0 + noise::bell(game) * wild * 0.8;
-    let ahead = way.normalize_or(player.body.facing);
-    let lag =
-        curl(player.body.facing, ahead, level) * if kind == KickKind::High { 0.2 } else { 1.0 };
-    let ahead = math::unit(lag).rotate(ahead);
-    let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * aside) * (level * power);
-    let velocity = flat.extend(up * power * (1.0 + noise::bell(game) * wild));
-    let per_mps = if kind == KickKind::High { BACKSPIN_PER_MPS } else { -TOPSPIN_PER_MPS };
+/// GRF's: how hard a pass of a length is meant, how hard a leg can strike at most (missing speed
+/// becomes height), and what an awkward ball makes of it.
+pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, by_hand: bool) -> Struck {
+    let lofted = plan.kind == KickKind::High;
+    let kind = usize::from(lofted);
+    let distance = way.length().clamp(1.0, MEANT_M);
+    let share = distance / MEANT_M;
+    let ahead = way.normalize_or(game.player(id).body.facing);
+    let rise = if lofted { LOFTED[0] + (LOFTED[1] - LOFTED[0]) * share } else { RISES };
+    let meant = MEANT_MPS * (MEANT[kind] * libm::powf(share, MEANT_BY) + LEAST);
+    let meant = ahead.extend(rise).normalize() * meant;
+    let ball =
+        if by_hand { meant.clamp_length_max(HANDS_MPS) } else { best(game, id, plan, meant) };
+    let level = ball.truncate().length();
+    let lag = curl(game.player(id).body.facing, ball.truncate(), level);
+    let lag = if lofted { lag * 0.2 } else { lag };
+    let velocity = math::unit(lag).rotate(ball.truncate()).extend(ball.z) * OFF_GRASS;
+    let per_mps = if lofted { BACKSPIN_PER_MPS } else { -TOPSPIN_PER_MPS };
     let spin = across(velocity) * (per_mps * velocity.length().min(SPUN_MPS));
     Struck { velocity, spin: spin.with_z(-2.0 * lag / (distance * MAGNUS)) }
+}
+
+/// The best that a player's leg can make of a pass that is meant to leave like this, m/s. (GRF's.)
+fn best(game: &mut Match, id: PlayerId, plan: &KickPlan, meant: Vec3) -> Vec3 {
+    let player = *game.player(id);
+    let stroke = plan
+        .swing
+        .and_then(|swing| swing.stroke)
+        .unwrap_or_else(|| swing::stroke(&player, plan.kind, meant.truncate()));
+    let lofted = plan.kind == KickKind::High;
+    let skill = player.skill(if lofted { Stat::HighPass } else { Stat::ShortPass });
+    let most = MOST_MPS[usize::from(lofted)]
+        * (ANY_SWING + (1.0 - ANY_SWING) * stroke.power)
+        * (1.0 - (PUSHED_PER_M * player.body.push_m).min(PUSHED_MOST))
+        + MOMENTUM * game.ball.vel.length();
+    let lacks = (meant.length() - most).clamp(0.0, LACKS_MPS);
+    let ball = meant.clamp_length_max(most) + Vec3::Z * (LACKS * lacks);
+    let awkward = awkward::to(game, id);
+    let hard = stroke.hard * (1.0 - SKILLED * skill);
+    let bias = NATURALLY
+        * (NATURAL[0] * awkward.far
+            + NATURAL[1] * awkward.high
+            + NATURAL[2] * awkward.kept
+            + NATURAL[3] * hard);
+    let natural = (stroke.natural * ball.length()).extend(ball.z);
+    let mut ball = ball.lerp(natural, bias.min(1.0)) * (1.0 - FAR_LOSES * awkward.far);
+    ball.z +=
+        FAR_UP_MPS * awkward.far + (HIGH_UP_MPS + HIGH_KEEPS * game.ball.vel.z) * awkward.high;
+    let mut ball = ball.lerp(game.ball.vel, awkward.kept);
+    ball.z += HARD_UP_MPS * hard * (0.2 + 0.8 * noise::roll(game));
+    ball
 }
 
 /// The angle by which a ball leaves closer to where the body faces than the kick is meant, radians.

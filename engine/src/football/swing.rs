@@ -7,8 +7,8 @@ use crate::football::foot;
 use crate::football::leg::{self, KICK, MotionTouch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::math;
-use crate::state::player::KickKind;
-use crate::state::{Match, PlayerId};
+use crate::state::player::{KickKind, Stroke};
+use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 
 /// A swing.
@@ -28,6 +28,9 @@ pub(super) struct SwingMotion {
     out_mps: f32,
     /// Whether the foot away from the kick's side leads, not that of its side.
     crosses: bool,
+    /// The share of its strength that a player can put into it, and how hard it is, both 0..1.
+    power: f32,
+    hard: f32,
 }
 
 impl SwingMotion {
@@ -52,7 +55,18 @@ const fn swing(
     out_mps: f32,
 ) -> SwingMotion {
     let ball_m = [ahead_m, aside_m, 0.1];
-    SwingMotion { to_degrees, within_degrees, ticks, ball_m, mean, end, out_mps, crosses: false }
+    SwingMotion {
+        to_degrees,
+        within_degrees,
+        ticks,
+        ball_m,
+        mean,
+        end,
+        out_mps,
+        crosses: false,
+        power: 1.0,
+        hard: 0.0,
+    }
 }
 
 impl SwingMotion {
@@ -65,6 +79,12 @@ impl SwingMotion {
     /// The same with the other foot in front.
     const fn crossed(mut self) -> SwingMotion {
         self.crosses = true;
+        self
+    }
+
+    /// The same with less power, and harder.
+    const fn weaker(mut self, power: f32, hard: f32) -> SwingMotion {
+        (self.power, self.hard) = (power, hard);
         self
     }
 }
@@ -95,30 +115,44 @@ const SHOTS: ByGait = [
 ];
 const PASSES: ByGait = [
     &[
-        swing([22.0, 23.0], 35, [0.37, 0.03], [0.0, 0.0], [0.3, 0.0], 0.4),
-        swing([90.0, 45.0], 31, [0.26, 0.17], [0.0, 0.0], [0.3, 0.0], 0.6),
-        swing([90.0, 45.0], 30, [0.69, 0.05], [0.0, 0.0], [0.5, 0.0], 0.4).at_height(0.36),
-        swing([180.0, 45.0], 39, [0.0, 0.05], [0.72, 0.0], [1.3, 0.0], 0.8),
+        swing([22.0, 23.0], 35, [0.37, 0.03], [0.0, 0.0], [0.3, 0.0], 0.4).weaker(0.8, 0.0),
+        swing([90.0, 45.0], 31, [0.26, 0.17], [0.0, 0.0], [0.3, 0.0], 0.6).weaker(0.7, 0.0),
+        swing([90.0, 45.0], 30, [0.69, 0.05], [0.0, 0.0], [0.5, 0.0], 0.4)
+            .at_height(0.36)
+            .weaker(0.7, 0.3),
+        swing([180.0, 45.0], 39, [0.0, 0.05], [0.72, 0.0], [1.3, 0.0], 0.8).weaker(0.4, 0.4),
     ],
     &[
-        swing([90.0, 45.0], 31, [0.95, 0.05], [2.69, 0.16], [2.5, 0.0], 0.6).at_height(0.44),
-        swing([180.0, 23.0], 38, [-0.28, 0.18], [-0.92, 0.83], [1.73, 0.05], 0.8),
+        swing([90.0, 45.0], 31, [0.95, 0.05], [2.69, 0.16], [2.5, 0.0], 0.6)
+            .at_height(0.44)
+            .weaker(0.8, 0.5),
+        swing([180.0, 23.0], 38, [-0.28, 0.18], [-0.92, 0.83], [1.73, 0.05], 0.8).weaker(0.5, 0.6),
     ],
     &[
         swing([22.0, 23.0], 27, [0.33, -0.16], [1.78, 0.59], [1.87, 0.25], 2.9),
-        swing([22.0, 23.0], 10, [0.42, 0.0], [0.77, 0.95], [1.85, 0.65], 3.6).crossed(),
-        swing([0.0, 45.0], 16, [0.68, 0.03], [2.33, 0.57], [3.89, 0.13], 3.3).at_height(0.41),
-        swing([45.0, 23.0], 27, [0.36, -0.03], [1.6, 0.62], [1.79, 0.27], 4.4),
-        swing([90.0, 23.0], 35, [0.18, 0.02], [2.73, 0.29], [3.6, 0.0], 3.4),
-        swing([90.0, 23.0], 10, [0.26, 0.1], [0.96, 0.88], [1.84, 0.55], 3.4).crossed(),
-        swing([135.0, 23.0], 36, [0.05, 0.0], [2.7, 0.3], [3.0, 0.0], 2.0).crossed(),
+        swing([22.0, 23.0], 10, [0.42, 0.0], [0.77, 0.95], [1.85, 0.65], 3.6)
+            .crossed()
+            .weaker(0.8, 0.0),
+        swing([0.0, 45.0], 16, [0.68, 0.03], [2.33, 0.57], [3.89, 0.13], 3.3)
+            .at_height(0.41)
+            .weaker(1.0, 0.6),
+        swing([45.0, 23.0], 27, [0.36, -0.03], [1.6, 0.62], [1.79, 0.27], 4.4).weaker(0.9, 0.0),
+        swing([90.0, 23.0], 35, [0.18, 0.02], [2.73, 0.29], [3.6, 0.0], 3.4).weaker(0.7, 0.2),
+        swing([90.0, 23.0], 10, [0.26, 0.1], [0.96, 0.88], [1.84, 0.55], 3.4)
+            .crossed()
+            .weaker(0.5, 0.3),
+        swing([135.0, 23.0], 36, [0.05, 0.0], [2.7, 0.3], [3.0, 0.0], 2.0)
+            .crossed()
+            .weaker(0.6, 0.4),
     ],
     &[
         swing([22.0, 23.0], 27, [0.32, -0.16], [3.28, 0.47], [4.61, 0.08], 5.0),
-        swing([45.0, 23.0], 27, [0.36, -0.03], [3.43, 0.44], [5.15, 0.05], 5.3),
-        swing([31.0, 18.0], 26, [0.03, 0.55], [2.46, 0.54], [4.6, 0.0], 4.1).crossed(),
-        swing([90.0, 23.0], 35, [0.3, 0.04], [2.82, 0.47], [4.4, 0.0], 3.4),
-        swing([180.0, 45.0], 36, [-0.08, 0.03], [2.92, 0.55], [5.13, 0.08], 3.2),
+        swing([45.0, 23.0], 27, [0.36, -0.03], [3.43, 0.44], [5.15, 0.05], 5.3).weaker(0.9, 0.0),
+        swing([31.0, 18.0], 26, [0.03, 0.55], [2.46, 0.54], [4.6, 0.0], 4.1)
+            .crossed()
+            .weaker(0.7, 0.1),
+        swing([90.0, 23.0], 35, [0.3, 0.04], [2.82, 0.47], [4.4, 0.0], 3.4).weaker(0.7, 0.2),
+        swing([180.0, 45.0], 36, [-0.08, 0.03], [2.92, 0.55], [5.13, 0.08], 3.2).weaker(0.3, 0.7),
     ],
 ];
 const LOFTS: ByGait = [
@@ -134,7 +168,9 @@ const LOFTS: ByGait = [
         swing([0.0, 45.0], 41, [0.29, 0.1], [3.36, 0.33], [3.4, 0.0], 3.3),
         swing([84.0, 45.0], 14, [0.6, 0.0], [0.69, 0.89], [1.1, 0.65], 3.0).crossed(),
         swing([90.0, 45.0], 29, [0.79, 0.0], [1.35, 0.58], [1.12, 0.24], 0.4),
-        swing([169.0, 45.0], 36, [-0.06, -0.09], [1.39, 0.54], [1.46, 0.08], 0.7).crossed(),
+        swing([169.0, 45.0], 36, [-0.06, -0.09], [1.39, 0.54], [1.46, 0.08], 0.7)
+            .crossed()
+            .weaker(0.7, 0.0),
         swing([39.0, 45.0], 24, [0.13, -1.06], [2.02, 0.44], [2.3, 0.0], 3.6).at_height(0.95),
     ],
     &[
@@ -149,42 +185,85 @@ const RIGHT: f32 = 1.0;
 const LEFT: f32 = -1.0;
 /// In which order a player at a gait tries the swings of the others.
 const ORDER: [&[usize]; 4] = [&[0], &[1, 2, 3], &[2, 1, 3], &[3, 2, 1]];
-/// How far above or below its place a swing meets the ball, metres; what the heights of both take
-/// off that, per metre and at most; up to which height a ball counts as on the grass, and what that
-/// adds. (GRF's.)
+/// How far above or below its place a swing meets the ball, metres, and what the heights of both
+/// take off that, per metre and at most. (GRF's.)
 const UP_M: f32 = 0.22;
 const HIGHER: [[f32; 2]; 2] = [[0.3, 0.2], [0.4, 0.3]];
-const LOW_M: f32 = 0.5;
-const LOWER_M: f32 = 0.15;
+/// The height of a ball on the grass, metres.
 const GRASS_M: f32 = 0.11;
 
-/// The first swing of a kind that kicks the ball this way, world metres, from where it will be.
-pub(super) fn find(
-    game: &Match,
-    id: PlayerId,
-    kind: KickKind,
-    way: Vec2,
-) -> Option<&'static SwingMotion> {
-    let player = game.player(id);
-    let pace = player.vel.length();
-    let gait = [DRIBBLES_FROM_MPS, WALKS_FROM_MPS, SPRINTS_FROM_MPS]
-        .iter()
-        .filter(|from| pace >= **from)
-        .count();
-    let run = if gait == 0 { player.body.facing } else { player.vel / pace };
-    let turn = math::atan2(run.perp_dot(way), run.dot(way)).to_degrees();
-    let by_gait = match kind {
+/// The swings of a kind.
+fn of(kind: KickKind) -> &'static ByGait {
+    match kind {
         KickKind::Short | KickKind::Long => &PASSES,
         KickKind::High => &LOFTS,
         KickKind::Shot | KickKind::Clear => &SHOTS,
-    };
+    }
+}
+
+/// A swing that a player begins.
+pub(super) struct Begun {
+    pub(super) motion: &'static SwingMotion,
+    pub(super) stroke: Stroke,
+}
+
+/// How a player stands to a kick.
+struct Stance {
+    pace: f32,
+    /// The index of their gait in [`ByGait`].
+    gait: usize,
+    /// The way of their run, or where they face if they stand.
+    run: Vec2,
+    /// The angle from there to the kick's way, degrees, positive to the right.
+    turn: f32,
+}
+
+impl Stance {
+    fn of(player: &Player, way: Vec2) -> Stance {
+        let pace = player.vel.length();
+        let gait = [DRIBBLES_FROM_MPS, WALKS_FROM_MPS, SPRINTS_FROM_MPS]
+            .iter()
+            .filter(|from| pace >= **from)
+            .count();
+        let run = if gait == STANDING { player.body.facing } else { player.vel / pace };
+        let turn = math::atan2(run.perp_dot(way), run.dot(way)).to_degrees();
+        Stance { pace, gait, run, turn }
+    }
+
+    /// Whether a swing to one side leads the kick's way.
+    fn leads(&self, swing: &SwingMotion, side: f32) -> bool {
+        let off = math::wrap((self.turn - side * swing.to_degrees).to_radians()).to_degrees();
+        off.abs() <= swing.within_degrees
+    }
+
+    /// What the leg can do in a swing to one side.
+    fn stroke(&self, swing: &SwingMotion, side: f32) -> Stroke {
+        let natural = math::unit((side * swing.to_degrees).to_radians()).rotate(self.run);
+        Stroke { power: swing.power, hard: swing.hard, natural }
+    }
+}
+
+/// What a player's leg can do who kicks this way, world metres, wherever the ball is.
+pub(super) fn stroke(player: &Player, kind: KickKind, way: Vec2) -> Stroke {
+    let stance = Stance::of(player, way);
+    let side = math::sign_or(stance.turn, RIGHT);
+    let swings = ORDER[stance.gait].iter().flat_map(|gait| of(kind)[*gait]);
+    let swing = swings.into_iter().find(|swing| stance.leads(swing, side));
+    swing.map_or(Stroke { power: 1.0, hard: 0.0, natural: way.normalize_or(stance.run) }, |swing| {
+        stance.stroke(swing, side)
+    })
+}
+
+/// The first swing of a kind that kicks the ball this way, world metres, from where it will be.
+pub(super) fn find(game: &Match, id: PlayerId, kind: KickKind, way: Vec2) -> Option<Begun> {
+    let player = game.player(id);
+    let stance = Stance::of(player, way);
+    let Stance { pace, run, .. } = stance;
     let meets = |swing: &SwingMotion, side: f32| {
         let ball = game.play.forecast.at(game.tick + swing.ticks as u32);
         let place = ball.truncate() - player.pos - run * swing.way_m(pace);
         let place = Vec2::new(place.dot(run), run.perp_dot(place));
-        let off = math::wrap((turn - side * swing.to_degrees).to_radians()).to_degrees();
         is_high_enough(ball.z, swing.ball_m[2])
-            && off.abs() <= swing.within_degrees
             && leg::meets(
                 &swing.touch(pace, side),
                 place,
@@ -193,16 +272,19 @@ pub(super) fn find(
             )
     };
     let left_leads = foot::left_leads(player, game.tick as i32);
-    ORDER[gait].iter().find_map(|&gait| {
+    ORDER[stance.gait].iter().find_map(|&gait| {
         // Every swing has its mirror image.
         let suits = |swing: &SwingMotion, side: f32| {
             gait == STANDING || ((side == LEFT) != swing.crosses) == left_leads
         };
         let find = |first: bool| {
-            by_gait[gait].iter().find(|swing| {
-                [RIGHT, LEFT]
-                    .into_iter()
-                    .any(|side| suits(swing, side) == first && meets(swing, side))
+            of(kind)[gait].iter().find_map(|motion| {
+                let side = [RIGHT, LEFT].into_iter().find(|&side| {
+                    stance.leads(motion, side)
+                        && suits(motion, side) == first
+                        && meets(motion, side)
+                })?;
+                Some(Begun { motion, stroke: stance.stroke(motion, side) })
             })
         };
         find(true).or_else(|| find(false))
@@ -228,6 +310,5 @@ fn is_high_enough(ball_m: f32, swing_m: f32) -> bool {
     let eased =
         |height: f32, [per_m, most]: [f32; 2]| 1.0 - ((height - GRASS_M) * per_m).clamp(0.0, most);
     let apart = (ball_m - swing_m).abs() * eased(swing_m, HIGHER[0]) * eased(ball_m, HIGHER[1]);
-    let low = swing_m < LOW_M && ball_m < LOW_M;
-    apart - if low { LOWER_M } else { 0.0 } < UP_M
+    apart < UP_M
 }

@@ -2,7 +2,7 @@ use crate::football::kick;
 use crate::judge::MatchView;
 use crate::snapshot::{SNAPSHOT_VERSION, match_bytes};
 use crate::state::play::{Advantage, Flight, Restart, Save, SetPiece};
-use crate::state::player::{Intent, KickKind, KickPlan, Swing};
+use crate::state::player::{Intent, KickKind, KickPlan, Stroke, Swing};
 use crate::state::{Match, PlayerId};
 use crate::statistics::Statistics;
 use crate::step;
@@ -46,6 +46,7 @@ fn busy() -> Match {
         runs: false,
         end_dmps: 0,
         left_m: 0.0,
+        stroke: Some(Stroke { power: 1.0, hard: 0.0, natural: spot }),
     });
     let (dir, point) = (Some(spot), Some(spot));
     body.kick = Some(KickPlan { dir, mate: Some(id), point, swing, ..kick::pressed(kind, 0) });

@@ -227,6 +227,19 @@ pub struct Swing {
     pub end_dmps: u8,
     /// How far they still run until then, metres.
     pub left_m: f32,
+    /// What the leg can do; none for one that a bot swings.
+    pub stroke: Option<Stroke>,
+}
+
+/// What a leg can do in a swing.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Stroke {
+    /// The share of the player's strength that it uses, 0..1.
+    pub power: f32,
+    /// How hard it is, 0..1.
+    pub hard: f32,
+    /// The way that the ball goes most easily, world, unit.
+    pub natural: Vec2,
 }
 
 impl Swing {

@@ -52,7 +52,7 @@ const HANDS_MPS: f32 = 15.0;
 pub const BEHIND_DEG: f32 = 135.0;
 /// Topspin of a ground pass and backspin of a lofted one, rad/s per m/s, and the speed up to which
 /// they grow. (GRF's ratios; fitted to the measured heights.)
-const TOPSPIN_PER_MPS: f32 = 4.0;
+const TOPSPIN_PER_MPS: f32 = 4.3;
 const BACKSPIN_PER_MPS: f32 = 1.5;
 const SPUN_MPS: f32 = 15.0;
 /// Speed of a throw-in at any distance, m/s. Measured.

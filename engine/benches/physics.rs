@@ -1,4 +1,4 @@
-//! What a tick of the ball costs: free, at the goal, at a body, and with rapier on every tick.
+//! What a tick of the ball costs: free, at the goal, and with rapier on every tick.
 //!
 //! Times are thread CPU time, so that other load on the machine matters little.
 #![allow(missing_docs, reason = "criterion's macros write the entry point")]
@@ -8,10 +8,8 @@ mod cpu;
 
 use cpu::CpuTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, criterion_group, criterion_main};
-use glam::{Vec2, Vec3};
-use setpiece_engine::physics::{
-    Ball, BallObstacle, Conditions, Scratch, advance_ball, predict::places,
-};
+use glam::Vec3;
+use setpiece_engine::physics::{Ball, Conditions, Scratch, advance_ball, predict::places};
 use setpiece_scenario::PitchSize;
 use std::hint::black_box;
 use std::time::Duration;
@@ -28,17 +26,7 @@ const AT_POST: Ball =
 const IN_MOUTH: Ball =
     Ball { pos: Vec3::new(55.5, 0.0, 1.0), vel: Vec3::new(25.0, 0.0, 0.0), spin: Vec3::ZERO };
 
-fn standing(id: u8, x: f32, y: f32) -> BallObstacle {
-    BallObstacle { id, pos: Vec2::new(x, y), vel: Vec2::new(3.0, 1.0), height_m: 1.8 }
-}
-
-fn one_tick(
-    c: &mut BenchmarkGroup<'_, CpuTime>,
-    name: &str,
-    ball: Ball,
-    bodies: &[BallObstacle],
-    full: bool,
-) {
+fn one_tick(c: &mut BenchmarkGroup<'_, CpuTime>, name: &str, ball: Ball, full: bool) {
     let mut scratch = Scratch::default();
     c.bench_function(name, |b| {
         b.iter(|| {
@@ -47,7 +35,6 @@ fn one_tick(
                 &mut moved,
                 &PitchSize::USUAL,
                 &Conditions::USUAL,
-                black_box(bodies),
                 full,
                 &mut scratch,
             ));
@@ -60,22 +47,11 @@ fn ticks(c: &mut Criterion<CpuTime>) {
     let mut group = c.benchmark_group("ball");
     group.sampling_mode(SamplingMode::Flat);
     let c = &mut group;
-    one_tick(c, "tick/gated/flying", FLYING, &[], false);
-    one_tick(c, "tick/gated/rolling", ROLLING, &[], false);
-    one_tick(c, "tick/gated/in_the_goal_mouth", IN_MOUTH, &[], false);
-    one_tick(c, "tick/gated/at_the_post", AT_POST, &[], false);
-    one_tick(c, "tick/full/flying", FLYING, &[], true);
-    let at = |count: u8| -> Vec<BallObstacle> {
-        (0..count).map(|i| standing(i, 0.4 + 0.1 * f32::from(i), 0.0)).collect()
-    };
-    for count in 1..=4u8 {
-        let ball = Ball {
-            pos: Vec3::new(0.0, 0.0, 1.0),
-            vel: Vec3::new(20.0, 0.0, 0.0),
-            spin: Vec3::ZERO,
-        };
-        one_tick(c, &format!("tick/gated/bodies_{count}"), ball, &at(count), false);
-    }
+    one_tick(c, "tick/gated/flying", FLYING, false);
+    one_tick(c, "tick/gated/rolling", ROLLING, false);
+    one_tick(c, "tick/gated/in_the_goal_mouth", IN_MOUTH, false);
+    one_tick(c, "tick/gated/at_the_post", AT_POST, false);
+    one_tick(c, "tick/full/flying", FLYING, true);
     c.bench_function("forecast/300_ticks", |b| {
         b.iter(|| places(black_box(&FLYING), &Conditions::USUAL, 10).take(30).last());
     });

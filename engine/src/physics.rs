@@ -1,7 +1,7 @@
-//! The ball and everything hard that it can meet.
+//! The ball, and the ground, woodwork and nets that it meets.
 //!
-//! Decides how the ball flies, bounces, rolls and rebounds. `football` decides who kicks it and
-//! what that means.
+//! Decides how the ball flies, bounces, rolls and rebounds. `football` decides how it meets
+//! players, and what that means.
 
 mod ball;
 mod conditions;
@@ -21,58 +21,40 @@ pub use lines::{Line, crossed_goal_line, left_pitch};
 pub use scratch::Scratch;
 
 use constants::{BALL_RADIUS, ROLL_DRAG, TICK_S};
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use setpiece_scenario::PitchSize;
 
-/// A player's body that the ball may meet during a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BallObstacle {
-    /// Player id.
-    pub id: u8,
-    /// Feet, world metres.
-    pub pos: Vec2,
-    /// m/s.
-    pub vel: Vec2,
-    /// Metres.
-    pub height_m: f32,
-}
-
 /// What the ball touched in a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contact {
     /// A post or the crossbar.
     Woodwork,
     /// A net, from either side.
     Net,
-    /// A player's body.
-    Body(u8),
 }
 
-/// Moves the ball by one tick of 10 ms: flight, bounce, roll, and rigid contact with woodwork, nets
-/// and bodies.
+/// Moves the ball by one tick of 10 ms: flight, bounce, roll, and rigid contact with woodwork and
+/// nets.
 ///
-/// `full` always runs rapier. Otherwise rapier runs only if the swept ball comes near something
-/// hard.
+/// `full` always runs rapier. Otherwise rapier runs only if the swept ball comes near a goal.
 pub fn advance_ball(
     ball: &mut Ball,
     pitch: &PitchSize,
     conditions: &Conditions,
-    bodies: &[BallObstacle],
     full: bool,
     scratch: &mut Scratch,
 ) -> Option<Contact> {
-    let bodies = gate::near_bodies(ball, bodies);
-    if bodies.is_empty() && flight::lies_still(ball) {
+    if flight::lies_still(ball) {
         return None;
     }
     let before = *ball;
     flight::push(ball, conditions);
-    if !full && bodies.is_empty() && !gate::near_goal(ball, pitch) {
+    if !full && !gate::near_goal(ball, pitch) {
         ball.pos += ball.vel * TICK_S;
         flight::land(ball, conditions);
         return None;
     }
-    let touch = scratch.meet(ball, pitch, &bodies);
+    let touch = scratch.meet(ball, pitch);
     flight::land(ball, conditions);
     let touch = touch?;
     settle(ball, &before, touch.held_up, conditions);

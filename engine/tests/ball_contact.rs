@@ -1,4 +1,4 @@
-//! The ball against hard objects (woodwork, nets, bodies), and the fast mode against the full one.
+//! The ball against hard objects (woodwork, nets), and the fast mode against the full one.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -6,10 +6,10 @@
     reason = "a test fails by panicking"
 )]
 
-use glam::{Vec2, Vec3};
-use setpiece_engine::physics::constants::{BALL_RADIUS, BODY_RADIUS, FRAME_RADIUS};
+use glam::Vec3;
+use setpiece_engine::physics::constants::{BALL_RADIUS, FRAME_RADIUS};
 use setpiece_engine::physics::{self, Ball};
-use setpiece_engine::physics::{BallObstacle, Conditions, Contact, Scratch};
+use setpiece_engine::physics::{Conditions, Contact, Scratch};
 use setpiece_engine::random::{Purpose, Stream};
 use setpiece_scenario::PitchSize;
 use setpiece_scenario::vocabulary::{PitchFigure, Team};
@@ -18,11 +18,10 @@ use setpiece_scenario::vocabulary::{PitchFigure, Team};
 fn advance_ball(
     ball: &mut Ball,
     conditions: &Conditions,
-    bodies: &[BallObstacle],
     full: bool,
     scratch: &mut Scratch,
 ) -> Option<Contact> {
-    physics::advance_ball(ball, &PitchSize::USUAL, conditions, bodies, full, scratch)
+    physics::advance_ball(ball, &PitchSize::USUAL, conditions, full, scratch)
 }
 
 fn crossed_goal_line(before: Vec3, after: Vec3) -> Option<Team> {
@@ -62,26 +61,18 @@ fn aimed(from: Vec3, at: Vec3, speed: f32, spin: Vec3) -> Ball {
     Ball { pos: from, vel, spin }
 }
 
-fn standing(id: u8, pos: Vec2) -> BallObstacle {
-    BallObstacle { id, pos, vel: Vec2::ZERO, height_m: 1.8 }
-}
-
-/// A shot and the bodies in its way.
-type Shot = (Ball, Vec<BallObstacle>);
-
 /// Shots of every kind, from all over the pitch, at either goal.
-fn shots(count: usize) -> Vec<Shot> {
+fn shots(count: usize) -> Vec<Ball> {
     let mut draw = Draw::new(11);
-    (0..count).map(|i| shot(i % 8, &mut draw)).collect()
+    (0..count).map(|i| shot(i % 7, &mut draw)).collect()
 }
 
-fn shot(kind: usize, draw: &mut Draw) -> Shot {
+fn shot(kind: usize, draw: &mut Draw) -> Ball {
     let side = draw.sign();
     let from = draw.point([20.0, -30.0, BALL_RADIUS], [52.0, 30.0, BALL_RADIUS]);
     let mouth = draw.point([55.0, -3.4, 0.2], [55.0, 3.4, 2.4]);
     let post_y = 3.7 * draw.sign();
     let speed = draw.within(14.0, 36.0);
-    let mut bodies = Vec::new();
     let ball = match kind {
         0 => Ball {
             pos: from,
@@ -102,13 +93,6 @@ fn shot(kind: usize, draw: &mut Draw) -> Shot {
             let behind = draw.point([55.5, -20.0, BALL_RADIUS], [59.5, 20.0, BALL_RADIUS]);
             aimed(behind, draw.point([55.2, -3.7, 0.2], [57.5, 3.7, 2.4]), speed, Vec3::ZERO)
         }
-        6 => {
-            for id in 0..3 {
-                let between = from.lerp(mouth, draw.within(0.2, 0.9)).truncate();
-                bodies.push(standing(id, between + Vec2::new(0.0, draw.within(-0.6, 0.6))));
-            }
-            aimed(from, mouth, speed, Vec3::ZERO)
-        }
         _ => {
             let anywhere = draw.point([-52.0, -34.0, BALL_RADIUS], [52.0, 34.0, 2.0]);
             Ball {
@@ -119,11 +103,7 @@ fn shot(kind: usize, draw: &mut Draw) -> Shot {
         }
     };
     let turn = |v: Vec3| Vec3::new(v.x * side, v.y * side, v.z);
-    let ball = Ball { pos: turn(ball.pos), vel: turn(ball.vel), spin: turn(ball.spin) };
-    for body in &mut bodies {
-        body.pos *= side;
-    }
-    (ball, bodies)
+    Ball { pos: turn(ball.pos), vel: turn(ball.vel), spin: turn(ball.spin) }
 }
 
 #[test]
@@ -131,14 +111,14 @@ fn the_fast_mode_agrees_with_the_full_one_over_2400_shots() {
     let (mut gated, mut full) = (Scratch::default(), Scratch::default());
     let (mut met, mut goals, mut different) = (0, 0, 0);
     let shots = shots(2400);
-    for (i, (start, bodies)) in shots.iter().enumerate() {
+    for (i, start) in shots.iter().enumerate() {
         let (mut fast, mut exact) = (*start, *start);
         let (mut fast_goal, mut exact_goal) = (None, None);
         let mut free = true;
         for tick in 0..250 {
             let before = (fast.pos, exact.pos);
-            let one = advance_ball(&mut fast, &Conditions::USUAL, bodies, false, &mut gated);
-            let other = advance_ball(&mut exact, &Conditions::USUAL, bodies, true, &mut full);
+            let one = advance_ball(&mut fast, &Conditions::USUAL, false, &mut gated);
+            let other = advance_ball(&mut exact, &Conditions::USUAL, true, &mut full);
             assert!(
                 fast.pos.is_finite() && fast.vel.is_finite() && fast.spin.is_finite(),
                 "{fast:?}"
@@ -179,17 +159,17 @@ fn the_fast_mode_agrees_with_the_full_one_over_2400_shots() {
 fn what_a_scratch_did_before_leaves_no_trace() {
     let shots = shots(64);
     let mut shared = Scratch::default();
-    let mut together: Vec<Ball> = shots.iter().map(|(ball, _)| *ball).collect();
+    let mut together: Vec<Ball> = shots.clone();
     for _ in 0..200 {
-        for (ball, (_, bodies)) in together.iter_mut().zip(&shots) {
-            advance_ball(ball, &Conditions::USUAL, bodies, true, &mut shared);
+        for ball in &mut together {
+            advance_ball(ball, &Conditions::USUAL, true, &mut shared);
         }
     }
-    for (i, ((start, bodies), interleaved)) in shots.iter().zip(&together).enumerate() {
+    for (i, (start, interleaved)) in shots.iter().zip(&together).enumerate() {
         let mut alone = *start;
         let mut fresh = Scratch::default();
         for _ in 0..200 {
-            advance_ball(&mut alone, &Conditions::USUAL, bodies, true, &mut fresh);
+            advance_ball(&mut alone, &Conditions::USUAL, true, &mut fresh);
         }
         assert_eq!(alone, *interleaved, "shot {i}");
     }
@@ -198,18 +178,13 @@ fn what_a_scratch_did_before_leaves_no_trace() {
 #[test]
 fn both_goals_are_alike_to_the_bit() {
     let mut scratch = Scratch::default();
-    for (start, bodies) in shots(200) {
+    for start in shots(200) {
         let turn = |v: Vec3| Vec3::new(-v.x, -v.y, v.z);
         let mut one = start;
         let mut other = Ball { pos: turn(start.pos), vel: turn(start.vel), spin: turn(start.spin) };
-        let turned: Vec<BallObstacle> =
-            bodies.iter().map(|body| BallObstacle { pos: -body.pos, ..*body }).collect();
         for _ in 0..200 {
-            let touched = advance_ball(&mut one, &Conditions::USUAL, &bodies, false, &mut scratch);
-            assert_eq!(
-                touched,
-                advance_ball(&mut other, &Conditions::USUAL, &turned, false, &mut scratch)
-            );
+            let touched = advance_ball(&mut one, &Conditions::USUAL, false, &mut scratch);
+            assert_eq!(touched, advance_ball(&mut other, &Conditions::USUAL, false, &mut scratch));
             assert_eq!((one.pos, one.vel), (turn(other.pos), turn(other.vel)));
         }
     }
@@ -225,13 +200,8 @@ fn woodwork_gives_back_four_fifths_of_the_speed() {
             let mut ball = Ball { pos: from, vel: Vec3::X * speed, spin: Vec3::ZERO };
             let mut touched = None;
             for _ in 0..40 {
-                touched = touched.or(advance_ball(
-                    &mut ball,
-                    &Conditions::USUAL,
-                    &[],
-                    false,
-                    &mut scratch,
-                ));
+                touched =
+                    touched.or(advance_ball(&mut ball, &Conditions::USUAL, false, &mut scratch));
                 if ball.vel.x < 0.0 {
                     break;
                 }
@@ -260,7 +230,7 @@ fn a_ball_in_the_net_stays_there_at_any_speed() {
         let mut ball = Ball { pos: from, vel, spin: draw.point([-50.0; 3], [50.0; 3]) };
         let mut was_in = false;
         for _ in 0..250 {
-            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, false, &mut scratch);
             was_in = ball.pos.x > 55.0 && (was_in || inside(ball.pos));
             let out_through_net = was_in && !inside(ball.pos);
             assert!(!out_through_net, "ball {i} left through the net: {ball:?}");
@@ -284,89 +254,11 @@ fn a_ball_from_behind_never_gets_into_the_goal() {
         let turn = |v: Vec3| Vec3::new(v.x * side, v.y * side, v.z);
         let mut ball = Ball { pos: turn(from), vel: turn(vel), spin: Vec3::ZERO };
         for _ in 0..300 {
-            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, false, &mut scratch);
             if ball.pos.x.abs() < 55.0 {
                 break;
             }
             assert!(!inside(ball.pos), "ball {i} came in through the net: {ball:?}");
-        }
-    }
-}
-
-#[test]
-fn a_body_stops_and_damps_the_ball_and_is_named() {
-    let mut scratch = Scratch::default();
-    for speed in [5.0f32, 15.0, 30.0, 45.0] {
-        let mut ball =
-            Ball { pos: Vec3::new(0.0, 0.0, 1.0), vel: Vec3::X * speed, spin: Vec3::ZERO };
-        let bodies = [standing(7, Vec2::new(9.0, 0.0)), standing(14, Vec2::new(1.5, 0.05))];
-        let mut touched = None;
-        for _ in 0..60 {
-            touched = touched.or(advance_ball(
-                &mut ball,
-                &Conditions::USUAL,
-                &bodies,
-                false,
-                &mut scratch,
-            ));
-            assert!(ball.pos.x < 1.5 - BODY_RADIUS, "through the body: {ball:?}");
-        }
-        assert_eq!(touched, Some(Contact::Body(14)), "at {speed} m/s");
-        assert!(ball.vel.x < 0.0 && ball.vel.length() < 0.6 * speed + 4.0, "damped: {ball:?}");
-    }
-}
-
-#[test]
-fn a_ball_over_the_head_passes() {
-    let mut scratch = Scratch::default();
-    let mut ball =
-        Ball { pos: Vec3::new(0.0, 0.0, 2.2), vel: Vec3::new(25.0, 0.0, 1.0), spin: Vec3::ZERO };
-    for _ in 0..20 {
-        assert_eq!(
-            advance_ball(
-                &mut ball,
-                &Conditions::USUAL,
-                &[standing(3, Vec2::new(2.0, 0.0))],
-                false,
-                &mut scratch
-            ),
-            None
-        );
-    }
-    assert!(ball.pos.x > 4.0);
-}
-
-#[test]
-fn a_running_body_takes_a_resting_ball_along() {
-    let mut scratch = Scratch::default();
-    let mut ball =
-        Ball { pos: Vec3::new(0.0, 0.0, BALL_RADIUS), vel: Vec3::ZERO, spin: Vec3::ZERO };
-    let mut body =
-        BallObstacle { id: 4, pos: Vec2::new(-1.0, 0.0), vel: Vec2::new(6.0, 0.0), height_m: 1.8 };
-    let mut touched = None;
-    for _ in 0..30 {
-        touched =
-            touched.or(advance_ball(&mut ball, &Conditions::USUAL, &[body], false, &mut scratch));
-        body.pos += body.vel * 0.01;
-    }
-    assert_eq!(touched, Some(Contact::Body(4)));
-    assert!(ball.vel.x > 5.0 && ball.vel.x < 9.0 && ball.pos.x > body.pos.x, "{ball:?}");
-}
-
-#[test]
-fn a_body_cannot_press_the_ball_through_the_net() {
-    let mut draw = Draw::new(8);
-    let mut scratch = Scratch::default();
-    for i in 0..200 {
-        let from = draw.point([56.0, -3.0, 0.11], [57.0, 3.0, 0.11]);
-        let mut ball = Ball { pos: from, vel: Vec3::ZERO, spin: Vec3::ZERO };
-        let vel = Vec2::new(draw.within(1.0, 8.0), draw.within(-4.0, 4.0));
-        let mut body =
-            BallObstacle { id: 2, pos: from.truncate() - vel.normalize(), vel, height_m: 1.85 };
-        for _ in 0..150 {
-            advance_ball(&mut ball, &Conditions::USUAL, &[body], false, &mut scratch);
-            body.pos += body.vel * 0.01;
-            assert!(ball.pos.x < 55.0 || inside(ball.pos), "ball {i}: {ball:?}, {body:?}");
         }
     }
 }
@@ -390,7 +282,7 @@ fn a_thousand_balls_left_at_net_and_posts_lie_still_for_a_minute() {
         let mut ticks = 0;
         while ball.vel != Vec3::ZERO {
             let start = ball;
-            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, false, &mut scratch);
             ticks += 1;
             assert!(
                 ball.pos.is_finite() && ball.vel.is_finite(),
@@ -402,7 +294,7 @@ fn a_thousand_balls_left_at_net_and_posts_lie_still_for_a_minute() {
         at_hard_parts +=
             usize::from(rest.x.abs() > 54.8 && rest.x.abs() < 57.8 && rest.y.abs() < 4.0);
         for _ in 0..6000 {
-            advance_ball(&mut ball, &Conditions::USUAL, &[], false, &mut scratch);
+            advance_ball(&mut ball, &Conditions::USUAL, false, &mut scratch);
             assert!(
                 (ball.pos - rest).length() < 0.01,
                 "ball {i} crept from {rest} to {}",
@@ -418,7 +310,7 @@ fn hard_things_add_no_energy() {
     let mut draw = Draw::new(6);
     let mut scratch = Scratch::default();
     for i in 0..600 {
-        let (mut ball, bodies) = shot(i % 7, &mut draw);
+        let mut ball = shot(i % 6, &mut draw);
         for tick in 0..200 {
             let energy = |b: &Ball| {
                 9.81 * b.pos.z
@@ -426,7 +318,7 @@ fn hard_things_add_no_energy() {
                     + BALL_RADIUS * BALL_RADIUS / 3.0 * b.spin.length_squared()
             };
             let before = energy(&ball);
-            let touched = advance_ball(&mut ball, &Conditions::USUAL, &bodies, false, &mut scratch);
+            let touched = advance_ball(&mut ball, &Conditions::USUAL, false, &mut scratch);
             let after = energy(&ball);
             // Pushed out of an overlap of millimetres, the ball may gain that much height.
             assert!(
@@ -462,10 +354,9 @@ fn goals_of_another_pitch_stand_on_its_lines_and_have_its_size() {
         let (mut far, mut near) = (ball, Ball { pos: from - Vec3::X * 25.0, ..ball });
         let mut little = near;
         for _ in 0..60 {
-            let met = advance_ball(&mut far, &Conditions::USUAL, &[], false, &mut usual);
+            let met = advance_ball(&mut far, &Conditions::USUAL, false, &mut usual);
             let conditions = &Conditions::USUAL;
-            let moved =
-                physics::advance_ball(&mut near, &short, conditions, &[], false, &mut other);
+            let moved = physics::advance_ball(&mut near, &short, conditions, false, &mut other);
             assert_eq!(met, moved, "shot {shot}: the same goal, 25 m nearer");
             assert!(far.pos.distance(near.pos + Vec3::X * 25.0) < 0.01, "shot {shot}");
             woodwork[0] += u32::from(met == Some(Contact::Woodwork));
@@ -473,8 +364,7 @@ fn goals_of_another_pitch_stand_on_its_lines_and_have_its_size() {
         for _ in 0..60 {
             let before = little.pos;
             let conditions = &Conditions::USUAL;
-            let met =
-                physics::advance_ball(&mut little, &small, conditions, &[], false, &mut other);
+            let met = physics::advance_ball(&mut little, &small, conditions, false, &mut other);
             woodwork[1] += u32::from(met == Some(Contact::Woodwork));
             if let Some(team) = physics::crossed_goal_line(&small, before, little.pos) {
                 assert_eq!(team, Team::Right);

@@ -25,7 +25,7 @@ fn kicked(speed_x: f32, speed_z: f32, backspin: f32) -> Ball {
 
 /// A tick; gives what hard thing the ball meets.
 fn fly(ball: &mut Ball, scratch: &mut Scratch) -> Option<Contact> {
-    advance_ball(ball, &PitchSize::USUAL, &Conditions::USUAL, &[], false, scratch)
+    advance_ball(ball, &PitchSize::USUAL, &Conditions::USUAL, false, scratch)
 }
 
 fn advance(ball: &mut Ball, ticks: usize, scratch: &mut Scratch) {

@@ -19,7 +19,7 @@ fn way(from: Vec3, vel: Vec3, spin: Vec3, changes: &[(Figure, f64)]) -> Vec<Vec3
     let mut scratch = Scratch::default();
     let mut way = Vec::new();
     while !flight::lies_still(&ball) && way.len() < 6000 {
-        advance_ball(&mut ball, &PitchSize::USUAL, &conditions, &[], false, &mut scratch);
+        advance_ball(&mut ball, &PitchSize::USUAL, &conditions, false, &mut scratch);
         way.push(ball.pos);
     }
     way
@@ -70,14 +70,7 @@ fn a_ball_on_the_ground_lies_in_the_lee() {
     let mut ball = Ball { pos: SPOT, vel: Vec3::ZERO, spin: Vec3::ZERO };
     let mut scratch = Scratch::default();
     for _ in 0..1000 {
-        advance_ball(
-            &mut ball,
-            &PitchSize::USUAL,
-            &Conditions::with(storm),
-            &[],
-            false,
-            &mut scratch,
-        );
+        advance_ball(&mut ball, &PitchSize::USUAL, &Conditions::with(storm), false, &mut scratch);
     }
     assert_eq!(ball.pos, SPOT);
     let (calm, blown) = (rest(Vec3::X * 12.0, &[]), rest(Vec3::X * 12.0, &storm));
@@ -150,7 +143,7 @@ fn a_ball_comes_to_rest_under_every_extreme_and_the_wind_carries_it_no_faster_th
         let mut ticks = 0;
         while !flight::lies_still(&ball) && (calm || ticks < 3000) {
             ball.pos.x = ball.pos.x.clamp(-50.0, 50.0);
-            advance_ball(&mut ball, &PitchSize::USUAL, &conditions, &[], false, &mut scratch);
+            advance_ball(&mut ball, &PitchSize::USUAL, &conditions, false, &mut scratch);
             ticks += 1;
             assert!(ball.pos.is_finite() && ball.vel.length() < 60.0, "{changes:?}: {ball:?}");
             assert!(ticks < 20_000, "{changes:?}: {ball:?} never rests");
@@ -174,14 +167,7 @@ fn the_forecast_knows_the_world() {
             let (mut flown, mut scratch) = (ball, Scratch::default());
             for (i, place) in places(&ball, &conditions, 5).take(20).enumerate() {
                 for _ in 0..5 {
-                    advance_ball(
-                        &mut flown,
-                        &PitchSize::USUAL,
-                        &conditions,
-                        &[],
-                        false,
-                        &mut scratch,
-                    );
+                    advance_ball(&mut flown, &PitchSize::USUAL, &conditions, false, &mut scratch);
                 }
                 let off = place.distance(flown.pos);
                 assert!(off < 0.25, "{changes:?}, point {i}: {place}, flown {}", flown.pos);

@@ -13,7 +13,7 @@ const PUSHED: f32 = 2.0;
 const FAST_MPS: [f32; 2] = [10.0, 50.0];
 const FASTER: f32 = 1.5;
 const FAST: f32 = 5.0;
-/// From how far to how far ahead of a place `FRONT_M` before the player a ball counts as far away,
+/// From how far to how far off a place `FRONT_M` before the player a ball counts as far away,
 /// metres, by which power, and for how much.
 const FRONT_M: f32 = 0.2;
 const AWAY_M: [f32; 2] = [0.7, 1.3];

@@ -8,7 +8,7 @@ use crate::state::player::{Aim, Pose, Swing};
 use crate::state::{Match, Player, Squad};
 
 /// For `UNSEEN_TICKS` nobody has seen where a rival's touch sends the ball. Between two bounces off
-/// a body there are at least `BOUNCE_TICKS`. (GRF's.)
+/// a body there are more than `BOUNCE_TICKS`. (GRF's.)
 const UNSEEN_TICKS: i32 = 20;
 const BOUNCE_TICKS: i32 = 15;
 /// The ball meets a body this near to its middle, metres. Measured of GRF's bounces; fitted to how

@@ -18,8 +18,6 @@ const BACKSPIN: f32 = 10.0;
 const BACKSPIN_MPS: f32 = 10.0;
 const BACKSPINS: f32 = 0.7;
 
-/// Ticks until a player hit by the ball can play it.
-const STUNNED_TICKS: i32 = 30;
 /// A slower shot no longer counts as a shot, m/s; chosen.
 const SPENT_MPS: f32 = 2.0;
 
@@ -66,15 +64,8 @@ fn pushed_spin(velocity: Vec2) -> Vec3 {
     (velocity.normalize_or_zero().perp() * (speed / BALL_RADIUS - back)).extend(0.0)
 }
 
-/// Records that the ball bounced off a player who did not see it coming; that player needs a while
-/// to reach it.
-pub fn deflected(game: &mut Match, events: &mut Events, by: PlayerId) {
-    sprang(game, events, by);
-    let body = &mut game.players[by.index()].body;
-    body.ready_at = body.ready_at.max(game.tick as i32 + STUNNED_TICKS);
-}
-
-/// Records that the ball bounced off a player: a shot is saved or blocked, and a pass is over.
+/// Records that the ball sprang off a player or a keeper's hands: a shot is saved or blocked, and a
+/// pass is over.
 pub fn sprang(game: &mut Match, events: &mut Events, by: PlayerId) {
     if let Some(shot) = game.play.shot.take_if(|shot| shot.by.team() != by.team()) {
         let saved = game.player(by).role == Role::GK;

@@ -6,7 +6,7 @@
 
 use crate::football::carry::{self, Carry};
 use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
-use crate::football::foot;
+use crate::football::foot::{self, STRIDE_TICKS};
 use crate::football::leg::{self, MotionTouch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::football::{contact, noise, possession, touch};
@@ -126,9 +126,8 @@ const STOPPING: [DribbleMotion; 2] = [
     motion(WALKS, ABOUT_DEG, [12, 22], MotionEnd::Braked(0.0), 0.4, [1.47, 0.61], [1.87, 0.28])
         .even(),
 ];
-/// How long a stride lasts, ticks; up to how long after their own touch players finish it; and by
-/// how much they may want another velocity, m/s. (GRF's.)
-pub(super) const STRIDE_TICKS: i32 = 24;
+/// Up to how long after their own touch players finish a stride, ticks, and by how much they may
+/// want another velocity, m/s. (GRF's.)
 const LATELY_TICKS: i32 = 60;
 const ALIKE_MPS: f32 = 1.0;
 /// For how many ticks a motion can be left for another one (GRF's), and up to which cosine of what

@@ -2,9 +2,10 @@
 //!
 //! The feet change with every stride and with every motion of an odd number of steps. (GRF's.)
 
-use crate::football::dribble_motion::STRIDE_TICKS;
 use crate::state::Player;
 
+/// How long a stride lasts, ticks. (GRF's.)
+pub(super) const STRIDE_TICKS: i32 = 24;
 /// After this many ticks of a stride or motion the other foot leads.
 const CHANGES_TICKS: i32 = 12;
 

@@ -214,7 +214,7 @@ fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
         return;
     }
     report::did(game, events, EventKind::Parry, id, shot.map(|shot| shot.by));
-    contact::deflected(game, events, id);
+    contact::sprang(game, events, id);
     let side = id.team().side() as f32;
     let (speed, own) = (game.ball.vel.length(), game.player(id).vel);
     let aside = Vec2::new(0.0, (2.0 * noise::roll(game) - 1.0) * side);

@@ -11,7 +11,7 @@ use crate::football::{
 use crate::math;
 use crate::state::event::Events;
 use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
-use crate::state::{Match, Player, PlayerId, Squad};
+use crate::state::{Match, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
 
@@ -291,14 +291,13 @@ pub(super) fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: 
     game.play.hands = None;
     game.play.set_piece = None;
     let exempt = mode.is_some_and(offside::exempt);
-    let rough = roughness(game.player(id), game, plan.kind);
     let mut receiver = None;
     match plan.kind {
         KickKind::Shot => {
             let shot = if mode == Some(GameMode::FreeKick) {
                 shot::over_wall(game, id, &plan)
             } else {
-                shot::struck(game, id, &plan, rough)
+                shot::struck(game, id, &plan, roughness(game, id))
             };
             send(game, id, shot);
         }
@@ -374,15 +373,11 @@ fn send(game: &mut Match, id: PlayerId, struck: Struck) {
     game.ball.spin = (struck.spin.truncate() * turned + rolls).extend(struck.spin.z);
 }
 
-/// How awkward the kick is, 0..1. A fast, high or distant ball adds to it (less for good
-/// volleyers), and so does an opponent nearby (less for calm players).
-fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
-    if game.play.set_piece.is_some() || game.play.hands.is_some() {
-        return 0.0;
-    }
-    let relative = (game.ball.vel - player.vel.extend(0.0)).length();
+/// How awkward a shot is, 0..1. A distant ball adds to it, a push, and everybody nearby (less for
+/// calm players). A shot computes the effect of a moving ball itself.
+fn roughness(game: &Match, id: PlayerId) -> f32 {
+    let player = game.player(id);
     let far = (player.pos.distance(game.ball.pos.truncate()) - 0.5).max(0.0);
-    let high = (game.ball.pos.z - 0.3).max(0.0);
     let near = game
         .players
         .iter()
@@ -390,13 +385,7 @@ fn roughness(player: &Player, game: &Match, kind: KickKind) -> f32 {
         .count()
         .saturating_sub(1);
     let pushed = 3.0 * player.body.push_m;
-    // A shot computes the effect of a moving ball itself.
-    let moving = if kind == KickKind::Shot {
-        0.0
-    } else {
-        ((relative - 4.0) / 25.0).clamp(0.0, 0.7) + high * 0.4
-    };
     // About 1 for the average player of the table.
     let hurry = 1.3 - 0.4 * player.skill(Stat::Calmness);
-    (moving + far * 0.5 + near as f32 * 0.16 * hurry + pushed).clamp(0.0, 1.0)
+    (far * 0.5 + near as f32 * 0.16 * hurry + pushed).clamp(0.0, 1.0)
 }

@@ -10,8 +10,8 @@ use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;
 
-/// How hard a pass is meant at least and at most, and the speed of either, m/s; how far that is,
-/// metres, by which power. Of ground passes and of lofted ones. (GRF's.)
+/// How hard a pass is meant, in shares of `MEANT_MPS`: `LEAST`, and so much more over `MEANT_M`
+/// metres, by that power of the way; of ground passes and of lofted ones. (GRF's.)
 const MEANT: [f32; 2] = [1.8, 1.15];
 const LEAST: f32 = 0.3;
 const MEANT_MPS: f32 = 36.0;
@@ -31,7 +31,7 @@ const MOMENTUM: f32 = 0.5;
 const LACKS: f32 = 0.25;
 const LACKS_MPS: f32 = 10.0;
 /// How much skill takes off a hard swing, and how much a ball that is far, high, moving or hard to
-/// swing at goes the swing's own way instead. (GRF's.)
+/// swing at goes the swing's own way instead; and how much all that counts. (GRF's.)
 const SKILLED: f32 = 0.5;
 const NATURAL: [f32; 4] = [0.15, 0.15, 0.3, 0.5];
 const NATURALLY: f32 = 1.5;
@@ -47,9 +47,8 @@ const HARD_UP_MPS: f32 = 5.0;
 const OFF_GRASS: f32 = 0.97;
 /// Speed of the hardest pass out of the hands, m/s. Measured.
 const HANDS_MPS: f32 = 15.0;
-/// From this angle to the run on, a kick goes behind the back, and a pass is played with the heel,
-/// degrees; chosen.
-pub const BEHIND_DEG: f32 = 135.0;
+/// From this angle to the run on, a kick goes behind the back, degrees; chosen.
+const BEHIND_DEG: f32 = 135.0;
 /// Topspin of a ground pass and backspin of a lofted one, rad/s per m/s, and the speed up to which
 /// they grow. (GRF's ratios; fitted to the measured heights.)
 const TOPSPIN_PER_MPS: f32 = 4.3;
@@ -154,7 +153,7 @@ pub fn is_behind(player: &Player, way: Vec2) -> bool {
 }
 
 /// The angle between the way a player runs (or faces) and another way, degrees.
-pub fn off_run(player: &Player, way: Vec2) -> f32 {
+fn off_run(player: &Player, way: Vec2) -> f32 {
     let ahead = player.vel.normalize_or(player.body.facing);
     math::atan2(ahead.perp_dot(way), ahead.dot(way)).abs().to_degrees()
 }

@@ -1,7 +1,7 @@
 //! The swings of kicks: how long they last, where they meet the ball, and what becomes of the run.
 //!
-//! A kick takes the first swing that leads its way and meets the ball; those for the foot that leads
-//! now come first. (Measured of GRF's motions.)
+//! A kick takes the first swing that leads its way and meets the ball; of a gait, those for the
+//! foot that leads now come first. (Measured of GRF's motions.)
 
 use crate::football::foot;
 use crate::football::leg::{self, KICK, MotionTouch};
@@ -20,15 +20,15 @@ pub(super) struct SwingMotion {
     pub(super) ticks: i32,
     /// Where the ball is then, metres from the body: along the run, to the kick's side, and up.
     ball_m: [f32; 3],
-    /// How fast the player is on average until then, and then, m/s: at least, and by share of the
-    /// run.
+    /// How fast the player is on average until then, and then, m/s: base and share of their
+    /// pace.
     mean: [f32; 2],
     end: [f32; 2],
     /// How fast the player comes out of it, m/s.
     out_mps: f32,
     /// Whether the foot away from the kick's side leads, not that of its side.
     crosses: bool,
-    /// The share of its strength that a player can put into it, and how hard it is, both 0..1.
+    /// The share of their strength that a player can put into it, and how hard it is, both 0..1.
     power: f32,
     hard: f32,
 }
@@ -82,7 +82,7 @@ impl SwingMotion {
         self
     }
 
-    /// The same with less power, and harder.
+    /// The same with this power, and this hard.
     const fn weaker(mut self, power: f32, hard: f32) -> SwingMotion {
         (self.power, self.hard) = (power, hard);
         self

@@ -62,16 +62,14 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
     }
     let full = game.rule(Rule::Physics);
     let (pitch, conditions) = (&game.pitch, &game.conditions);
-    match physics::advance_ball(&mut game.ball, pitch, conditions, &[], full, scratch) {
-        Some(Contact::Woodwork) => {
-            let event = report::event(game, EventKind::Woodwork);
-            events.push(match game.last_touch {
-                Some(id) => event.by(id),
-                None => event,
-            });
-            game.play.save = [None; 2];
-        }
-        _ => {}
+    let met = physics::advance_ball(&mut game.ball, pitch, conditions, full, scratch);
+    if met == Some(Contact::Woodwork) {
+        let event = report::event(game, EventKind::Woodwork);
+        events.push(match game.last_touch {
+            Some(id) => event.by(id),
+            None => event,
+        });
+        game.play.save = [None; 2];
     }
 }
 

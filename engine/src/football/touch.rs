@@ -14,9 +14,9 @@ use setpiece_scenario::vocabulary::Rule;
 
 /// A ball higher than this isn't at its owner's foot yet, metres.
 pub(super) const FOOT_HIGH_M: f32 = 0.5;
-/// Nobody further from the ball has to do with it in a tick, metres: a foot reaches 1.1, a fast
-/// ball that meets a body less than 1.3.
-pub(super) const NEAR_M: f32 = 1.3;
+/// Nobody further from the ball plays it in a tick, metres: a foot reaches 1.1, and the motion of a
+/// touch begins at most this far off.
+const NEAR_M: f32 = 1.3;
 /// From how far somebody may reach for the ball, metres: as far as they run until their foot is
 /// there.
 const ABOUT_M: f32 = 4.5;
@@ -29,7 +29,7 @@ const KEPT_TICKS: i32 = 45;
 /// Ticks between two touches of one player.
 const PAUSE_TICKS: i32 = 24;
 
-/// The players near enough to meet the ball in this tick.
+/// The players near enough to touch the ball in this tick, or to begin the motion of a touch.
 pub(super) fn near(game: &Match) -> Squad {
     let ball = game.ball.pos.truncate();
     let mut near = Squad::default();

@@ -71,19 +71,8 @@ pub const NET_HALF: f32 = 0.03;
 pub const NET_BOUNCE: f32 = 0.1;
 /// Friction of a net on leather. Chosen: meshes hold a ball.
 pub const NET_FRICTION: f32 = 0.6;
-/// Radius of the upright capsule of a player's body, m: half the breadth of hips and shoulders.
-pub const BODY_RADIUS: f32 = 0.25;
-/// Share of the speed that a body gives back. GRF: 6 m/s plus 0.6 of the speed along the normal,
-/// times 0.7; this is about the same for shots and passes.
-pub const BODY_BOUNCE: f32 = 0.55;
-/// Friction of a body on leather. Chosen: cloth.
-pub const BODY_FRICTION: f32 = 0.5;
-/// Length of a body's capsule, m. It ends below the ground, so that one length fits players of
-/// every height.
-pub const BODY_LENGTH: f32 = 2.4;
 
-/// Rapier runs if the swept ball comes nearer to something hard than this, m. Its own lookahead is
-/// 0.02.
+/// Rapier runs if the swept ball comes nearer to a goal than this, m. Its own lookahead is 0.02.
 pub const NEAR: f32 = 0.05;
 /// A ball slower than this that touches something and is held up lies still, m/s: what gravity adds
 /// in a tick.

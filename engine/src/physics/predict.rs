@@ -1,4 +1,4 @@
-//! Where a free ball will be, for players who run to meet it. Posts, nets and bodies are ignored.
+//! Where a free ball will be, for players who run to meet it. Posts, nets and players are ignored.
 //!
 //! It takes strides of several ticks if possible: the roll has a closed form, and flight changes
 //! slowly. A bounce is computed tick by tick with the physics itself. The error is mostly

@@ -1,4 +1,4 @@
-//! The rapier world of rigid contact: one goal, the ball, and a few players' bodies.
+//! The rapier world of rigid contact: one goal and the ball.
 //!
 //! There is only one goal, the right team's, at its place on the usual pitch. A ball in the left
 //! half is turned by 180° about the centre spot, simulated with this goal, and turned back. So both
@@ -8,10 +8,10 @@
 //! Grass isn't simulated here: [`super::flight`] handles bouncing and rolling in every mode.
 //! Gravity isn't either: all forces are in the ball's velocity before rapier sees it.
 
+use super::Contact;
 use super::constants::{
-    BALL_INERTIA_SHARE, BALL_MASS, BALL_RADIUS, BODY_BOUNCE, BODY_FRICTION, BODY_LENGTH,
-    BODY_RADIUS, FRAME_BOUNCE, FRAME_FRICTION, FRAME_RADIUS, NET_BOUNCE, NET_FRICTION, NET_HALF,
-    TICK_S,
+    BALL_INERTIA_SHARE, BALL_MASS, BALL_RADIUS, FRAME_BOUNCE, FRAME_FRICTION, FRAME_RADIUS,
+    NET_BOUNCE, NET_FRICTION, NET_HALF, TICK_S,
 };
 use glam::Vec3;
 use rapier3d::dynamics::{
@@ -25,9 +25,6 @@ use rapier3d::geometry::{
 use rapier3d::math::Pose;
 use rapier3d::pipeline::PhysicsPipeline;
 use setpiece_scenario::{PitchSize, pitch};
-
-/// The most bodies of one tick.
-pub(super) const BODIES_MAX: usize = 4;
 
 /// x of the scene's goal line, m: that of the usual pitch, on pitches of every length.
 const GOAL_X: f32 = pitch::HALF_LENGTH_M as f32;
@@ -89,15 +86,6 @@ impl Default for SolverSpace {
     }
 }
 
-/// What a collider is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ColliderPart {
-    Frame,
-    Net,
-    /// A body, by its place in the tick's list.
-    Body(usize),
-}
-
 /// The parts of rapier's state that a tick changes and that must be restored before the next tick.
 #[derive(Clone)]
 pub(super) struct RapierWorld {
@@ -108,17 +96,12 @@ pub(super) struct RapierWorld {
     pub(super) colliders: ColliderSet,
     pub(super) ball: RigidBodyHandle,
     pub(super) ball_collider: ColliderHandle,
-    pub(super) bodies: [Option<RigidBodyHandle>; BODIES_MAX],
 }
 
 impl RapierWorld {
-    /// Builds the world with room for this many bodies, stepped once so that its trees and lists
-    /// are laid out.
-    pub(super) fn template(
-        bodies: usize,
-        size: GoalSize,
-        workspace: &mut SolverSpace,
-    ) -> RapierWorld {
+    /// Builds the world with a goal of this size, stepped once so that its trees and lists are laid
+    /// out.
+    pub(super) fn template(size: GoalSize, workspace: &mut SolverSpace) -> RapierWorld {
         let mut rigid = RigidBodySet::new();
         let mut colliders = ColliderSet::new();
         let goal = rigid.insert(RigidBodyBuilder::fixed());
@@ -129,22 +112,11 @@ impl RapierWorld {
             RigidBodyBuilder::dynamic()
                 .translation(Vec3::new(0.0, 0.0, 20.0))
                 .can_sleep(false)
-                // Fixed parts are always swept against; moving ones only with this.
-                .ccd_enabled(bodies > 0)
                 .additional_mass_properties(MassProperties::new(Vec3::ZERO, BALL_MASS, inertia)),
         );
         let ball_shape =
             ColliderBuilder::ball(BALL_RADIUS).density(0.0).restitution(1.0).friction(1.0);
         let ball_collider = colliders.insert_with_parent(ball_shape, ball, &mut rigid);
-        let bodies = std::array::from_fn(|i| {
-            (i < bodies).then(|| {
-                let aside = Vec3::new(-20.0 - 5.0 * i as f32, 0.0, 0.0);
-                let handle =
-                    rigid.insert(RigidBodyBuilder::kinematic_velocity_based().translation(aside));
-                colliders.insert_with_parent(body(i), handle, &mut rigid);
-                handle
-            })
-        });
         let mut world = RapierWorld {
             islands: IslandManager::new(),
             broad_phase: BroadPhaseBvh::new(),
@@ -153,7 +125,6 @@ impl RapierWorld {
             colliders,
             ball,
             ball_collider,
-            bodies,
         };
         world.step(workspace);
         world
@@ -168,7 +139,6 @@ impl RapierWorld {
         self.colliders.clone_from(&template.colliders);
         self.ball = template.ball;
         self.ball_collider = template.ball_collider;
-        self.bodies = template.bodies;
     }
 
     /// Simulates one tick.
@@ -190,12 +160,12 @@ impl RapierWorld {
         );
     }
 
-    /// The part that a collider belongs to.
-    pub(super) fn part(&self, collider: ColliderHandle) -> Option<ColliderPart> {
+    /// What a ball that meets a collider touches.
+    pub(super) fn contact(&self, collider: ColliderHandle) -> Option<Contact> {
         match self.colliders.get(collider)?.user_data {
-            FRAME => Some(ColliderPart::Frame),
-            NET => Some(ColliderPart::Net),
-            data => Some(ColliderPart::Body(usize::try_from(data.checked_sub(BODY)?).ok()?)),
+            FRAME => Some(Contact::Woodwork),
+            NET => Some(Contact::Net),
+            _ => None,
         }
     }
 }
@@ -203,7 +173,6 @@ impl RapierWorld {
 /// User data of colliders.
 const FRAME: u128 = 1;
 const NET: u128 = 2;
-const BODY: u128 = 3;
 
 /// The solver's settings. Every tick solves its contacts from scratch, so nothing is carried over.
 fn parameters() -> IntegrationParameters {
@@ -257,14 +226,4 @@ fn net(GoalSize { post_y, bar_z }: GoalSize) -> ColliderBuilder {
     .friction(NET_FRICTION)
     .friction_combine_rule(CoefficientCombineRule::Min)
     .user_data(NET)
-}
-
-/// A player's body, upright.
-fn body(place: usize) -> ColliderBuilder {
-    ColliderBuilder::capsule_z(0.5 * BODY_LENGTH - BODY_RADIUS, BODY_RADIUS)
-        .restitution(BODY_BOUNCE)
-        .restitution_combine_rule(CoefficientCombineRule::Min)
-        .friction(BODY_FRICTION)
-        .friction_combine_rule(CoefficientCombineRule::Min)
-        .user_data(BODY + place as u128)
 }

@@ -227,7 +227,7 @@ pub struct Swing {
     pub end_dmps: u8,
     /// How far they still run until then, metres.
     pub left_m: f32,
-    /// What the leg can do; none for one that a bot swings.
+    /// What the leg can do; none if no swing was chosen: a bot's, at a set piece, out of the hands.
     pub stroke: Option<Stroke>,
 }
 

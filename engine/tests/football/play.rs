@@ -2,8 +2,9 @@
 
 use crate::Bench;
 use crate::layouts::{Layout, drawn, set_level};
-use glam::Vec2;
-use setpiece_engine::football::contact;
+use glam::{Vec2, Vec3};
+use setpiece_engine::football::{bounce, contact};
+use setpiece_engine::physics::Ball;
 use setpiece_engine::state::player::{Aim, Lunge, Motion};
 use setpiece_engine::state::{Match, PlayerId};
 use setpiece_scenario::vocabulary::{Action, EventKind, Qualifier, Role, Rule};
@@ -271,7 +272,7 @@ fn a_leg_far_from_the_ball_is_drawn_back_in_its_time() {
     let far = PlayerId(0);
     let (at, place) = (bench.game.tick as i32 + 5, Vec2::ZERO);
     let motion = Motion::Reach { aim: Aim::Poke, stops: false, place };
-    let lunge = Lunge { at, out: 5, back: 3, motion };
+    let lunge = Lunge { at, out: 5, back: 3, changes_feet: false, motion };
     bench.game.players[far.index()].body.lunge = Some(lunge);
     bench.step(Action::BuiltinAi);
     assert_eq!(bench.game.player(far).body.lunge, None);
@@ -291,4 +292,29 @@ fn a_shot_that_springs_off_a_rival_is_blocked_and_off_a_keeper_saved() {
         assert_eq!(bench.seen(EventKind::Save).is_some(), by == keeper);
         assert_eq!(bench.game.play.shot, None);
     }
+}
+
+/// The velocity, along its way, of a 20 m/s ball that meets a body so long after a touch.
+fn goes_on(toucher: PlayerId, ago_ticks: u32, high_m: f32) -> f32 {
+    let mut bench = Bench::new(Layout::Eleven, 0);
+    let (defender, at) = (PlayerId(12), Vec2::new(20.0, 5.0));
+    let game = &mut bench.game;
+    game.tick = 1000;
+    game.last_touch = Some(toucher);
+    game.players[toucher.index()].body.touched_at = (game.tick - ago_ticks) as i32;
+    game.players[defender.index()].pos = at;
+    game.players[defender.index()].vel = Vec2::ZERO;
+    let pos = (at - Vec2::X * 0.1).extend(high_m);
+    game.ball = Ball { pos, vel: Vec3::X * 20.0, spin: Vec3::ZERO };
+    bounce::off_bodies(game, &mut bench.events, [defender].into_iter().collect());
+    bench.game.ball.vel.x
+}
+
+#[test]
+fn a_ball_springs_off_whoever_could_not_see_it_coming_and_off_nobody_else() {
+    let (rival, mate) = (PlayerId(9), PlayerId(13));
+    assert!(goes_on(rival, 5, 0.3) < -5.0, "{} m/s back", goes_on(rival, 5, 0.3));
+    assert_eq!(goes_on(rival, 20, 0.3), 20.0, "0.2 s after the touch everybody has seen it");
+    assert_eq!(goes_on(mate, 5, 0.3), 20.0, "a teammate's ball");
+    assert_eq!(goes_on(rival, 5, 2.2), 20.0, "over the head");
 }

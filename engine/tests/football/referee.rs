@@ -306,7 +306,7 @@ fn meeting(mps: f32, lunges: bool) -> ([Pose; 2], bool) {
         (Some(LEFT_MAN), Some(LEFT_MAN), Some(Team::Left));
     let (at, aim) = (now + 10, Aim::Poke);
     let motion = Motion::Reach { aim, stops: false, place: spot };
-    let lunge = Lunge { at, out: 1, back: 18, motion };
+    let lunge = Lunge { at, out: 1, back: 18, changes_feet: false, motion };
     bench.game.players[right].body.lunge = lunges.then_some(lunge);
     stumble::meet(&mut bench.game, &mut bench.events, [LEFT_MAN, RIGHT_MAN], 0.72);
     ([left, right].map(|i| bench.game.players[i].body.pose), bench.seen(EventKind::Foul).is_some())

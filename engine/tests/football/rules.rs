@@ -193,7 +193,7 @@ fn a_deflection_plays_nobody_onside_and_a_played_ball_does() {
         bench
     };
     let mut sprang = set_up();
-    contact::deflected(&mut sprang.game, &mut sprang.events, defender);
+    contact::sprang(&mut sprang.game, &mut sprang.events, defender);
     assert!(offside::caught(&mut sprang.game, &mut sprang.events, runner));
     let mut played = set_up();
     assert!(contact::touched(&mut played.game, &mut played.events, defender, false));

@@ -335,7 +335,7 @@ fn handballs(
         bench.game.players[who.index()].pos = at;
         let from = Vec3::new(at.x - 3.0, at.y, height);
         bench.game.ball = Ball { pos: from, vel: Vec3::new(25.0, 0.0, 0.5), spin: Vec3::ZERO };
-        bench.game.last_touch = Some(LEFT_MAN);
+        contact::note(&mut bench.game, LEFT_MAN, contact::Touch::Played);
         contact::shot_struck(&mut bench.game, &mut bench.events, LEFT_MAN, from.truncate());
         bench.step(Action::BuiltinAi);
         bench.step(Action::BuiltinAi);

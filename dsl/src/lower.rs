@@ -48,6 +48,7 @@ mod table;
 pub(crate) mod team;
 pub(crate) mod triangles;
 pub(crate) mod value;
+mod whole;
 mod world;
 
 pub(crate) use world::{Effort, MAX_LOWERED, World};
@@ -363,7 +364,11 @@ impl<'c, 'w> Lower<'c, 'w> {
         let metres = (wanted == Ty::LENGTH && value.ty.is_plain())
             .then(|| self.written_in_metres(expr))
             .flatten();
-        let instead = metres.map_or(Instead::Usual, |text| Instead::Metres { text });
+        let instead = match metres {
+            Some(text) => Instead::Metres { text },
+            None if (wanted, value.ty) == (Ty::Int, Ty::Number) => self.made_whole(expr),
+            None => Instead::Usual,
+        };
         self.fail(self.mismatch_with(value.ty, wanted, expr.span, instead))
     }
 

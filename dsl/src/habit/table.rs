@@ -380,7 +380,60 @@ pub(super) const HABITS: &[Habit] = &[
     row(Anywhere, "| if … else", "write `if c then a else b`"),
     row(Scenario, "end … | if", "write `when …`"),
     row(Scenario, "rounds 9 | on¦until¦if", "write `rounds {1} when …`"),
-    row(Scenario, "substitute … | on¦if", "write `when …`"),
+    // Who comes on bears the name of who goes off.
+    row(
+        Scenario,
+        "substitute _ | for _",
+        "only who goes off is named, and who comes on described in braces: write `substitute {2} when …`",
+    ),
+    row(
+        Scenario,
+        "substitute _ | with¦by¦-> _",
+        "only who goes off is named, and who comes on described in braces: write `substitute {1} when …`",
+    ),
+    row(
+        Scenario,
+        "substitute _ when … | with¦by¦for _",
+        "who comes on has no name, and is described in braces: write `substitute {1} when … { … }`",
+    ),
+    row(Scenario, "substitute _ when … | with {", "leave `with` out"),
+    row(
+        Scenario,
+        "substitute _ when … | fatigue¦difficulty¦stats :",
+        "it stands in braces: `{ {2}: … }`",
+    ),
+    row(Scenario, "substitute _ | , _", "each has a statement: `substitute {1} when …`"),
+    row(Scenario, "substitute _ | and _", "each has a statement: `substitute {1} when …`"),
+    row(
+        Scenario,
+        "substitute all¦both¦each | ROLE",
+        "each has a statement: `substitute tired when …`",
+    ),
+    row(
+        Scenario,
+        "substitute all¦both¦each | _",
+        "each has a statement: `substitute tired when …`",
+    ),
+    row(Scenario, "substitute _ | at¦after 9a", "write `when elapsed > {3}`"),
+    row(
+        Scenario,
+        "substitute _ | {",
+        "when they go off stands before the braces: `substitute {1} when ball_dead { … }`",
+    ),
+    row(Scenario, "substitute | when", "who goes off stands before it: `substitute tired when …`"),
+    row(Scenario, "^ | when … substitute _", "who goes off stands first: `substitute {1} when …`"),
+    row(
+        Scenario,
+        "substitute _ | : ROLE",
+        "a player is called by their name alone: write `substitute {1} when …`",
+    ),
+    row(
+        Scenario,
+        "substitute ROLE | at",
+        "name the player in their team, `tired: {1} at …`, and write `substitute tired when …`",
+    ),
+    row(Scenario, "^ | replace¦sub¦swap¦exchange _", "write `substitute {2} when …`"),
+    row(Scenario, "substitute … | on¦if¦once¦where¦until", "write `when …`"),
     row(Scenario, "observe | {", "write `observe vector { … }`"),
     row(Scenario, "observe vector | [¦(", "values stand between braces: `observe vector { … }`"),
     row(

@@ -8,6 +8,8 @@
 mod layout;
 
 use crate::ast::Span;
+use setpiece_scenario::bounds::EVENTS_MAX;
+use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::{
     BinaryOp, Distribution, Each, EventField, Field, Fold, FoldKind, Instr, Over, Reg, Table,
     UnaryOp, When,
@@ -85,9 +87,25 @@ pub(crate) struct Builder {
     nodes: Vec<CodeNode>,
     blocks: Vec<CodeBlock>,
     open: Vec<BlockId>,
-    writes: Vec<u32>,
+    cells: Vec<CodeCell>,
     /// The tables and where they are declared.
     tables: Vec<(Span, Table)>,
+}
+
+/// A memory cell.
+#[derive(Default)]
+struct CodeCell {
+    writes: Vec<CellWrite>,
+    /// Whether nothing else ever writes it.
+    is_closed: bool,
+}
+
+/// A write to a memory cell.
+pub(crate) struct CellWrite {
+    /// What is written.
+    pub(crate) value: Reg,
+    /// How often in a step at most.
+    pub(crate) times: f64,
 }
 
 /// Where the virtual registers went.
@@ -107,7 +125,7 @@ impl Builder {
             nodes: Vec::new(),
             blocks: vec![CodeBlock::default(), CodeBlock::default()],
             open: vec![ROOT],
-            writes: Vec::new(),
+            cells: Vec::new(),
             tables: Vec::new(),
         }
     }
@@ -119,8 +137,21 @@ impl Builder {
 
     /// A new memory cell.
     pub(crate) fn new_cell(&mut self) -> u32 {
-        self.writes.push(0);
-        self.writes.len() as u32 - 1
+        self.cells.push(CodeCell::default());
+        self.cells.len() as u32 - 1
+    }
+
+    /// Says that a cell begins at 0 and that all that writes it has been written.
+    pub(crate) fn close_cell(&mut self, cell: u32) {
+        if let Some(cell) = self.cells.get_mut(cell as usize) {
+            cell.is_closed = true;
+        }
+    }
+
+    /// All that writes a cell, which begins at 0; `None` where that isn't known.
+    pub(crate) fn writes_of(&self, cell: u32) -> Option<&[CellWrite]> {
+        let cell = self.cells.get(cell as usize)?;
+        cell.is_closed.then_some(&cell.writes)
     }
 
     /// The value of a register that is a constant.
@@ -138,6 +169,16 @@ impl Builder {
 
     /// Whether any instruction that a register depends on, itself included, passes a test.
     pub(crate) fn depends(&self, reg: Reg, test: &dyn Fn(&Instr) -> bool) -> bool {
+        self.depends_through(reg, test, &|_| true)
+    }
+
+    /// The same, leaving out what loops look at that aren't entered.
+    pub(crate) fn depends_through(
+        &self,
+        reg: Reg,
+        test: &dyn Fn(&Instr) -> bool,
+        enters: &dyn Fn(&Each) -> bool,
+    ) -> bool {
         let mut seen = vec![false; self.nodes.len()];
         let mut stack = vec![reg];
         while let Some(reg) = stack.pop() {
@@ -152,7 +193,9 @@ impl Builder {
                 return true;
             }
             node.instr.operands(&mut |operand| stack.push(operand));
-            if let Instr::Each(each) = &node.instr {
+            if let Instr::Each(each) = &node.instr
+                && enters(each)
+            {
                 stack.extend(each.fold.value.iter().chain(&each.fold.guard));
             }
         }
@@ -363,7 +406,7 @@ impl Builder {
 
     /// The present value of a cell.
     pub(crate) fn cell(&mut self, cell: u32) -> Reg {
-        let version = self.writes.get(cell as usize).copied().unwrap_or_default();
+        let version = self.cells.get(cell as usize).map_or(0, |cell| cell.writes.len() as u32);
         self.shared(self.here(), Key::Cell(cell, version), Instr::Cell(cell))
     }
 
@@ -416,8 +459,22 @@ impl Builder {
     /// Writes a cell.
     pub(crate) fn assign(&mut self, cell: u32, value: Reg, guard: Option<Reg>) {
         self.push(self.here(), Instr::Assign { cell, value, guard }, None);
-        if let Some(version) = self.writes.get_mut(cell as usize) {
-            *version += 1;
+        let times = self.open.iter().filter_map(|block| self.most_runs(*block)).product();
+        if let Some(cell) = self.cells.get_mut(cell as usize) {
+            cell.writes.push(CellWrite { value, times });
+        }
+    }
+
+    /// How often the body of a loop runs at most.
+    fn most_runs(&self, body: BlockId) -> Option<f64> {
+        let owner = self.blocks.get(body)?.owner?;
+        match &self.nodes.get(owner as usize)?.instr {
+            Instr::Each(each) => Some(match each.over {
+                Over::Players { .. } => PLAYERS_MAX as f64,
+                Over::Events(_) => EVENTS_MAX as f64,
+                Over::Numbers(n) => n.into(),
+            }),
+            _ => None,
         }
     }
 

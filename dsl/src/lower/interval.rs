@@ -1,10 +1,13 @@
 //! The least and greatest value a register can have, as far as parameters' ranges and draws tell.
 
+mod kept;
+
 use super::builder::Builder;
-use setpiece_scenario::pitch::{STEP_S, STEPS_PER_S};
+use setpiece_scenario::bounds::EVENTS_MAX;
+use setpiece_scenario::pitch::{PLAYERS_MAX, STEP_S, STEPS_PER_S, TEAM_MAX};
 use setpiece_scenario::vocabulary::Field;
 use setpiece_scenario::{BinaryOp, Distribution, EventFilter, FoldKind, Instr, Over, Reg, UnaryOp};
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 /// A closed interval.
 pub(crate) type Interval = (f64, f64);
@@ -14,16 +17,16 @@ const NEVER: Interval = (0.0, 0.0);
 
 /// What a number of the match can be, generously: metres, m/s, radians. The ball may fly on a
 /// little beyond the lines.
-fn of_field(field: Field) -> Option<Interval> {
+fn of_field(field: Field, in_play: &InPlay<'_>) -> Option<Interval> {
     Some(match field {
         Field::BallX | Field::PlayerX => (-80.0, 80.0),
         Field::BallY | Field::PlayerY => (-60.0, 60.0),
-        // A ball hit upwards at a start, in the least gravity.
-        Field::BallHeight => (-1.0, 2600.0),
+        Field::BallHeight => (0.0, in_play.highest_ball),
         Field::BallVx | Field::BallVy | Field::BallVz => (-100.0, 100.0),
         Field::PlayerVx | Field::PlayerVy => (-15.0, 15.0),
         Field::PlayerFatigue => (0.0, 1.0),
         Field::PlayerYellowCards => (0.0, 2.0),
+        Field::Score => (0.0, u16::MAX.into()),
         Field::PlayerHeading => (-4.0, 4.0),
         _ => return None,
     })
@@ -31,7 +34,7 @@ fn of_field(field: Field) -> Option<Interval> {
 
 /// The interval of a register, if it is bounded; `params` are the parameters' ranges, in order.
 pub(crate) fn interval(code: &Builder, reg: Reg, params: &[Option<Interval>]) -> Option<Interval> {
-    Search { code, params, in_play: None, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0)
+    Search::new(code, params, None).bounded(reg, 0)
 }
 
 /// Whether a condition never holds, whatever happens in the match.
@@ -41,8 +44,7 @@ pub(crate) fn never_holds(
     params: &[Option<Interval>],
     in_play: InPlay<'_>,
 ) -> bool {
-    let in_play = Some(in_play);
-    Search { code, params, in_play, visits: Cell::new(VISITS_MAX) }.bounded(reg, 0) == Some(NEVER)
+    Search::new(code, params, Some(in_play)).bounded(reg, 0) == Some(NEVER)
 }
 
 /// What is known of a match under way.
@@ -54,6 +56,10 @@ pub(crate) struct InPlay<'a> {
     pub(crate) longest_round: Option<f64>,
     /// Whether the parts of an `and` are looked at together.
     pub(crate) joint: bool,
+    /// Whether it is known that what only grows is never less than at its beginning.
+    pub(crate) counts_up: bool,
+    /// Higher than the ball rises, metres.
+    pub(crate) highest_ball: f64,
     /// Whether an event that passes a filter can happen.
     pub(crate) happens: &'a dyn Fn(&EventFilter) -> bool,
 }
@@ -71,6 +77,19 @@ struct Search<'a> {
     /// What the match can show, if that counts.
     in_play: Option<InPlay<'a>>,
     visits: Cell<u32>,
+    /// The cells that are being looked at.
+    cells: RefCell<Vec<u32>>,
+}
+
+impl<'a> Search<'a> {
+    fn new(
+        code: &'a Builder,
+        params: &'a [Option<Interval>],
+        in_play: Option<InPlay<'a>>,
+    ) -> Search<'a> {
+        let (visits, cells) = (Cell::new(VISITS_MAX), RefCell::default());
+        Search { code, params, in_play, visits, cells }
+    }
 }
 
 impl Search<'_> {
@@ -122,14 +141,16 @@ impl Search<'_> {
             Instr::Load { field: Field::Elapsed | Field::Remaining, .. } => {
                 (0.0, in_play?.longest?)
             }
-            Instr::Load { field, .. } => in_play.and_then(|_| of_field(*field))?,
+            Instr::Load { field, .. } => of_field(*field, in_play?)?,
+            Instr::Cell(cell) => self.kept(*cell, depth)?,
             Instr::Each(each) => match (each.fold.kind, &each.over) {
                 (FoldKind::Count, Over::Events(filter)) if !(in_play?.happens)(filter) => NEVER,
                 _ if in_play.is_none() => return None,
                 (FoldKind::Count, Over::Players { team, .. }) => {
                     let both = self.code.constant_of(*team).is_some_and(|team| team < 0.0);
-                    (0.0, if both { 22.0 } else { 11.0 })
+                    (0.0, if both { PLAYERS_MAX } else { TEAM_MAX } as f64)
                 }
+                (FoldKind::Count, Over::Events(_)) => (0.0, EVENTS_MAX as f64),
                 _ => return None,
             },
             Instr::Select(_, a, b) => {

@@ -6,7 +6,7 @@ use super::{Lower, ProgramStage};
 use crate::problem::facts::{Because, Never};
 use setpiece_scenario::pitch::{STEPS_PER_S, X_SCALE_M, Y_SCALE_M};
 use setpiece_scenario::vocabulary::{EventKind, Field, PitchMeasure, Qualifier, Rule, Team};
-use setpiece_scenario::{BinaryOp, EventFilter, Instr, Over, Reg, UnaryOp, Who};
+use setpiece_scenario::{BinaryOp, Each, EventFilter, FoldKind, Instr, Over, Reg, UnaryOp, Who};
 use std::cell::Cell;
 
 impl Lower<'_, '_> {
@@ -81,6 +81,8 @@ impl Lower<'_, '_> {
             longest: self.longest(),
             longest_round: self.longest_round(reg),
             joint: true,
+            counts_up: true,
+            highest_ball: self.highest_ball(),
             happens: &|filter| self.never_happens(filter).is_none(),
         };
         change(&mut in_play);
@@ -140,12 +142,17 @@ impl Lower<'_, '_> {
         if !self.never_holds_if(guard, |known| known.longest = None) {
             return Never::Condition(limit);
         }
+        if !self.never_holds_if(guard, |known| known.counts_up = false) {
+            return Never::Condition(Some(Because::Count));
+        }
         let reads = |fields: &[Field]| {
             let test = |instr: &Instr| match instr {
                 Instr::Load { field, .. } => fields.contains(field),
                 _ => false,
             };
-            self.code.depends(guard, &test)
+            // Whatever is counted, the count has its own bounds.
+            let enters = |each: &Each| each.fold.kind != FoldKind::Count;
+            self.code.depends_through(guard, &test, &enters)
         };
         let counts = self.code.depends(guard, &|instr| match instr {
             Instr::Each(each) => matches!(each.over, Over::Players { .. }),
@@ -165,7 +172,8 @@ impl Lower<'_, '_> {
             (reads(&[Field::PlayerVx, Field::PlayerVy]), Some(Because::PlayerSpeed)),
             (reads(&[Field::PlayerYellowCards]), Some(Because::YellowCards)),
             (reads(&[Field::PlayerFatigue]), Some(Because::Fatigue)),
-            (reads(&[Field::BallHeight]), Some(Because::BallHeight)),
+            (reads(&[Field::BallHeight]), Some(Because::BallHeight(self.highest_ball()))),
+            (reads(&[Field::Score]), Some(Because::Count)),
             (reads(&[Field::Elapsed, Field::Remaining]), limit),
             (counts, Some(Because::Players)),
         ];

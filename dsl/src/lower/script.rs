@@ -21,7 +21,11 @@ impl<'w> Lower<'_, 'w> {
         let mut args = Vec::new();
         for decl in params {
             let known = self.scope.find(&decl.name.node).cloned();
-            let Some(LocalName::Expr { now: Some(value), .. } | LocalName::Value(value)) = known
+            let Some(
+                LocalName::Expr { now: Some(value), .. }
+                | LocalName::Value(value)
+                | LocalName::Kept { value, .. },
+            ) = known
             else {
                 continue;
             };

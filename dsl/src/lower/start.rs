@@ -85,6 +85,7 @@ pub(crate) fn lower_start<'c, 'w>(
     let side = side_with_agents(&lower, &agents, &options);
     let rules = lower.rules();
     let settings = lower.world_settings();
+    let highest_ball = lower.ball_ceiling(&settings);
     let pitch = lower.pitch_settings();
     let limit = lower.limit();
     let rounds = lower.rounds();
@@ -153,7 +154,7 @@ pub(crate) fn lower_start<'c, 'w>(
     let players =
         players.iter().map(|slot| map_slot(slot, &mut |reg| place(&layout, reg))).collect();
     let agents = map_agents(&agents, &mut |reg| place(&layout, reg));
-    let step = StepWorld::new(world, &start, lets, pitch_sources, side);
+    let step = StepWorld::new(world, &start, lets, pitch_sources, side, highest_ball);
     let regions = laid_out(&regions, &layout);
     LoweredStart { start, players, agents, step, behaviors, requires: of_requires, regions }
 }

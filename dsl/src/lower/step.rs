@@ -36,4 +36,9 @@ impl<'w> Lower<'_, 'w> {
     pub(super) fn longest(&self) -> Option<f64> {
         self.step.and_then(|step| step.longest)
     }
+
+    /// How high the ball rises at most, metres.
+    pub(super) fn highest_ball(&self) -> f64 {
+        self.step.map_or(f64::MAX, |step| step.highest_ball)
+    }
 }

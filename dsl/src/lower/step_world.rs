@@ -20,6 +20,8 @@ pub(crate) struct StepWorld<'c, 'w> {
     pub(super) rules_off: Vec<Rule>,
     /// How long an episode lasts at most, seconds, if that is known.
     pub(super) longest: Option<f64>,
+    /// How high the ball rises at most, metres.
+    pub(super) highest_ball: f64,
 }
 
 impl<'c, 'w> StepWorld<'c, 'w> {
@@ -27,13 +29,15 @@ impl<'c, 'w> StepWorld<'c, 'w> {
     ///
     /// - `lets`: in the order of their names;
     /// - `pitch`: the pitch's figures that the scenario sets, by their index;
-    /// - `agents`: the one team that has agents, if it is one.
+    /// - `agents`: the one team that has agents, if it is one;
+    /// - `highest_ball`: how high the ball rises at most, metres.
     pub(super) fn new(
         world: &'c World<'w>,
         start: &Start,
         lets: Vec<LetSlot<'w>>,
         pitch: PitchSources,
         agents: Option<Team>,
+        highest_ball: f64,
     ) -> StepWorld<'c, 'w> {
         StepWorld {
             world,
@@ -42,6 +46,7 @@ impl<'c, 'w> StepWorld<'c, 'w> {
             agents,
             rules_off: rules_off(start),
             longest: longest(start),
+            highest_ball,
         }
     }
 }

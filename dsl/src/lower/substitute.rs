@@ -2,11 +2,12 @@
 
 use super::team::{share, stat_of};
 use super::{Lower, fields};
-use crate::ast::{FieldValue, Substitute};
+use crate::ast::{Expr, ExprKind, FieldValue, Span, Substitute};
+use crate::check::names;
 use crate::check::options::SUBSTITUTE;
 use crate::check::types::Ty;
-use crate::problem::Problem;
-use crate::problem::facts::{Players, Types};
+use crate::problem::facts::{Fact, Kind, Names, Players, Types};
+use crate::problem::{Guess, Problem};
 use setpiece_scenario::Substitution;
 
 /// Lowers a substitution in the endings' program; `None` after a report.
@@ -14,25 +15,10 @@ pub(super) fn lower_substitute<'w>(
     lower: &mut Lower<'_, 'w>,
     said: &'w Substitute,
 ) -> Option<Substitution> {
-    let who = lower.want(&said.who, Ty::Player);
+    let player = who_goes_off(lower, &said.who);
     let when = lower.condition(&said.when);
-    if who.is_error() {
-        return None;
-    }
-    let reg = lower.reg(&who);
-    let player = lower.code.constant_of(reg).filter(|&id| id >= 0.0);
-    let Some(player) = player else {
-        let text = lower.world.text(said.who.span);
-        lower.report(Problem::new(said.who.span, Players::SubstituteOfNobody { text }));
-        return None;
-    };
-    let mut found = Substitution {
-        player: player as u8,
-        when,
-        fatigue: None,
-        difficulty: None,
-        stats: Vec::new(),
-    };
+    let mut found =
+        Substitution { player: player?, when, fatigue: None, difficulty: None, stats: Vec::new() };
     for field in &said.fields {
         if !fields::is_known(lower, field, SUBSTITUTE, "`substitute`") {
             continue;
@@ -57,4 +43,44 @@ pub(super) fn lower_substitute<'w>(
         }
     }
     Some(found)
+}
+
+/// The id of who goes off; `None` after a report.
+fn who_goes_off<'w>(lower: &mut Lower<'_, 'w>, who: &'w Expr) -> Option<u8> {
+    let world = lower.world;
+    let text = || world.text(who.span);
+    let fact: Fact = match (&who.kind, world.tentatively(|| lower.expr(who).ty)) {
+        (ExprKind::Name(name), Ty::Error) if is_strange(lower, name, who.span) => {
+            let known = world.roster.iter().filter_map(|player| player.name);
+            let known: Vec<&str> = known.map(|name| name.node.as_str()).collect();
+            let guess = Guess::similar_or_all(name, &known);
+            Names::Unknown { kind: Kind::NamedPlayer, name: name.clone(), guess }.into()
+        }
+        (ExprKind::String(name), _) => Players::SubstituteInQuotes { name: name.clone() }.into(),
+        (_, ty @ (Ty::Team | Ty::Set | Ty::List)) => {
+            Players::SubstituteOfMany { text: text(), noun: ty.noun() }.into()
+        }
+        _ => {
+            let value = lower.want(who, Ty::Player);
+            if value.is_error() {
+                return None;
+            }
+            let reg = lower.reg(&value);
+            if let Some(id) = lower.code.constant_of(reg).filter(|&id| id >= 0.0) {
+                return Some(id as u8);
+            }
+            Players::SubstituteOfNobody { text: text() }.into()
+        }
+    };
+    lower.report(Problem::new(who.span, fact));
+    None
+}
+
+/// Whether a name is like none that could stand here.
+fn is_strange(lower: &Lower<'_, '_>, name: &str, span: Span) -> bool {
+    let known = lower.names_in_sight(span);
+    let replaced = lower.world.flat.teams.iter().flat_map(|team| &team.replaced);
+    !names::is_value(name)
+        && replaced.into_iter().all(|(replaced, _)| *replaced != name)
+        && Guess::of(name, known.iter().map(String::as_str)) == Guess::default()
 }

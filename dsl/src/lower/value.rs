@@ -162,6 +162,13 @@ pub(crate) enum LocalName<'w> {
         /// Where it is declared.
         at: Span,
     },
+    /// A `state` of a behaviour.
+    Kept {
+        /// Its value.
+        value: Value<'w>,
+        /// Where it is declared.
+        at: Span,
+    },
 }
 
 impl LocalName<'_> {
@@ -169,7 +176,9 @@ impl LocalName<'_> {
     pub(crate) fn declared(&self) -> Option<Span> {
         match self {
             LocalName::Value(_) => None,
-            LocalName::Expr { at, .. } | LocalName::State { at, .. } => Some(*at),
+            LocalName::Expr { at, .. }
+            | LocalName::State { at, .. }
+            | LocalName::Kept { at, .. } => Some(*at),
         }
     }
 }

@@ -173,9 +173,13 @@ impl<'w> World<'w> {
 
     /// Whether a sign that compares numbers stands behind a span.
     pub(crate) fn is_compared(&self, span: Span) -> bool {
+        self.text_behind(span).trim_start().starts_with(['<', '>', '=', '!'])
+    }
+
+    /// What stands behind a span in its file.
+    pub(super) fn text_behind(&self, span: Span) -> &str {
         let text = self.library.sources.get(span.file).map_or("", |source| &source.text);
-        let behind = text.get(span.end as usize..).unwrap_or_default().trim_start();
-        behind.starts_with(['<', '>', '=', '!'])
+        text.get(span.end as usize..).unwrap_or_default()
     }
 
     /// An expression's text on one line, the same however the author has laid it out.

@@ -68,9 +68,13 @@ impl Reader<'_> {
             }
         }
         let last = last.unwrap_or_else(|| broken(span));
-        arms.into_iter().rev().fold(last, |otherwise, (condition, then)| Expr {
-            span: condition.span.to(otherwise.span),
-            kind: ExprKind::If(Box::new(condition), Box::new(then), Box::new(otherwise)),
+        let n = arms.len();
+        arms.into_iter().rev().enumerate().fold(last, |otherwise, (at, (condition, then))| {
+            let begin = if at + 1 == n { span } else { condition.span };
+            Expr {
+                span: begin.to(otherwise.span),
+                kind: ExprKind::If(Box::new(condition), Box::new(then), Box::new(otherwise)),
+            }
         })
     }
 

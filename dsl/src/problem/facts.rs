@@ -47,7 +47,7 @@ pub(crate) use scope::{BeforeOutside, Scopes, ViewOutside};
 pub(crate) use start::Starts;
 pub(crate) use syntax::{Hint, ROUND, Syntax, UnitGuess};
 pub(crate) use tables::Tables;
-pub(crate) use types::{Instead, Operand, Types, Use, Verb};
+pub(crate) use types::{Instead, Operand, Types, Undeclared, Use, Verb};
 
 use super::Code;
 use super::said::Said;

@@ -44,7 +44,8 @@ impl<'w> BehaviorWriter<'_, 'w> {
         let ty = kept.ty;
         self.nodes.push(Node::Let(cells.iter().copied().zip(regs).collect()));
         self.lower.check_hides_local(&state.name.node, state.name.span, &self.around);
-        self.lower.scope.bind(&state.name.node, LocalName::Value(kept));
+        let kept = LocalName::Kept { value: kept, at: state.name.span };
+        self.lower.scope.bind(&state.name.node, kept);
         self.states.push(State { name: &state.name.node, cells, ty });
     }
 

@@ -13,7 +13,7 @@ impl Builder {
         self.lay_out(PROLOGUE, &live, &mut out);
         self.lay_out(ROOT, &live, &mut out);
         let mut program =
-            Program { code: out.code, cells: self.writes.len() as u32, tables: Vec::new() };
+            Program { code: out.code, cells: self.cells.len() as u32, tables: Vec::new() };
         self.keep_tables(&mut program);
         (program, RegisterLayout(out.layout))
     }

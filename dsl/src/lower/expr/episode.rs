@@ -55,6 +55,7 @@ impl<'w> Lower<'_, 'w> {
         let before = self.code.cell(cell);
         let sum = self.code.binary(BinaryOp::Add, before, more);
         self.code.assign(cell, sum, None);
+        self.code.close_cell(cell);
         Value::one(Ty::Int, if when == When::Now { sum } else { before })
     }
 
@@ -72,6 +73,7 @@ impl<'w> Lower<'_, 'w> {
         let results: Vec<Reg> =
             regs.iter().map(|&reg| self.gather(kind, reg, (before, now), when)).collect();
         self.code.assign(steps, now, None);
+        self.code.close_cell(steps);
         match *results.as_slice() {
             [x, y] => Value::two(value.ty, (x, y)),
             [result] => Value::one(
@@ -111,6 +113,7 @@ impl<'w> Lower<'_, 'w> {
             _ => self.code.binary(BinaryOp::Add, kept, reg),
         };
         self.code.assign(cell, next, None);
+        self.code.close_cell(cell);
         let of_steps = |lower: &mut Self, value: Reg, steps: Reg| match kind {
             "mean" => lower.code.binary(BinaryOp::Div, value, steps),
             _ => value,

@@ -124,7 +124,7 @@ impl<'w> Lower<'_, 'w> {
             }
             (F::Mod, &[x, y]) => {
                 let a = self.expr(x);
-                let b = self.want(y, a.ty);
+                let b = self.like(y, a.ty);
                 if a.is_error() || b.is_error() {
                     return Value::error();
                 }
@@ -133,7 +133,8 @@ impl<'w> Lower<'_, 'w> {
                 }
                 let (p, q) = (self.reg(&a), self.reg(&b));
                 self.check_divisor(q, y, span);
-                Value::one(a.ty, self.code.binary(BinaryOp::Mod, p, q))
+                let ty = a.ty.join(b.ty).unwrap_or(a.ty);
+                Value::one(ty, self.code.binary(BinaryOp::Mod, p, q))
             }
             (F::Clamp, &[x, low, high]) => self.clamp(x, low, high),
             (F::Smoothstep, &[low, high, x]) => self.smoothstep(low, high, x),

@@ -146,6 +146,10 @@ impl<'w> Lower<'_, 'w> {
         known.extend(RegionName::ALL.iter().map(|region| region.name()));
         known.extend(["zone.CM", "score"]);
         let text = self.world.text(of);
+        if Role::from_name(name).is_some() {
+            let fact = Names::PlayerByRole { team: text, role: name.to_owned() };
+            return self.fail(Problem::new(at, fact));
+        }
         let guess = Guess::or_all(name, &known);
         self.fail(Problem::new(at, Names::NoLandmark { team: text, name: name.to_owned(), guess }))
     }

@@ -128,7 +128,7 @@ impl<'w> Lower<'_, 'w> {
 
     pub(crate) fn local(&mut self, name: &str, binding: LocalName<'w>, span: Span) -> Value<'w> {
         let value = match binding {
-            LocalName::Value(value) => value,
+            LocalName::Value(value) | LocalName::Kept { value, .. } => value,
             LocalName::State { cells, before, ty, at } => {
                 self.world.mark_used(at);
                 match self.when {

@@ -196,27 +196,30 @@ impl<'w> Lower<'_, 'w> {
         // Cells begin at 0: another first value is put there in the first step.
         let begun = self.code.new_cell();
         let has_begun = self.code.cell_before(begun);
+        let mut kept = vec![begun];
         for (state, first) in states.iter().zip(&firsts) {
             let (mut cells, mut before) = (Vec::new(), Vec::new());
             for reg in first.regs() {
                 let cell = self.code.new_cell();
-                let kept = self.code.cell_before(cell);
+                let last = self.code.cell_before(cell);
                 let known = if self.code.constant_of(reg) == Some(0.0) {
-                    kept
+                    last
                 } else {
-                    let known = self.code.select(has_begun, kept, reg);
+                    let known = self.code.select(has_begun, last, reg);
                     self.code.assign(cell, known, None);
                     known
                 };
                 cells.push(cell);
                 before.push(known);
             }
+            kept.extend(&cells);
             self.bind_state(state, cells, before, first.ty);
         }
         let with_states = self.scope.clone();
         RewardWriter::write(self, &statements, None, Vec::new());
         let one = self.code.constant(1.0);
         self.code.assign(begun, one, None);
+        kept.into_iter().for_each(|cell| self.code.close_cell(cell));
         self.stage = reader;
         (self.event, self.when, self.team) = outer;
         self.scope = outer_scope;

@@ -7,6 +7,7 @@ use crate::lower::value::Repr;
 use crate::lower::{Lower, fields};
 use crate::problem::Problem;
 use crate::problem::facts::{Instead, Types};
+use setpiece_scenario::pitch::{BALL_SPEED_MAX_MPS, START_HEIGHT_MAX_M};
 use setpiece_scenario::vocabulary::{WIND_MAX_MPS, WorldFigure};
 use setpiece_scenario::{Reg, WorldSetting};
 
@@ -27,6 +28,23 @@ impl<'w> Lower<'_, 'w> {
             });
         }
         settings
+    }
+
+    /// How high the ball rises at most, metres: from the highest start straight up, faster by what a
+    /// wind adds, with nothing but gravity to slow it.
+    pub(super) fn ball_ceiling(&self, settings: &[WorldSetting]) -> f64 {
+        let range = |figure: WorldFigure| {
+            let set = settings.iter().rfind(|setting| setting.figure == figure);
+            let usual = (figure.usual(), figure.usual());
+            set.map_or(usual, |set| self.interval(set.value).unwrap_or(figure.range()))
+        };
+        let wind = [WorldFigure::WindX, WorldFigure::WindY].map(|along| {
+            let (low, high) = range(along);
+            low.abs().max(high.abs())
+        });
+        let speed = BALL_SPEED_MAX_MPS + 2.0 * wind[0].hypot(wind[1]).min(WIND_MAX_MPS);
+        let gravity = range(WorldFigure::Gravity).0.max(WorldFigure::Gravity.range().0);
+        START_HEIGHT_MAX_M + speed * speed / (2.0 * gravity)
     }
 
     fn figure(&mut self, figure: WorldFigure, expr: &'w Expr) -> WorldSetting {

@@ -114,6 +114,10 @@ facts! {
         /// A landmark or region that a team doesn't have.
         NoLandmark { team: String, name: String, guess: Guess } = Code::UnknownMember =>
             say(format!("`{team}` has no landmark or region `{name}`"), "not known").guess(guess, "a team has"),
+        /// A player of a team by their role.
+        PlayerByRole { team: String, role: String } = Code::UnknownMember =>
+            say(format!("`{team}` has no landmark or region `{role}`"), "a role")
+                .help(format!("a player is called by a name of their own: write `anchor: {role} at …` in the team, and here `anchor`")),
         /// An option that something doesn't have; `whose`: with its article or in backticks.
         NoOption { whose: String, option: String, guess: Guess } = Code::UnknownOption =>
             say(format!("{whose} has no option `{option}`"), "not known").guess(guess, "it has"),
@@ -312,6 +316,8 @@ pub(crate) enum Kind {
     Mode,
     /// A player of a team.
     Player,
+    /// A player of the scenario by their name.
+    NamedPlayer,
     /// A region of the pitch.
     Region,
     /// A reward in sight.
@@ -334,7 +340,9 @@ impl Names {
         match self {
             Names::NoValue { late, .. } => *late,
             Names::ReplacedPlayer { .. } => true,
-            Names::Unknown { kind, .. } => matches!(kind, Kind::Player | Kind::Reward),
+            Names::Unknown { kind, .. } => {
+                matches!(kind, Kind::Player | Kind::NamedPlayer | Kind::Reward)
+            }
             _ => false,
         }
     }
@@ -358,6 +366,7 @@ impl Kind {
             Kind::Action => "no action",
             Kind::Mode => "no game mode",
             Kind::Player => "no player of this team",
+            Kind::NamedPlayer => "no player",
             Kind::Region => "no region",
             Kind::Reward => "no reward",
             Kind::Act => "nothing that a player does",
@@ -374,6 +383,7 @@ impl Kind {
             | Kind::Ending
             | Kind::Mode
             | Kind::Player
+            | Kind::NamedPlayer
             | Kind::Start
             | Kind::Team
             | Kind::Type => "",
@@ -389,6 +399,7 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
         Kind::Region => "there is",
         Kind::Reward => &format!("declare it, `reward {name} {{ give … }}`, or use one of"),
         Kind::Event => "the events are",
+        Kind::NamedPlayer => "the players with a name are",
         Kind::Statistic => "it can be",
         Kind::Type => "the types are",
         _ => "",
@@ -407,6 +418,9 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
         Kind::Ending if guess.meant.is_none() => {
             said.help(format!("say when it ends: `end {name} when …`"))
         }
+        Kind::NamedPlayer if *guess == Guess::default() => said.help(format!(
+            "a player has the name that stands before their role: `{name}: CM at …`"
+        )),
         Kind::Team => said.help("write `team left` or `team right`"),
         _ => said.guess(guess, listed),
     }

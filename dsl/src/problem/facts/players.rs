@@ -105,6 +105,13 @@ facts! {
         SubstituteOfNobody { text: String } = Code::WrongType =>
             say(format!("`{text}` is not one player in every step"), "who goes off?")
                 .help("name a player, `tired: CM at …`, and write `substitute tired when …`"),
+        /// A substitution of several players.
+        SubstituteOfMany { text: String, noun: String } = Code::WrongType =>
+            say(format!("`{text}` is {noun}: one player goes off"), "who goes off?")
+                .help("write one for each player by their name: `substitute tired when …`"),
+        /// A substitution of a name in quotes.
+        SubstituteInQuotes { name: String } = Code::WrongType =>
+            say("a player's name stands without quotes", "").write(name),
         /// The place of what may be nobody.
         MayBeNobody { text: String } = Code::NoPlace =>
             say(format!("`{text}` may be nobody, who has no place"), "whose place?")

@@ -131,8 +131,10 @@ pub(crate) enum Because {
     YellowCards,
     /// A player's fatigue.
     Fatigue,
-    /// The ball's height.
-    BallHeight,
+    /// The ball's height; how high it rises at most, metres.
+    BallHeight(f64),
+    /// What begins at 0 and only grows.
+    Count,
     /// The time: how many steps the episode has at most.
     Limit(f64),
     /// The time: how many steps a round has at most.
@@ -191,11 +193,14 @@ impl Because {
             Because::PlayerSpeed => "nobody runs as fast",
             Because::YellowCards => "a player has 0, 1 or 2 yellow cards",
             Because::Fatigue => "fatigue lies between 0 and 1",
-            Because::BallHeight => "no ball rises as high",
+            Because::BallHeight(most) => {
+                return format!("here the ball is at least 0m high, and never higher than {most:.0}m");
+            }
+            Because::Count => "a count never falls below what it begins with",
             Because::Limit(steps) => return format!("the episode is over after {steps:.0} steps"),
             Because::Round(steps) => return format!("a round is over after {steps:.0} steps"),
             Because::Excluded => "its parts exclude each other",
-            Because::Players => "a team has at most 11 players",
+            Because::Players => "a team has 0 to 11 players",
         }
         .to_owned()
     }

@@ -253,6 +253,9 @@ pub(crate) enum Instead {
     Coordinate,
     /// A normalised coordinate where a length is wanted.
     Metres { text: String },
+    /// A number that may be a fraction where a whole one is wanted: because of a name without a
+    /// type, or as it is written.
+    Whole { undeclared: Option<Undeclared>, is_literal: bool },
     /// A number stands behind `facing`.
     Facing { text: String },
     /// A number is the first value of `polar`.
@@ -271,6 +274,15 @@ pub(crate) enum Instead {
     HalfTime,
     /// Who is controlled.
     Agents,
+}
+
+/// A name whose declaration has a whole value and no type.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Undeclared {
+    pub(crate) name: String,
+    pub(crate) value: String,
+    /// The name where it is declared.
+    pub(crate) at: Span,
 }
 
 /// Two numbers disagree in their units, everything else in its type.
@@ -313,6 +325,17 @@ fn mismatch(wanted: Ty, found: Ty, text: &str, instead: &Instead) -> Said {
             said.help("a point is written `(0.5, 0.1)` or `(27m, 8m)`, a velocity `(5m/s, 0m/s)`")
         }
         Instead::Metres { text } => said.help(metres(text)),
+        Instead::Whole { undeclared: Some(Undeclared { name, value, at }), .. } => said
+            .at(at, "may hold fractions")
+            .help(format!("declare whole numbers, `{name}: int = {value}`, or write `round(…)`"))
+            .writing(Some(*at), format!("{name}: int")),
+        Instead::Whole { is_literal: true, .. } => said.help("write a whole number"),
+        Instead::Whole { .. } if text.chars().count() > TEXT_MAX => {
+            said.help("round it: `round(…)`, `floor(…)` or `ceil(…)`")
+        }
+        Instead::Whole { .. } => {
+            said.help(format!("write `round({text})`, `floor({text})` or `ceil({text})`"))
+        }
         Instead::Facing { text } => said.help(format!("write an angle, `{text}deg`, or a point")),
         Instead::Distance { text } => {
             said.help(format!("write `{text}m` for an offset, `{text}m/s` for a velocity"))

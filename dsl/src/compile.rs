@@ -202,13 +202,13 @@ impl<'a> Compilation<'a> {
         wanted: Option<&ScenarioItem>,
         casting: &'a [Casting<'a>],
     ) {
-        // Without one, nobody in sight could bring what an abstract scenario lacks.
-        let has_child = candidates.iter().any(|(item, _)| item.extends.is_some());
+        let parents = parents(self.library, candidates);
         for &(item, doc) in candidates {
             if item.is_abstract {
                 let before = self.problems.len();
                 self.one(item, doc, &[]);
-                // What is missing, a child may bring.
+                // What is missing, a child in sight may bring.
+                let has_child = parents.contains(&item.name.span);
                 let found = self.problems.split_off(before);
                 self.problems.extend(found.into_iter().filter(|problem| {
                     let is_late = has_child && problem.fact().child_may_bring();
@@ -324,6 +324,25 @@ impl<'a> Compilation<'a> {
         self.unused.use_all(world.used.take());
         (Arc::new(scenario), origins)
     }
+}
+
+/// The scenarios that others extend, by the places of their names.
+fn parents(library: &Library, all: &[(&ScenarioItem, &str)]) -> BTreeSet<Span> {
+    let parent_of = |item: &ScenarioItem| {
+        let name = &item.extends.as_ref()?.name;
+        match &library.find(name.span.file, &name.node)?.item.kind {
+            ItemKind::Scenario(parent) => Some(parent),
+            _ => None,
+        }
+    };
+    let mut parents = BTreeSet::new();
+    for (item, _) in all {
+        let mut at = parent_of(item);
+        while let Some(parent) = at.filter(|parent| parents.insert(parent.name.span)) {
+            at = parent_of(parent);
+        }
+    }
+    parents
 }
 
 /// A scenario that says nothing.

@@ -1,8 +1,10 @@
 //! Habits of other languages and near misses of form: what is seen, and what to write instead.
 
+mod names;
 mod rewrite;
 mod table;
 
+use names::NAMES;
 use pest::Parser;
 use rewrite::{FoundPart, MatchedPart, PartKind, rewrites};
 pub(crate) use rewrite::{HabitPiece, HabitRewrite};
@@ -99,8 +101,7 @@ pub(crate) enum Begins {
 
 /// What to write for a name that nothing has.
 pub(crate) fn of_name(name: &str) -> Option<String> {
-    let mut habits = HABITS.iter().filter(|habit| habit.place == HabitPlace::Name);
-    habits.find_map(|habit| habit.at(&[], &[name], true)).map(|found| found.help)
+    NAMES.iter().find_map(|habit| habit.at(&[], &[name], true)).map(|found| found.help)
 }
 
 /// What to write where the tokens of a statement stop making sense at one of them; the unreadable

@@ -38,8 +38,10 @@ impl Live {
     ) -> Result<Live, Error> {
         let source = source.as_ref().to_owned();
         let options = LoadOptions { scenario, allow_outside, ..LoadOptions::default() };
+        // Before it is read, so that a change while it is compiled is noticed.
+        let mut watcher = Watcher::new(&[PathBuf::from(&source)]);
         let loaded = load_with(&source, &options)?;
-        let watcher = Watcher::new(&loaded.inputs);
+        watcher.watch(&loaded.inputs);
         let scenario = scenario.map(str::to_owned);
         Ok(Live { source, scenario, allow_outside, loaded, watcher })
     }

@@ -81,9 +81,15 @@ impl Watcher {
         watcher
     }
 
-    /// Watches other files from now on, those that a recompilation read.
+    /// Watches other files from now on, those that a recompilation read. What has happened since
+    /// the last check to a file that was watched before is still noticed.
     pub fn watch(&mut self, files: &[PathBuf]) {
-        self.files = files.iter().map(|file| Watched::new(file)).collect();
+        let mut known = std::mem::take(&mut self.files);
+        let watched = |file: &PathBuf| match known.iter().position(|known| known.path == *file) {
+            Some(at) => known.swap_remove(at),
+            None => Watched::new(file),
+        };
+        self.files = files.iter().map(watched).collect();
     }
 
     /// Whether a watched file's content has changed since the last call; waits for at most

@@ -142,6 +142,21 @@ fn a_second_save_of_the_same_length_is_noticed() {
     }
 }
 
+/// A compilation takes its time, and a save may fall into it.
+#[test]
+fn a_save_between_a_check_and_the_next_list_of_files_is_noticed() {
+    let dir = folder();
+    let (path, other) = (dir.path().join("a.pitch"), dir.path().join("b.pitch"));
+    std::fs::write(&path, "one").unwrap();
+    let mut watcher = Watcher::new(std::slice::from_ref(&path));
+    std::fs::write(&path, "second").unwrap();
+    assert!(noticed(&mut watcher));
+    std::fs::write(&path, "third one").unwrap();
+    watcher.watch(&[other, path]);
+    assert!(noticed(&mut watcher), "the third save");
+    assert!(!watcher.changed(Duration::from_millis(200)), "and only once");
+}
+
 #[test]
 fn a_watched_file_that_becomes_a_pipe_is_reported_and_the_watch_goes_on() {
     let dir = folder();

@@ -1,53 +1,15 @@
-//! The table of habits, one row each; of several that fit, the first is taken.
+//! The table of habits in what can't be read, one row each; of several that fit, the first is
+//! taken. Names have a table of their own.
 
 use super::Habit;
-use super::HabitPlace::{self, Anywhere, Behavior, Fields, File, Name, Reward, Scenario, Team};
+use super::HabitPlace::{self, Anywhere, Behavior, Fields, File, Reward, Scenario, Team};
 
-const fn row(place: HabitPlace, seen: &'static str, write: &'static str) -> Habit {
+pub(super) const fn row(place: HabitPlace, seen: &'static str, write: &'static str) -> Habit {
     Habit { place, seen, write }
 }
 
 /// Every habit.
 pub(super) const HABITS: &[Habit] = &[
-    // Names.
-    row(Name, "True¦TRUE¦yes¦Yes", "write `true`, or `on`"),
-    row(Name, "False¦FALSE¦no¦No", "write `false`, or `off`"),
-    row(Name, "None¦null¦nil¦NULL¦undefined", "write `nobody` for no player, `none` for no team"),
-    row(Name, "self¦this", "write `me`"),
-    row(Name, "idle", "an action is known by what holds it: `state a: action = idle`"),
-    row(Name, "s2", "m/s² is written as a number: `9.81`"),
-    row(Name, "e_PlayerRole_*", "write `{1}`"),
-    row(Name, "e_Left¦Team_Left", "write `left`"),
-    row(Name, "e_Right¦Team_Right", "write `right`"),
-    row(Name, "box¦six_yard¦half¦third¦penalty_spot¦byline", "it belongs to a team: `left.{1}`"),
-    row(Name, "center", "write `centre`"),
-    row(Name, "penalty_area¦penalty_box¦eighteen_yard_box", "write `box`, as in `right.box`"),
-    row(Name, "goal_area¦six_yard_box", "write `six_yard`, as in `right.six_yard`"),
-    row(Name, "home¦away", "the teams are `left` and `right`; a reward has `us` and `them`"),
-    row(
-        Name,
-        "opponent¦opponents¦enemy¦enemies",
-        "write `them` in a reward, `left` or `right` elsewhere",
-    ),
-    row(Name, "all¦everyone¦everybody¦anyone", "sets of players are `us`, `them` and `players`"),
-    row(Name, "teammates¦team_mates", "write `mates`, or `us` for `me`, too"),
-    row(
-        Name,
-        "seen¦visible",
-        "an angle of view is a condition: `… when sees(me, ball, within: 120deg)`",
-    ),
-    row(
-        Name,
-        "keeper¦goalkeeper¦goalie",
-        "the role is `GK`; a player's own name stands before it: `{1}: GK at …`",
-    ),
-    row(Name, "scorer", "who scores is `event.by` after `on goal`; `give 1 to goal` pays them"),
-    row(
-        Name,
-        "passer¦assister",
-        "who passes is `event.by` after `on pass`; `give 1 to assist` pays who has prepared a goal",
-    ),
-    row(Name, "end", "`end` is an event only after `on`: `give 1 on end`"),
     // Letters.
     row(Anywhere, "| é", "a name is of the letters a to z, digits and underscores"),
     row(
@@ -61,6 +23,7 @@ pub(super) const HABITS: &[Habit] = &[
         "extends¦reward¦scenario¦formation¦behavior¦end¦success¦failure¦let¦const¦param¦state¦record¦fn¦do¦start | \"\"",
         "a name stands without quotes: `{2}`",
     ),
+    row(Anywhere, "as \"\" , | \"\"", "labels stand in brackets: `as [\"{1}\", \"{2}\"]`"),
     row(Reward, "give … | \"\"", "`as` stands before a label: `as \"{1}\"`"),
     row(Team, "| \"\"", "a name or role stands without quotes: `{1}`"),
     row(Anywhere, "| \"\" :", "a name stands without quotes: `{1}: …`"),
@@ -329,6 +292,11 @@ pub(super) const HABITS: &[Habit] = &[
         "_ | [",
         "a `table` is looked up at a place: `{1}(ball)`; a list has no numbers of entries",
     ),
+    row(
+        Scenario,
+        "record¦let¦end … _ | [",
+        "a `table` is looked up at a place: `{2}(ball)`; a list has no numbers of entries",
+    ),
     row(Anywhere, "ROLE | (", "write `{1} at (…)`"),
     row(Anywhere, "ball | (", "write `ball at (…)`"),
     row(Anywhere, "EVENT | ( left¦right¦us¦them¦me )", "write `{1} by {2}`"),
@@ -366,6 +334,11 @@ pub(super) const HABITS: &[Habit] = &[
         "write `world { {1}: … }`",
     ),
     row(Reward, "once | per second", "write `per second once`"),
+    row(
+        Reward,
+        "give … when … | per second",
+        "`per second` stands before `when`: `give 0.1 per second when …`",
+    ),
     row(Anywhere, "as | _", "write `as \"{1}\"`"),
     row(Anywhere, "has | *", "write `has ball`"),
     row(Team, ".. | _", "how many there are is written in numbers: `3..5 CB in …`"),

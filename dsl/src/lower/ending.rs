@@ -87,8 +87,37 @@ fn check_come_about(lower: &Lower<'_, '_>, list: &[(Ending, Span)]) {
                 is_inherited: flat.is_inherited(*at),
             };
             lower.report(Problem::new(*span, fact));
+            continue;
+        }
+        let earlier = list.iter().take(at);
+        let earlier: Vec<(Reg, &str)> = earlier
+            .filter_map(|(earlier, _)| Some((earlier.when?, earlier.label.as_str())))
+            .filter(|(when, _)| !lower.code.is_unknown(*when))
+            .collect();
+        if let Some(earlier) = together(lower, when, &earlier) {
+            let mut them = list.iter().take(at).filter(|(one, _)| earlier.contains(&one.label));
+            let is_inherited = them.all(|(_, at)| flat.is_inherited(*at));
+            let fact = Rewards::ForestalledTogether { label: label(), earlier, is_inherited };
+            lower.report(Problem::new(*span, fact));
         }
     }
+}
+
+/// The endings of which one holds in every way in which a condition does.
+fn together(lower: &Lower<'_, '_>, when: Reg, earlier: &[(Reg, &str)]) -> Option<Vec<String>> {
+    let mut all: Vec<String> = Vec::new();
+    for way in lower.ways(when) {
+        let names = lower.forestalling(way, earlier);
+        if names.is_empty() {
+            return None;
+        }
+        for name in names {
+            if !all.iter().any(|known| known == name) {
+                all.push(name.to_owned());
+            }
+        }
+    }
+    Some(all)
 }
 
 /// Warns of rounds that never end in one of their ways, since endings end the episode then.

@@ -2,9 +2,12 @@
 
 use super::Lower;
 use crate::ast::{Expr, Field, FieldValue};
-use crate::check::options::{PITCH, WORLD};
+use crate::check::options::{PITCH, PLAYER, WORLD};
 use crate::problem::facts::{Names, Types};
 use crate::problem::{Guess, Problem};
+
+/// Whose options stand in a team's braces.
+pub(super) const A_TEAM: &str = "a team";
 
 /// The fields of a list that are known; reports the others.
 pub(super) fn known_fields<'w>(
@@ -28,6 +31,7 @@ pub(super) fn is_known(lower: &Lower<'_, '_>, field: &Field, known: &[&str], who
             Names::NoMass { whose, option }
         }
         Some(block) => Names::OfBlock { whose, option, block },
+        None if whose == A_TEAM && PLAYER.contains(&key) => Names::OfPlayers { option },
         None => Names::NoOption { whose, option, guess: Guess::similar_or_all(key, known) },
     };
     lower.report(Problem::new(field.key.span, fact));

@@ -54,6 +54,8 @@ pub(crate) struct InPlay<'a> {
     pub(crate) longest: Option<f64>,
     /// How long each of its rounds lasts, seconds, if that is known.
     pub(crate) longest_round: Option<f64>,
+    /// How many rounds it has, if that is known.
+    pub(crate) rounds: Option<f64>,
     /// Whether the parts of an `and` are looked at together.
     pub(crate) joint: bool,
     /// Whether it is known that what only grows is never less than at its beginning.
@@ -127,6 +129,7 @@ impl Search<'_> {
                 });
                 if too_long || of(*holds) == Some(NEVER) { NEVER } else { (0.0, 1.0) }
             }
+            Instr::Round => (1.0, in_play?.rounds?),
             Instr::RoundElapsed => {
                 let bounds = [in_play?.longest, in_play?.longest_round];
                 (0.0, bounds.into_iter().flatten().reduce(f64::min)?)

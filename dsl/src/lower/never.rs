@@ -80,6 +80,7 @@ impl Lower<'_, '_> {
         let mut in_play = InPlay {
             longest: self.longest(),
             longest_round: self.longest_round(reg),
+            rounds: self.step.and_then(|step| step.rounds),
             joint: true,
             counts_up: true,
             highest_ball: self.highest_ball(),
@@ -154,6 +155,8 @@ impl Lower<'_, '_> {
             let enters = |each: &Each| each.fold.kind != FoldKind::Count;
             self.code.depends_through(guard, &test, &enters)
         };
+        let reads_round = self.code.depends(guard, &|instr| matches!(instr, Instr::Round));
+        let rounds = self.step.and_then(|step| step.rounds).map(Because::Rounds);
         let counts = self.code.depends(guard, &|instr| match instr {
             Instr::Each(each) => matches!(each.over, Over::Players { .. }),
             _ => false,
@@ -174,6 +177,7 @@ impl Lower<'_, '_> {
             (reads(&[Field::PlayerFatigue]), Some(Because::Fatigue)),
             (reads(&[Field::BallHeight]), Some(Because::BallHeight(self.highest_ball()))),
             (reads(&[Field::Score]), Some(Because::Count)),
+            (reads_round, rounds),
             (reads(&[Field::Elapsed, Field::Remaining]), limit),
             (counts, Some(Because::Players)),
         ];

@@ -20,6 +20,8 @@ pub(crate) struct StepWorld<'c, 'w> {
     pub(super) rules_off: Vec<Rule>,
     /// How long an episode lasts at most, seconds, if that is known.
     pub(super) longest: Option<f64>,
+    /// How many rounds an episode has at most, if that is known.
+    pub(super) rounds: Option<f64>,
     /// How high the ball rises at most, metres.
     pub(super) highest_ball: f64,
 }
@@ -46,6 +48,7 @@ impl<'c, 'w> StepWorld<'c, 'w> {
             agents,
             rules_off: rules_off(start),
             longest: longest(start),
+            rounds: start.rounds.and_then(|rounds| constant(start, rounds)),
             highest_ball,
         }
     }

@@ -42,7 +42,7 @@ pub(crate) fn lower_difficulty(lower: &mut Lower<'_, '_>, team: Team) -> Reg {
     let world = lower.world;
     let mut found = None;
     for field in world.flat.teams.get(team.index()).into_iter().flat_map(|team| &team.fields) {
-        if fields::is_known(lower, field, TEAM, "a team")
+        if fields::is_known(lower, field, TEAM, fields::A_TEAM)
             && field.key.node == "difficulty"
             && let Some(expr) = fields::expression(lower, field)
         {

@@ -1,7 +1,7 @@
 //! Calls: how arguments meet parameters, and who is called.
 
 use super::super::value::{LiteralFrame, LocalName, Scope, Value};
-use super::super::{Lower, param};
+use super::super::{Lower, ProgramStage, param};
 use crate::ast::{Arg, Expr, ExprKind, FnItem, Ident, InfixOp, ItemKind, ParamDecl, Span};
 use crate::check::types::Ty;
 use crate::problem::facts::{Calls, Form, Names, NotAFunction};
@@ -26,6 +26,14 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("farthest", "max_by"),
     ("argmin", "min_by"),
     ("argmax", "max_by"),
+];
+/// What stands behind a value that is observed.
+const CLAUSES: &[(&str, &str)] = &[
+    ("noise", "noise normal(0, 0.3m)"),
+    ("noisy", "noise normal(0, 0.3m)"),
+    ("delayed", "delayed 0.3s"),
+    ("delay", "delayed 0.3s"),
+    ("stack", "stack 4"),
 ];
 
 impl<'w> Lower<'_, 'w> {
@@ -71,12 +79,16 @@ impl<'w> Lower<'_, 'w> {
         let is_value =
             self.scope.find(text).is_some() || (self.scope.scenario && self.world.declares(text));
         let item = library.find(name.span.file, text).map(|found| found.item.kind.noun());
-        let foreign = ELSEWHERE.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours);
-        let other = match (item, foreign) {
+        let known_as = |table: &[(&str, &'static str)]| {
+            table.iter().find(|(known, _)| known == text).map(|(_, ours)| *ours)
+        };
+        let is_observed = matches!(self.stage, ProgramStage::Observation);
+        let other = match (item, known_as(ELSEWHERE), known_as(CLAUSES).filter(|_| is_observed)) {
             _ if is_value => NotAFunction::Value { call: span },
-            (Some(noun), _) => NotAFunction::Item(noun),
-            (None, Some(ours)) => NotAFunction::Foreign(ours),
-            (None, None) => NotAFunction::Unknown(Guess::of(text, known)),
+            (Some(noun), ..) => NotAFunction::Item(noun),
+            (None, Some(ours), _) => NotAFunction::Foreign(ours),
+            (None, None, Some(written)) => NotAFunction::Clause(written),
+            (None, None, None) => NotAFunction::Unknown(Guess::of(text, known)),
         };
         self.fail(Problem::new(name.span, Names::NoFunction { name: text.clone(), other }))
     }

@@ -1,10 +1,9 @@
 //! The functions of the language that compute: numbers, places, angles.
 
 use super::super::Lower;
-use super::super::value::Value;
+use super::super::value::{Repr, Value};
 use crate::ast::{Arg, Expr, Ident, Span};
 use crate::check::types::Ty;
-use crate::lower::builder::Builder;
 use crate::problem::Problem;
 use crate::problem::facts::{Calls, Chance, Instead, Types};
 use setpiece_scenario::pitch::{X_SCALE_M, Y_SCALE_M};
@@ -244,7 +243,21 @@ impl<'w> Lower<'_, 'w> {
             return self.want(expr, ty);
         }
         let value = self.expr(expr);
-        if value.ty.is_plain() { value } else { self.convert(value, Ty::Number, expr) }
+        match value.ty {
+            Ty::Number if ty == Ty::Int => self.whole_constant(value),
+            ty if ty.is_plain() => value,
+            _ => self.convert(value, Ty::Number, expr),
+        }
+    }
+
+    /// A constant without a fraction as the whole number that it is.
+    fn whole_constant(&self, value: Value<'w>) -> Value<'w> {
+        match value.repr {
+            Repr::One(reg) if self.code.constant_of(reg).is_some_and(|v| v.fract() == 0.0) => {
+                Value::one(Ty::Int, reg)
+            }
+            _ => value,
+        }
     }
 
     fn clamp(&mut self, x: &'w Expr, low: &'w Expr, high: &'w Expr) -> Value<'w> {
@@ -259,10 +272,7 @@ impl<'w> Lower<'_, 'w> {
         let (v, l, h) = (self.reg(&value), self.reg(&low), self.reg(&high));
         let raised = self.code.binary(BinaryOp::Max, v, l);
         let held = self.code.binary(BinaryOp::Min, raised, h);
-        let is_whole = |end: &Value<'w>, reg: Reg, code: &Builder| {
-            end.ty == Ty::Int || code.constant_of(reg).is_some_and(|v| v.fract() == 0.0)
-        };
-        let whole_ends = is_whole(&low, l, &self.code) && is_whole(&high, h, &self.code);
+        let whole_ends = low.ty == Ty::Int && high.ty == Ty::Int;
         let ty = if value.ty == Ty::Int && !whole_ends { Ty::Number } else { value.ty };
         Value::one(ty, held)
     }

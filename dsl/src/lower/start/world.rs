@@ -30,8 +30,8 @@ impl<'w> Lower<'_, 'w> {
         settings
     }
 
-    /// How high the ball rises at most, metres: from the highest start straight up, faster by what a
-    /// wind adds, with nothing but gravity to slow it.
+    /// How high the ball rises at most, metres: from the highest start straight up, faster by what
+    /// a wind adds, with nothing but gravity to slow it.
     pub(super) fn ball_ceiling(&self, settings: &[WorldSetting]) -> f64 {
         let range = |figure: WorldFigure| {
             let set = settings.iter().rfind(|setting| setting.figure == figure);

@@ -74,6 +74,9 @@ facts! {
                     .writing(Some(*call), name),
                 NotAFunction::Item(noun) => said.help(format!("`{name}` is {noun}")),
                 NotAFunction::Foreign(ours) => said.help(format!("did you mean `{ours}`?")),
+                NotAFunction::Clause(written) => {
+                    said.help(format!("it stands behind what is observed: `ball {written}`"))
+                }
                 NotAFunction::Unknown(guess) => said.guess(guess, ""),
             }
         },
@@ -121,6 +124,10 @@ facts! {
         /// An option that something doesn't have; `whose`: with its article or in backticks.
         NoOption { whose: String, option: String, guess: Guess } = Code::UnknownOption =>
             say(format!("{whose} has no option `{option}`"), "not known").guess(guess, "it has"),
+        /// An option of players that stands beside them.
+        OfPlayers { option: String } = Code::UnknownOption =>
+            say(format!("a team has no option `{option}`"), "an option of players")
+                .help(format!("write it behind a player, or for all of them: `each {{ {option}: … }}`")),
         /// An option of another block, of something else. `whose`: with its article or in
         /// backticks.
         OfBlock { whose: String, option: String, block: &'static str } = Code::UnknownOption =>
@@ -435,6 +442,8 @@ pub(crate) enum NotAFunction {
     Item(&'static str),
     /// A function of another language, which is called so here.
     Foreign(&'static str),
+    /// A word that stands behind a value that is observed, and with what.
+    Clause(&'static str),
     /// Nothing.
     Unknown(Guess),
 }

@@ -68,6 +68,24 @@ facts! {
             } else {
                 format!("write it above `{earlier}`, or leave one of them out")
             }),
+        /// Of several earlier endings one holds whenever it does.
+        ForestalledTogether {
+            label: String,
+            earlier: Vec<String>,
+            is_inherited: bool,
+        } = Code::NeverEnds => {
+            let out = earlier.iter().map(|label| format!("`remove end {label}`"));
+            let (out, them): (Vec<String>, _) = (out.collect(), earlier.join("` or `"));
+            say(
+                format!("the ending `{label}` never comes about: `{them}` holds whenever it does"),
+                "checked later",
+            )
+            .help(if *is_inherited {
+                format!("take the other ones out: {}", out.join(", "))
+            } else {
+                "write it above them, or leave one of them out".to_owned()
+            })
+        },
         /// Endings hold whenever a round would be over in one of its ways.
         NoNextRound { earlier: Vec<String> } = Code::NeverEnds => {
             let all = earlier.join("`, `");
@@ -143,6 +161,8 @@ pub(crate) enum Because {
     Excluded,
     /// A number of players.
     Players,
+    /// The round: how many an episode has.
+    Rounds(f64),
 }
 
 impl Never {
@@ -198,6 +218,7 @@ impl Because {
             }
             Because::Count => "a count never falls below what it begins with",
             Because::Limit(steps) => return format!("the episode is over after {steps:.0} steps"),
+            Because::Rounds(n) => return format!("an episode has {n:.0} rounds"),
             Because::Round(steps) => return format!("a round is over after {steps:.0} steps"),
             Because::Excluded => "its parts exclude each other",
             Because::Players => "a team has 0 to 11 players",

@@ -252,6 +252,22 @@ fn reset_is_called_once_an_episode() {
     }
 }
 
+/// Rhai ends the line of a comment at a lone carriage return.
+#[test]
+fn a_fault_lies_in_the_text_whatever_ends_its_lines() {
+    let comments = "// one\r \n".repeat(8);
+    for map in ["#{goal: now.ball.x}", "#{goal: 1}", "#{goal: 1, é: 2}"] {
+        let source = format!("fn reward(ctx, now, prev, events) {{\n{comments}{map} }}\n");
+        for terms in [&[][..], &["tempo"]] {
+            let known = ScriptNames { terms, ..ScriptNames::default() };
+            let faults = check_script(&source, &[], "reward", &known);
+            assert!(!faults.is_empty(), "{map}");
+            let lies_in = |range: &std::ops::Range<usize>| source.get(range.clone()).is_some();
+            assert!(faults.iter().all(|fault| lies_in(&fault.range)), "{map}: {faults:?}");
+        }
+    }
+}
+
 #[test]
 fn the_sandbox_holds() {
     for body in [

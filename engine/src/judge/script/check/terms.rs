@@ -47,7 +47,9 @@ pub(super) fn check(source: &str, ast: &AST, terms: &[&str], faults: &mut Vec<Sc
             }
             continue;
         };
-        let whole = start..start + 2;
+        // Rhai counts other line ends, so that a map may begin elsewhere than it says.
+        let begins = source.get(start..).is_some_and(|rest| rest.starts_with("#{"));
+        let whole = if begins { start..start + 2 } else { word_at(source, start) };
         if terms.is_empty() {
             let listed: Vec<String> = keys.iter().map(|key| format!("{key:?}")).collect();
             fault(whole, FOUND_MAP.to_owned(), Some(list_them(&listed.join(", "))));

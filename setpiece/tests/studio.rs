@@ -301,7 +301,7 @@ fn behaviours_play_and_two_policies_stand_side_by_side() {
         steps.take(40).map(gap).fold(0.0, f64::max)
     };
     // A player who waits is pushed at most; one without an agent plays as ever.
-    assert!(moved(&first, 0) < 1.5, "{}", moved(&first, 0));
+    assert!(moved(&first, 0) < 2.0, "{}", moved(&first, 0));
     assert!(moved(&second, 0) > 3.0, "{}", moved(&second, 0));
     assert!(moved(&first, 1) > 2.0, "{}", moved(&first, 1));
 }

@@ -35,6 +35,8 @@ const LACKS_MPS: f32 = 10.0;
 const SKILLED: f32 = 0.5;
 const NATURAL: [f32; 4] = [0.15, 0.15, 0.3, 0.5];
 const NATURALLY: f32 = 1.5;
+/// How hard a lofted pass is at least; chosen, so that skill at it has an effect.
+const LOFT_HARD: f32 = 0.04;
 /// What an awkward ball does to a pass: the share of its speed that a far one loses; how fast it
 /// rises, m/s: a far one, a high one (and how much of its own rise it keeps), and a hard swing at
 /// most. (GRF's.)
@@ -110,7 +112,7 @@ fn best(game: &mut Match, id: PlayerId, plan: &KickPlan, meant: Vec3) -> Vec3 {
     let lacks = (meant.length() - most).clamp(0.0, LACKS_MPS);
     let ball = meant.clamp_length_max(most) + Vec3::Z * (LACKS * lacks);
     let awkward = awkward::to(game, id);
-    let hard = stroke.hard * (1.0 - SKILLED * skill);
+    let hard = stroke.hard.max(if lofted { LOFT_HARD } else { 0.0 }) * (1.0 - SKILLED * skill);
     let bias = NATURALLY
         * (NATURAL[0] * awkward.far
             + NATURAL[1] * awkward.high

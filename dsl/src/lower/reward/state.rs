@@ -219,7 +219,9 @@ impl<'w> Lower<'_, 'w> {
         RewardWriter::write(self, &statements, None, Vec::new());
         let one = self.code.constant(1.0);
         self.code.assign(begun, one, None);
-        kept.into_iter().for_each(|cell| self.code.close_cell(cell));
+        for cell in kept {
+            self.code.close_cell(cell);
+        }
         self.stage = reader;
         (self.event, self.when, self.team) = outer;
         self.scope = outer_scope;

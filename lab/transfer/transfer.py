@@ -79,11 +79,11 @@ What was found by playing the same keys in both games, step by step, and built:
 - A dribbler runs at full speed between two touches, and finishes a stride before the next one.
 - A pushed ball hops and turns as there: walkers touch it every 0.25 s, sprinters every 0.72 s.
 - Whoever has the ball at a start waits for up to 0.2 s; whoever hasn't sets off at once.
-- The foot that leads decides which of a kick's swings is tried first. The feet change with every stride: a walker's pass
-  takes 0.1 s or 0.27 s.
+- The foot that leads decides which of a kick's swings is tried first. The feet change with every stride: a walker's
+  pass takes 0.1 s or 0.27 s.
 - Each swing has its strength: a standing player passes at 26 m/s at most, a walker at 30, to the side at 24. What is
-  missing becomes height. A ball that is far from the foot, fast, or just played by a rival leaves slower, higher and more
-  along the swing's own way.
+  missing becomes height. A ball that is far from the foot, fast, or just played by a rival leaves slower, higher and
+  more along the swing's own way.
 - A ball springs off a body only within 0.2 s of a rival's touch. Later it is played, or passes by.
 - A rolling ball lends half of its speed to a pass. A ball kicked off the grass gets topspin, so that floating passes
   fly lower: receivers meet them, and strike them first time.
@@ -91,10 +91,10 @@ What was found by playing the same keys in both games, step by step, and built:
 
 What remains:
 
-- A defender stands nearer to a sprinter's line here. There they are often 0.6 m to 0.9 m beside it, slide as the sprinter
-  passes, and foul. Sprinters who hold their direction get past both opponents of `academy_3_vs_1_with_keeper` in none of
-  60 episodes here, in 15 of 40 there. In `academy_run_to_score_with_keeper` they score in 12 of 60 here, in 12 of 40
-  there.
+- A defender stands nearer to a sprinter's line here. There they are often 0.6 m to 0.9 m beside it, slide as the
+  sprinter passes, and foul. Sprinters who hold their direction get past both opponents of `academy_3_vs_1_with_keeper`
+  in none of 60 episodes here, in 15 of 40 there. In `academy_run_to_score_with_keeper` they score in 12 of 60 here, in
+  12 of 40 there.
 - A sprinter who zigzags from the start keeps their pace there and walks here, where an early turn is made at a walk.
 - A player slows down here to take a ball that lies across their way; in the real game they run on.
 - Bots pass more often and more safely here once they have won the ball. Agents have it for fewer steps and play fewer

@@ -7,11 +7,10 @@ from contextlib import suppress
 from copy import deepcopy
 from dataclasses import replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Literal, NoReturn
+from typing import TYPE_CHECKING, Any, Literal
 
 import gymnasium
 import numpy as np
-from gymnasium import spaces
 from numpy.typing import NDArray
 
 from setpiece import _native
@@ -29,7 +28,7 @@ from setpiece._options import (
     check_path,
     check_snapshot,
 )
-from setpiece._record import Record, When, read_record, write
+from setpiece._record import When, read_record, write
 from setpiece._reload import Reload, Watcher, check_watch
 from setpiece._reset import ResetOptions, read_reset_options
 from setpiece._source import Source
@@ -40,9 +39,8 @@ from setpiece._spaces import (
     check_scale,
     check_size,
     observation_layout,
-    observation_space,
 )
-from setpiece._state import state_space
+from setpiece._taken_seats import TakenSeats
 from setpiece._turn import Turn, one_thread
 from setpiece._window import Window
 from setpiece._words import check_word
@@ -654,53 +652,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
     def __str__(self) -> str:
         return repr(self)
 
-    def seats(self) -> Seats:
+    def seats(self) -> TakenSeats:
         """Returns what `ParallelFootballEnv` needs of this environment, for this package alone.
 
         From now on `reset` goes over only to scenarios with the same agents and as many players.
         """
         self._same_agents = True
-        return Seats(self)
-
-
-class Seats:
-    """The agents of an environment one by one: what its public methods don't say."""
-
-    def __init__(self, env: FootballEnv) -> None:
-        self._env = env
-        slots = env.slots
-        self.spaces: dict[str, spaces.Space[Any]] = {
-            slot.id: observation_space(env._native, env.observation, [slot]) for slot in slots
-        }
-        self.state_space = state_space(env._native.players)
-
-    @property
-    def playing(self) -> bool:
-        """Whether an episode is being played, so that `step` may be called."""
-        return self._env._playing
-
-    def sent_off(self) -> set[str]:
-        """Returns the ids of the agents whose players have been sent off."""
-        native = self._env._native
-        return {agent.id for agent, gone in zip(native.agents, native.gone, strict=True) if gone}
-
-    def refuse(self, why: str) -> NoReturn:
-        """Raises Gymnasium's `ResetNeeded`.
-
-        A closed environment, or one in the middle of a step, has an error of its own.
-        """
-        with self._env._turn:
-            raise gymnasium.error.ResetNeeded(why)
-
-    def truncate(self, label: str, info: dict[str, Any]) -> None:
-        """Ends the episode by the caller's limit; adds the outcome to the last step's `info`."""
-        env = self._env
-        info.update(env._match.end(label, truncated=True))
-        if env._callbacks is not None:
-            info["setpiece"]["return"].update(env._callbacks.tally)
-        env._playing = False
-        env._sum_up(info)
-
-    def record(self, record: Record, info: dict[str, Any]) -> str | None:
-        """Records the episode that has ended; returns where, if it is written."""
-        return record.end(self._env._native, self._env.scenario.name, info["score"])
+        return TakenSeats(self)

@@ -68,10 +68,11 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     }
     let shot = game.play.shot.is_some_and(|shot| shot.by.team() != id.team());
     contact::sprang(game, events, id);
-    foul::handball(game, events, id, shot);
     game.play.bounced_at = game.tick as i32;
     game.ball.vel = velocity.lerp(full, squarely).clamp_length_max(speed) * LEFT;
     forecast::renew(game);
+    // Last, because it may stop play.
+    foul::handball(game, events, id, shot);
 }
 
 /// Whether a player swings at the ball, and so lets it come to the foot.

@@ -3,7 +3,7 @@
 //! `pass_target` chooses a pass's target. `pass` and `shot` decide how the ball leaves the foot.
 
 use crate::football::pass::Struck;
-use crate::football::swing::Begun;
+use crate::football::swing::ChosenSwing;
 use crate::football::{
     contact, dribble_motion, forecast, noise, offside, pass, pass_target, report, shot, swing,
     switching, whistle,
@@ -185,7 +185,7 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
         Some(set_piece) => swing(run_up_ticks(set_piece.mode)),
         None if at_hand => swing(at_hand_ticks(plan.kind)),
         None => {
-            let Begun { motion, stroke } = swing::find(game, id, plan.kind, way)?;
+            let ChosenSwing { motion, stroke } = swing::find(game, id, plan.kind, way)?;
             let pace = player.vel.length();
             Swing {
                 end_dmps: dmps(motion.end_mps(pace)),

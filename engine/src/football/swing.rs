@@ -82,8 +82,8 @@ impl SwingMotion {
         self
     }
 
-    /// The same with this power, and this hard.
-    const fn weaker(mut self, power: f32, hard: f32) -> SwingMotion {
+    /// The same with this share of the player's power, and this hard.
+    const fn limited(mut self, power: f32, hard: f32) -> SwingMotion {
         (self.power, self.hard) = (power, hard);
         self
     }
@@ -115,44 +115,44 @@ const SHOTS: ByGait = [
 ];
 const PASSES: ByGait = [
     &[
-        swing([22.0, 23.0], 35, [0.37, 0.03], [0.0, 0.0], [0.3, 0.0], 0.4).weaker(0.8, 0.0),
-        swing([90.0, 45.0], 31, [0.26, 0.17], [0.0, 0.0], [0.3, 0.0], 0.6).weaker(0.7, 0.0),
+        swing([22.0, 23.0], 35, [0.37, 0.03], [0.0, 0.0], [0.3, 0.0], 0.4).limited(0.8, 0.0),
+        swing([90.0, 45.0], 31, [0.26, 0.17], [0.0, 0.0], [0.3, 0.0], 0.6).limited(0.7, 0.0),
         swing([90.0, 45.0], 30, [0.69, 0.05], [0.0, 0.0], [0.5, 0.0], 0.4)
             .at_height(0.36)
-            .weaker(0.7, 0.3),
-        swing([180.0, 45.0], 39, [0.0, 0.05], [0.72, 0.0], [1.3, 0.0], 0.8).weaker(0.4, 0.4),
+            .limited(0.7, 0.3),
+        swing([180.0, 45.0], 39, [0.0, 0.05], [0.72, 0.0], [1.3, 0.0], 0.8).limited(0.4, 0.4),
     ],
     &[
         swing([90.0, 45.0], 31, [0.95, 0.05], [2.69, 0.16], [2.5, 0.0], 0.6)
             .at_height(0.44)
-            .weaker(0.8, 0.5),
-        swing([180.0, 23.0], 38, [-0.28, 0.18], [-0.92, 0.83], [1.73, 0.05], 0.8).weaker(0.5, 0.6),
+            .limited(0.8, 0.5),
+        swing([180.0, 23.0], 38, [-0.28, 0.18], [-0.92, 0.83], [1.73, 0.05], 0.8).limited(0.5, 0.6),
     ],
     &[
         swing([22.0, 23.0], 27, [0.33, -0.16], [1.78, 0.59], [1.87, 0.25], 2.9),
         swing([22.0, 23.0], 10, [0.42, 0.0], [0.77, 0.95], [1.85, 0.65], 3.6)
             .crossed()
-            .weaker(0.8, 0.0),
+            .limited(0.8, 0.0),
         swing([0.0, 45.0], 16, [0.68, 0.03], [2.33, 0.57], [3.89, 0.13], 3.3)
             .at_height(0.41)
-            .weaker(1.0, 0.6),
-        swing([45.0, 23.0], 27, [0.36, -0.03], [1.6, 0.62], [1.79, 0.27], 4.4).weaker(0.9, 0.0),
-        swing([90.0, 23.0], 35, [0.18, 0.02], [2.73, 0.29], [3.6, 0.0], 3.4).weaker(0.7, 0.2),
+            .limited(1.0, 0.6),
+        swing([45.0, 23.0], 27, [0.36, -0.03], [1.6, 0.62], [1.79, 0.27], 4.4).limited(0.9, 0.0),
+        swing([90.0, 23.0], 35, [0.18, 0.02], [2.73, 0.29], [3.6, 0.0], 3.4).limited(0.7, 0.2),
         swing([90.0, 23.0], 10, [0.26, 0.1], [0.96, 0.88], [1.84, 0.55], 3.4)
             .crossed()
-            .weaker(0.5, 0.3),
+            .limited(0.5, 0.3),
         swing([135.0, 23.0], 36, [0.05, 0.0], [2.7, 0.3], [3.0, 0.0], 2.0)
             .crossed()
-            .weaker(0.6, 0.4),
+            .limited(0.6, 0.4),
     ],
     &[
         swing([22.0, 23.0], 27, [0.32, -0.16], [3.28, 0.47], [4.61, 0.08], 5.0),
-        swing([45.0, 23.0], 27, [0.36, -0.03], [3.43, 0.44], [5.15, 0.05], 5.3).weaker(0.9, 0.0),
+        swing([45.0, 23.0], 27, [0.36, -0.03], [3.43, 0.44], [5.15, 0.05], 5.3).limited(0.9, 0.0),
         swing([31.0, 18.0], 26, [0.03, 0.55], [2.46, 0.54], [4.6, 0.0], 4.1)
             .crossed()
-            .weaker(0.7, 0.1),
-        swing([90.0, 23.0], 35, [0.3, 0.04], [2.82, 0.47], [4.4, 0.0], 3.4).weaker(0.7, 0.2),
-        swing([180.0, 45.0], 36, [-0.08, 0.03], [2.92, 0.55], [5.13, 0.08], 3.2).weaker(0.3, 0.7),
+            .limited(0.7, 0.1),
+        swing([90.0, 23.0], 35, [0.3, 0.04], [2.82, 0.47], [4.4, 0.0], 3.4).limited(0.7, 0.2),
+        swing([180.0, 45.0], 36, [-0.08, 0.03], [2.92, 0.55], [5.13, 0.08], 3.2).limited(0.3, 0.7),
     ],
 ];
 const LOFTS: ByGait = [
@@ -170,7 +170,7 @@ const LOFTS: ByGait = [
         swing([90.0, 45.0], 29, [0.79, 0.0], [1.35, 0.58], [1.12, 0.24], 0.4),
         swing([169.0, 45.0], 36, [-0.06, -0.09], [1.39, 0.54], [1.46, 0.08], 0.7)
             .crossed()
-            .weaker(0.7, 0.0),
+            .limited(0.7, 0.0),
         swing([39.0, 45.0], 24, [0.13, -1.06], [2.02, 0.44], [2.3, 0.0], 3.6).at_height(0.95),
     ],
     &[
@@ -201,8 +201,8 @@ fn of(kind: KickKind) -> &'static ByGait {
     }
 }
 
-/// A swing that a player begins.
-pub(super) struct Begun {
+/// The swing that a player chooses for a kick.
+pub(super) struct ChosenSwing {
     pub(super) motion: &'static SwingMotion,
     pub(super) stroke: Stroke,
 }
@@ -255,7 +255,7 @@ pub(super) fn stroke(player: &Player, kind: KickKind, way: Vec2) -> Stroke {
 }
 
 /// The first swing of a kind that kicks the ball this way, world metres, from where it will be.
-pub(super) fn find(game: &Match, id: PlayerId, kind: KickKind, way: Vec2) -> Option<Begun> {
+pub(super) fn find(game: &Match, id: PlayerId, kind: KickKind, way: Vec2) -> Option<ChosenSwing> {
     let player = game.player(id);
     let stance = Stance::of(player, way);
     let Stance { pace, run, .. } = stance;
@@ -284,7 +284,7 @@ pub(super) fn find(game: &Match, id: PlayerId, kind: KickKind, way: Vec2) -> Opt
                         && suits(motion, side) == first
                         && meets(motion, side)
                 })?;
-                Some(Begun { motion, stroke: stance.stroke(motion, side) })
+                Some(ChosenSwing { motion, stroke: stance.stroke(motion, side) })
             })
         };
         find(true).or_else(|| find(false))

@@ -210,6 +210,11 @@ const LAYOUTS: &[(&str, &str)] = &[
         "reward r\n{\n  give 1, give 2 // two\n\n\n  /// kept\n  give - 3 }",
         "reward r {\n    give 1\n    give 2 // two\n\n    /// kept\n    give -3\n}\n",
     ),
+    // But not where what follows would go on with the statement.
+    (
+        "scenario s {\n observe vector { ball.x,\n   stack(ball.y), // two\n -me.x,\n (me),\n noise, us has ball, me.y }\n}",
+        "scenario s {\n    observe vector {\n        ball.x,\n        stack(ball.y), // two\n        -me.x,\n        (me),\n        noise\n        us has ball\n        me.y\n    }\n}\n",
+    ),
     // An author's line breaks stay before the words that join, and go elsewhere.
     (
         "scenario s {\n    end far when ball.x >\n 0.5\n        and ball.y\n < 0.1\n}",

@@ -41,6 +41,9 @@ struct BraceBlock {
     fields: bool,
 }
 
+/// Words and signs that begin an expression or go on with one: only a comma tells which.
+const JOINING: &[&str] = &["-", "+", "(", "[", ".", "noise", "delayed", "stack"];
+
 struct LineLayout<'p, 't> {
     pieces: &'p [SourcePiece<'t>],
     /// The file first.
@@ -153,7 +156,14 @@ impl<'p, 't> LineLayout<'p, 't> {
             .pieces
             .get(index + 1)
             .is_none_or(|next| next.closes() && (piece.separates || next.newlines == 0));
-        !(last || (piece.separates && self.is_broken(self.block(index))))
+        let ends_line = piece.separates && self.is_broken(self.block(index));
+        !(last || (ends_line && !self.could_go_on(index)))
+    }
+
+    /// Whether what follows a comma could be read as the rest of what stands before it.
+    fn could_go_on(&self, comma: usize) -> bool {
+        let mut behind = self.pieces.iter().skip(comma + 1).filter(|piece| !piece.is_comment());
+        behind.next().is_some_and(|next| JOINING.contains(&next.text.as_ref()))
     }
 
     /// Whether a line begins with this piece, which follows `before`.

@@ -7,12 +7,13 @@ use super::people::Rostered;
 use super::roster::{adjust, apply_each, copies, has_room};
 use super::value::{LiteralFrame, Repr, Scope, Value};
 use super::{Lower, World};
-use crate::ast::{Expr, ExprKind, FormationItem, TeamStmtKind};
+use crate::ast::{Expr, ExprKind, FormationItem, ItemKind, TeamStmtKind};
+use crate::check::names;
 use crate::check::types::Ty;
-use crate::problem::Problem;
-use crate::problem::facts::Names;
+use crate::problem::facts::{Kind, Names};
+use crate::problem::{Guess, Problem};
 use crate::resolve::formation_chain;
-use setpiece_scenario::vocabulary::Team;
+use setpiece_scenario::vocabulary::{Function, Team};
 
 /// The players of a formation value: its name, a call with arguments, or one of several.
 pub(super) fn formation_players<'w>(
@@ -67,12 +68,16 @@ fn players_of<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<Rostered
         Lower::of_start(world, Scope::new(true, LiteralFrame::World), StartState::default());
     if let ExprKind::Call { name, args } = &expr.kind
         && let Some(found) = world.library.find(name.span.file, &name.node)
-        && let crate::ast::ItemKind::Formation(item) = &found.item.kind
+        && let ItemKind::Formation(item) = &found.item.kind
     {
         world.mark_used(found.name.span);
         let mut scope = Scope::new(false, LiteralFrame::Own);
         lower.bind_params(&name.node, &item.params, args, expr.span, &mut scope, false);
         return chain_players(world, item, &scope, team);
+    }
+    if let Some(problem) = unknown_formation(&lower, expr) {
+        world.report(problem);
+        return Vec::new();
     }
     let value: Value<'w> = lower.want(expr, Ty::Formation);
     match value.repr {
@@ -83,6 +88,33 @@ fn players_of<'w>(world: &World<'w>, expr: &'w Expr, team: Team) -> Vec<Rostered
         }
         _ => Vec::new(),
     }
+}
+
+/// Reports a name, or that of a call, which nothing has: a formation was meant.
+fn unknown_formation(lower: &Lower<'_, '_>, expr: &Expr) -> Option<Problem> {
+    let (name, span) = match &expr.kind {
+        ExprKind::Name(name) => (name.as_str(), expr.span),
+        ExprKind::Call { name, .. } if Function::from_name(&name.node).is_none() => {
+            (name.node.as_str(), name.span)
+        }
+        _ => return None,
+    };
+    let library = lower.world.library;
+    let is_known = library.find(span.file, name).is_some()
+        || names::is_value(name)
+        || lower.world.declares(name)
+        || lower.names_in_sight(span).iter().any(|known| known == name);
+    if is_known {
+        return None;
+    }
+    let known: Vec<&str> = library
+        .visible(span.file)
+        .filter(|(_, found)| matches!(found.item.kind, ItemKind::Formation(_)))
+        .map(|(name, _)| name)
+        .collect();
+    let guess = Guess::similar_or_all(name, &known);
+    let fact = Names::Unknown { kind: Kind::Formation, name: name.to_owned(), guess };
+    Some(Problem::new(span, fact))
 }
 
 fn chain_players<'w>(

@@ -315,6 +315,8 @@ pub(crate) enum Kind {
     Ai,
     /// An `ending` of a file.
     Ending,
+    /// A `formation` of a file.
+    Formation,
     /// An event of the match.
     Event,
     /// What is compared with a player's `action`.
@@ -348,7 +350,7 @@ impl Names {
             Names::NoValue { late, .. } => *late,
             Names::ReplacedPlayer { .. } => true,
             Names::Unknown { kind, .. } => {
-                matches!(kind, Kind::Player | Kind::NamedPlayer | Kind::Reward)
+                matches!(kind, Kind::Formation | Kind::Player | Kind::NamedPlayer | Kind::Reward)
             }
             _ => false,
         }
@@ -376,6 +378,7 @@ impl Kind {
             Kind::NamedPlayer => "no player",
             Kind::Region => "no region",
             Kind::Reward => "no reward",
+            Kind::Formation => "no formation",
             Kind::Act => "nothing that a player does",
             Kind::Start => "no start",
             Kind::Statistic => "no statistic",
@@ -406,6 +409,7 @@ fn unknown(kind: Kind, name: &str, guess: &Guess) -> Said {
         Kind::Region => "there is",
         Kind::Reward => &format!("declare it, `reward {name} {{ give … }}`, or use one of"),
         Kind::Event => "the events are",
+        Kind::Formation => "the formations are",
         Kind::NamedPlayer => "the players with a name are",
         Kind::Statistic => "it can be",
         Kind::Type => "the types are",

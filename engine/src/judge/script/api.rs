@@ -18,6 +18,7 @@ pub(crate) use kept::Shelf;
 pub(super) use kept::scene_of;
 pub(crate) use named::EpisodeNames;
 pub(super) use named::{NamedList, NamedProgram, SeenRegion, SeenTable, register_named};
+pub(super) use table::elsewhere;
 pub use table::{Member, Subject, members};
 
 use crate::judge::script::budget::count_operations;

@@ -148,3 +148,62 @@ pub fn members() -> impl Iterator<Item = Member> {
     });
     properties.chain(EXTRA.iter().copied())
 }
+
+/// Words that authors try on a subject, and what is written instead.
+const ELSEWHERE: &[(Subject, &[&str], &str)] = &[
+    (
+        Subject::State,
+        &["left", "right", "home", "away", "team", "teams", "side"],
+        "the teams are `us` and `them`, and `ctx.side` is the side of `us`",
+    ),
+    (
+        Subject::State,
+        &["opponents", "opponent", "enemies", "they", "defenders"],
+        "write `them`, and `them.players` for its players",
+    ),
+    (Subject::State, &["mates", "teammates", "we"], "write `us`, and `us.players` for its players"),
+    (
+        Subject::State,
+        &["step", "steps", "tick", "ticks", "frame"],
+        "write `ctx.step`, or `elapsed` in seconds",
+    ),
+    (
+        Subject::State,
+        &["time", "clock", "seconds", "t"],
+        "write `elapsed`, or `remaining` until the limit",
+    ),
+    (Subject::State, &["steps_left", "time_left"], "write `remaining`, in seconds"),
+    (Subject::State, &["goals"], "write `score.us` or `score.them`"),
+    (Subject::State, &["goal"], "a goal has a team: write `us.goal` or `them.goal`"),
+    (Subject::State, &["events"], "they are an argument of the hook: write `events`"),
+    (Subject::State, &["params"], "write `ctx.params`"),
+    (Subject::Score, &["left", "right", "home", "away"], "write `us` or `them`"),
+    (Subject::Ctx, &["time", "elapsed", "now"], "read `elapsed` of the state, `now.elapsed`"),
+    (Subject::Ctx, &["team"], "write `side`"),
+    (Subject::Ball, &["position", "pos", "place"], "write `at`, or `x` and `y`"),
+    (Subject::Player, &["position", "pos", "place"], "write `at`, or `x` and `y`"),
+    (Subject::Ball, &["z"], "write `height`"),
+    (Subject::Ball, &["player", "holder", "carrier"], "write `owner`"),
+    (Subject::Event, &["player", "who"], "write `by`"),
+    (Subject::Event, &["type", "name"], "write `kind`"),
+];
+
+/// What to write for a name that a subject doesn't have but something else has.
+///
+/// `me`: whether the state of the match has the agent's player.
+pub(in crate::judge::script) fn elsewhere(of: Subject, name: &str, me: bool) -> Option<String> {
+    let mut known = ELSEWHERE.iter();
+    if let Some((.., written)) = known.find(|row| row.0 == of && row.1.contains(&name)) {
+        return Some((*written).to_owned());
+    }
+    let holds = |holder: Subject| members().any(|row| row.of == holder && row.name == name);
+    match of {
+        Subject::State if holds(Subject::Ctx) => return Some(format!("write `ctx.{name}`")),
+        Subject::Ctx if holds(Subject::State) => return Some(format!("write `now.{name}`")),
+        _ => {}
+    }
+    let holder = members().find(|part| {
+        part.of == of && (me || part.name != "me") && part.gives != of && holds(part.gives)
+    });
+    holder.map(|part| format!("write `{}.{name}`", part.name))
+}

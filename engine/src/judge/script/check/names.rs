@@ -417,7 +417,12 @@ impl<'a> Names<'a> {
             }
             Some(of) => {
                 let is_named = of == Subject::State && self.known.others.contains(&name);
-                help = is_named.then(|| format!("write `named.{name}`")).or(help);
+                let elsewhere = || api::elsewhere(of, name, self.hook != DONE);
+                help = if is_named {
+                    Some(format!("write `named.{name}`"))
+                } else {
+                    elsewhere().or(help)
+                };
                 format!("{} has no property `{name}`", of.words())
             }
             None => format!("unknown property `{name}`"),

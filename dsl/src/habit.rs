@@ -36,8 +36,12 @@ pub(crate) enum HabitPlace {
     Reward,
     /// In a behaviour.
     Behavior,
-    /// In a suite, check or curriculum.
-    Level,
+    /// In a suite.
+    Suite,
+    /// In a check.
+    Check,
+    /// In a curriculum.
+    Curriculum,
     /// Among options.
     Fields,
 }

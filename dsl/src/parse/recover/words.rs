@@ -98,7 +98,9 @@ impl Context {
             Context::Team => HabitPlace::Team,
             Context::Reward => HabitPlace::Reward,
             Context::Behavior => HabitPlace::Behavior,
-            Context::Suite | Context::Check | Context::Curriculum => HabitPlace::Level,
+            Context::Suite => HabitPlace::Suite,
+            Context::Check => HabitPlace::Check,
+            Context::Curriculum => HabitPlace::Curriculum,
             Context::Fields => HabitPlace::Fields,
         }
     }

@@ -1,11 +1,13 @@
 //! Habits of other languages and near misses of form: what is seen, and what to write instead.
 
 mod names;
+mod plans;
 mod rewrite;
 mod table;
 
 use names::NAMES;
 use pest::Parser;
+use plans::PLANS;
 use rewrite::{FoundPart, MatchedPart, PartKind, rewrites};
 pub(crate) use rewrite::{HabitPiece, HabitRewrite};
 use setpiece_grammar::{PitchParser, Rule};
@@ -116,8 +118,10 @@ pub(crate) fn of_text(
     at: usize,
     first: usize,
 ) -> Option<(usize, FoundHabit)> {
-    let habits =
-        HABITS.iter().filter(|habit| habit.place == place || habit.place == HabitPlace::Anywhere);
+    let habits = PLANS
+        .iter()
+        .chain(HABITS)
+        .filter(|habit| habit.place == place || habit.place == HabitPlace::Anywhere);
     // A sign is only wrong where nothing fits.
     let word = |token: &&str| {
         token.starts_with(|char: char| char.is_alphanumeric() || "_\"".contains(char))
@@ -355,7 +359,7 @@ mod tests {
 
     #[test]
     fn every_row_can_be_met() {
-        for habit in HABITS {
+        for habit in PLANS.iter().chain(HABITS) {
             assert!(!habit.write.is_empty() && !habit.seen.trim().is_empty());
             assert_eq!(
                 habit.place == HabitPlace::Name,

@@ -417,12 +417,8 @@ impl<'a> Names<'a> {
             }
             Some(of) => {
                 let is_named = of == Subject::State && self.known.others.contains(&name);
-                let elsewhere = || api::elsewhere(of, name, self.hook != DONE);
-                help = if is_named {
-                    Some(format!("write `named.{name}`"))
-                } else {
-                    elsewhere().or(help)
-                };
+                let named = is_named.then(|| format!("write `named.{name}`"));
+                help = named.or_else(|| api::elsewhere(of, name, self.hook != DONE)).or(help);
                 format!("{} has no property `{name}`", of.words())
             }
             None => format!("unknown property `{name}`"),
@@ -589,10 +585,9 @@ fn handed(of: Option<Subject>, name: &str, place: usize) -> Option<Subject> {
     // Behind the elements comes their index.
     let of = element(of)?;
     if elements.contains(&place) {
-        Some(of)
-    } else {
-        (place == elements.end).then_some(Subject::Plain)
+        return Some(of);
     }
+    (place == elements.end).then_some(Subject::Plain)
 }
 
 /// The subject of an array's elements.

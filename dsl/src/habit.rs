@@ -3,6 +3,7 @@
 mod names;
 mod plans;
 mod rewrite;
+mod row;
 mod table;
 
 use names::NAMES;
@@ -10,6 +11,8 @@ use pest::Parser;
 use plans::PLANS;
 use rewrite::{FoundPart, MatchedPart, PartKind, rewrites};
 pub(crate) use rewrite::{HabitPiece, HabitRewrite};
+use row::Habit;
+pub(crate) use row::HabitPlace;
 use setpiece_grammar::{PitchParser, Rule};
 use setpiece_scenario::vocabulary::{EventKind, Role};
 use std::borrow::Cow;
@@ -20,48 +23,6 @@ const WINDOW: usize = 64;
 
 /// A bracket that does not touch what stands before it.
 pub(crate) const BRACKET_APART: &str = " (";
-
-/// Where a habit is met.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum HabitPlace {
-    /// A name that nothing has.
-    Name,
-    /// Text that can't be read, in any list of statements.
-    Anywhere,
-    /// The same, outside of everything.
-    File,
-    /// In a scenario.
-    Scenario,
-    /// In a team or formation.
-    Team,
-    /// In a reward.
-    Reward,
-    /// In a behaviour.
-    Behavior,
-    /// In a suite.
-    Suite,
-    /// In a check.
-    Check,
-    /// In a curriculum.
-    Curriculum,
-    /// Among options.
-    Fields,
-}
-
-/// A row of the table.
-struct Habit {
-    place: HabitPlace,
-    /// The tokens; `|` stands before the one that can't be read, `^ |` where the unreadable text
-    /// begins.
-    ///
-    /// `_` is a name, `""` a string, `9` a number, `±9` one with or without a minus, `9a` a number
-    /// with letters, `é` a word of other letters, `ROLE` a role, `EVENT` an event, `␣(` a bracket
-    /// behind a blank, `a¦b` one of two, `a*` what begins with `a`, `a?` what may stand there, `*`
-    /// any token and `\*` that sign, `…` any number of them, `$` the end.
-    seen: &'static str,
-    /// What to write; `{1}` is the first that was not spelt out in `seen`.
-    write: &'static str,
-}
 
 /// A habit that was met.
 #[derive(Debug, PartialEq, Eq)]

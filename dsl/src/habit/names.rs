@@ -1,8 +1,7 @@
 //! The table of habits in names that nothing has, one row each.
 
-use super::Habit;
-use super::HabitPlace::Name;
-use super::table::row;
+use super::row::HabitPlace::Name;
+use super::row::{Habit, row};
 
 /// Every habit of a name.
 pub(super) const NAMES: &[Habit] = &[

@@ -1,8 +1,7 @@
 //! The table of habits in suites, checks and curricula, one row each.
 
-use super::Habit;
-use super::HabitPlace::{Check, Curriculum, File, Suite};
-use super::table::row;
+use super::row::HabitPlace::{Check, Curriculum, File, Suite};
+use super::row::{Habit, row};
 
 /// Every habit of a plan.
 pub(super) const PLANS: &[Habit] = &[

@@ -1,12 +1,8 @@
 //! The table of habits in what can't be read, one row each; of several that fit, the first is
 //! taken. Names have a table of their own.
 
-use super::Habit;
-use super::HabitPlace::{self, Anywhere, Behavior, Fields, File, Reward, Scenario, Team};
-
-pub(super) const fn row(place: HabitPlace, seen: &'static str, write: &'static str) -> Habit {
-    Habit { place, seen, write }
-}
+use super::row::HabitPlace::{Anywhere, Behavior, Fields, File, Reward, Scenario, Team};
+use super::row::{Habit, row};
 
 /// Every habit.
 pub(super) const HABITS: &[Habit] = &[

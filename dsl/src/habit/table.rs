@@ -380,11 +380,7 @@ pub(super) const HABITS: &[Habit] = &[
         "each has a statement: `substitute tired when …`",
     ),
     row(Scenario, "substitute _ | at¦after 9a", "write `when elapsed > {3}`"),
-    row(
-        Scenario,
-        "substitute _ | at¦after 9 step¦steps¦s¦second¦seconds¦min¦minute¦minutes",
-        "write `when elapsed > {3} {4}`",
-    ),
+    row(Scenario, "substitute _ | at¦after 9 step¦steps", "write `when elapsed > {3} steps`"),
     row(
         Scenario,
         "substitute _ | {",

@@ -27,15 +27,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import setpiece
 import torch
 from torch import Tensor, nn
+
+import setpiece
 
 EVALUATION_SEED = 1_000_000
 """The seed of the first episode of an evaluation; the others have the following ones."""
 
 POINTS = 50
 """So many points a curve has at most."""
+
+CHECKED = 200
+"""Episodes of an evaluation while training."""
 
 
 def setting(default: Any, about: str) -> Any:
@@ -47,12 +51,19 @@ def setting(default: Any, about: str) -> Any:
 class Settings:
     """What a run depends on. Each is an option of the command line."""
 
-    scenario: str = setting("academy_empty_goal_close", "a name of the library or a file")
+    scenario: str = setting(
+        "academy_empty_goal_close", "a name of the library or a file"
+    )
+    levels: str = setting(
+        "", "a curriculum that is trained on instead: a name or a file"
+    )
     rewards: str = setting("scoring,checkpoints", "reward terms, separated by commas")
     seed: int = setting(0, "of the policy and of the first environment")
     steps: int = setting(2_000_000, "of all environments together")
     players: int = setting(1, "of the left team that the policy plays")
-    observation: str = setting("simple115v2", "numbers or pictures that the policy sees")
+    observation: str = setting(
+        "simple115v2", "numbers or pictures that the policy sees"
+    )
     stack: int = setting(1, "observations that are seen at once")
     masks: bool = setting(False, "draw only actions that can change something")
     repeat: int = setting(4, "steps that a decision lasts")
@@ -67,13 +78,18 @@ class Settings:
     entropy: float = setting(0.03, "weight of the entropy; it falls to 0")
     gradient: float = setting(0.5, "greatest norm of a gradient")
     rate: float = setting(7e-4, "learning rate; it falls to 0")
+    check: int = setting(
+        0, "evaluate the scenario whenever so many steps are done; 0: never"
+    )
 
     def __post_init__(self) -> None:
         """Raises `ValueError` for a count that isn't one."""
         for one in fields(self):
-            value = getattr(self, one.name)
-            if one.name != "seed" and type(one.default) is int and value < 1:
-                raise ValueError(f"--{one.name} is {value}; expected at least 1")
+            if one.name == "seed" or type(one.default) is not int:
+                continue
+            value, least = getattr(self, one.name), min(1, one.default)
+            if value < least:
+                raise ValueError(f"--{one.name} is {value}; expected at least {least}")
 
 
 class Running(nn.Module):
@@ -106,7 +122,9 @@ class Running(nn.Module):
         before = min(float(self.taken), memory)
         share, away = len(numbers) / (before + len(numbers)), mean - self.mean
         self.mean += share * away
-        self.variance += share * (variance - self.variance + (1 - share) * away.square())
+        self.variance += share * (
+            variance - self.variance + (1 - share) * away.square()
+        )
         self.taken.fill_(before + len(numbers))
 
 
@@ -140,7 +158,9 @@ class Eye(nn.Module):
 
     def forward(self, pictures: Tensor) -> Tensor:
         """Returns the features."""
-        seen: Tensor = self.features(self.filters(pictures.permute(0, 3, 1, 2).float() / 255))
+        seen: Tensor = self.features(
+            self.filters(pictures.permute(0, 3, 1, 2).float() / 255)
+        )
         return seen
 
 
@@ -166,20 +186,31 @@ class Policy(nn.Module):
 
     def values(self, observations: Tensor) -> Tensor:
         """Predicts the returns, in parts that fit the cache."""
-        foreseen = torch.cat([self.critic(self.sight(part)) for part in observations.split(4096)])
+        foreseen = torch.cat(
+            [self.critic(self.sight(part)) for part in observations.split(4096)]
+        )
         return (foreseen * self.returns.deviation + self.returns.mean).squeeze(-1)
 
     def learned(self, observations: Tensor) -> Tensor:
         """Prepares observations of an update: what doesn't learn is done once."""
-        return self.sight(observations) if isinstance(self.sight, Running) else observations
+        return (
+            self.sight(observations)
+            if isinstance(self.sight, Running)
+            else observations
+        )
 
     def judge(self, prepared: Tensor) -> tuple[Tensor, Tensor]:
         """Returns the logits and the standardised returns for prepared observations."""
         seen = prepared if isinstance(self.sight, Running) else self.sight(prepared)
         return self.actor(seen), self.critic(seen).squeeze(-1)
 
-    def export(self, path: Path, observations: np.ndarray) -> None:
-        """Writes an ONNX file: from observations to the logits of the actions."""
+    def export(self, path: Path, observations: np.ndarray, repeat: int) -> None:
+        """Writes an ONNX file: from observations to the logits of the actions.
+
+        Its metadata says how many steps a decision lasts.
+        """
+        import onnx
+
         torch.onnx.export(
             self.cpu().eval(),
             (torch.from_numpy(observations),),
@@ -189,11 +220,16 @@ class Policy(nn.Module):
             dynamic_axes={"observation": {0: "batch"}, "logits": {0: "batch"}},
             dynamo=False,
         )
+        model = onnx.load(path)
+        onnx.helper.set_model_props(model, {"repeat": str(repeat)})
+        onnx.save(model, path)
 
 
 def log_odds(logits: Tensor, masks: Tensor | None) -> Tensor:
     """Returns the logarithms of the actions' probabilities; masked actions have none."""
-    return (logits if masks is None else logits.masked_fill(~masks, -1e9)).log_softmax(-1)
+    return (logits if masks is None else logits.masked_fill(~masks, -1e9)).log_softmax(
+        -1
+    )
 
 
 def environments(settings: Settings, number: int, threads: int, **others: Any) -> Any:
@@ -225,17 +261,23 @@ class Heard:
 class Matches:
     """Environments that play decisions, and can continue where a checkpoint left them.
 
-    An episode is a function of its seed, its index and its actions. So a checkpoint has the actions
-    of the running episodes, and `load` plays them again.
+    An episode is a function of its level and its actions. So a checkpoint has those of the running
+    episodes, and `load` plays them again.
     """
 
     def __init__(self, settings: Settings, threads: int) -> None:
         self.settings, number = settings, settings.envs
         self.envs = environments(
-            settings, number, threads, rewards=settings.rewards, seed=settings.seed, copy=False
+            settings,
+            number,
+            threads,
+            rewards=settings.rewards,
+            levels=settings.levels or None,
+            seed=settings.seed,
+            copy=False,
         )
         self.observation, self.infos = self.envs.reset(seed=settings.seed)
-        self.index, self.began = np.zeros(number, int), np.zeros(number, int)
+        self.began = np.zeros(number, int)
         self.acts: list[np.ndarray] = []
         self.sums: dict[str, float] = defaultdict(float)
 
@@ -264,14 +306,15 @@ class Matches:
         for _ in range(self.settings.repeat):
             played = np.where(heard.ended[:, None], 0, pressed).astype(np.uint8)
             rewards, over, cut = self.step(played)
-            heard.rewards += np.where(heard.ended[:, None], 0, rewards.reshape(number, -1))
+            heard.rewards += np.where(
+                heard.ended[:, None], 0, rewards.reshape(number, -1)
+            )
             for at in np.flatnonzero(cut & ~heard.ended):
                 heard.cut[int(at)] = self.infos["final_obs"][at]
             late = heard.ended.copy()
             heard.ended |= over
         if late.any():
             self.observation, self.infos = self.envs.reset(options={"reset_mask": late})
-            self.index += late
             self.began[late] = len(self.acts)
         return heard
 
@@ -284,7 +327,6 @@ class Matches:
         over = terminated | truncated
         if over.any():
             self.count(self.infos["final_info"], over)
-            self.index += over
             self.began[over] = len(self.acts)
         return rewards, over, truncated & ~terminated
 
@@ -302,9 +344,18 @@ class Matches:
     def means(self) -> dict[str, float]:
         """Returns the means over the episodes that ended since the last call."""
         ended = self.sums.pop("episodes", 0)
-        means = {name: total / ended for name, total in self.sums.items()} if ended else {}
+        means = (
+            {name: total / ended for name, total in self.sums.items()} if ended else {}
+        )
         self.sums.clear()
         return means
+
+    def stage(self) -> dict[str, Any]:
+        """Returns the stage of a curriculum, and the value that it adapts."""
+        source = self.envs.level_source
+        if not isinstance(source, setpiece.Curriculum):
+            return {}
+        return {"stage": source.stage, "value": source.value}
 
     def state(self) -> dict[str, Any]:
         """Returns what `load` needs to continue here."""
@@ -312,24 +363,27 @@ class Matches:
         self.acts, self.began = self.acts[first:], self.began - first
         shape = (0, self.settings.envs, self.settings.players)
         acts = np.stack(self.acts) if self.acts else np.zeros(shape, np.uint8)
+        source = self.envs.level_source
         return {
             "acts": torch.from_numpy(acts),
-            "index": self.index.tolist(),
+            "levels": self.envs.levels,
             "began": self.began.tolist(),
             "sums": dict(self.sums),
+            "source": None if source is None else source.state_dict(),
         }
 
     def load(self, state: dict[str, Any]) -> None:
         """Plays the running episodes of a state again."""
-        acts, index = state["acts"].numpy(), np.array(state["index"])
-        began = np.array(state["began"])
+        acts, began = state["acts"].numpy(), np.array(state["began"])
         for at in range(len(acts) + 1):
-            for each in np.unique(index[began == at]):
-                options = {"reset_mask": (began == at) & (index == each), "episode": int(each)}
+            if (began == at).any():
+                options = {"reset_mask": began == at, "level": state["levels"]}
                 self.observation, self.infos = self.envs.reset(options=options)
             if at < len(acts):
                 self.step(acts[at])
-        self.acts, self.index, self.began = [*acts], index, began
+        if self.envs.level_source is not None:
+            self.envs.level_source.load_state_dict(state["source"])
+        self.acts, self.began = [*acts], began
         self.sums = defaultdict(float, state["sums"])
 
 
@@ -356,23 +410,37 @@ class Clock:
 class Training:
     """A run: the policy, its optimizer, the environments, and what was measured so far."""
 
-    def __init__(self, settings: Settings, *, threads: int = 1, device: str = "cpu") -> None:
-        self.settings, self.threads, self.device = settings, threads, torch.device(device)
+    def __init__(
+        self, settings: Settings, *, threads: int = 1, device: str = "cpu"
+    ) -> None:
+        self.settings, self.threads, self.device = (
+            settings,
+            threads,
+            torch.device(device),
+        )
         torch.set_num_threads(threads)
         torch.manual_seed(settings.seed)
         self.matches = Matches(settings, threads)
         rows = self.matches.rows
         self.actions = self.matches.masks.shape[-1]
-        self.policy = Policy(rows.shape[1:], self.actions, settings.width).to(self.device)
-        self.optimizer = torch.optim.Adam(self.policy.parameters(), lr=settings.rate, eps=1e-5)
+        self.policy = Policy(rows.shape[1:], self.actions, settings.width).to(
+            self.device
+        )
+        self.optimizer = torch.optim.Adam(
+            self.policy.parameters(), lr=settings.rate, eps=1e-5
+        )
         self.random = torch.Generator(self.device).manual_seed(settings.seed)
-        self.update, self.clock, self.curve = 0, Clock(), []
+        self.update, self.clock = 0, Clock()
+        self.curve: list[dict[str, Any]] = []
+        self.checks: list[dict[str, Any]] = []
         steps = settings.decisions * settings.envs * settings.repeat
         self.steps_of_update, self.updates = steps, max(1, settings.steps // steps)
         many = (settings.decisions, len(rows))
         kind = torch.uint8 if rows.dtype == np.uint8 else torch.float32
         self.seen = torch.zeros(*many, *rows.shape[1:], dtype=kind, device=self.device)
-        self.masks = torch.ones(*many, self.actions, dtype=torch.bool, device=self.device)
+        self.masks = torch.ones(
+            *many, self.actions, dtype=torch.bool, device=self.device
+        )
         self.did = torch.zeros(many, dtype=torch.int64, device=self.device)
         self.odds, self.rewards, self.ended, self.rest = (
             torch.zeros(many, device=self.device) for _ in range(4)
@@ -380,7 +448,7 @@ class Training:
 
     def run(self, out: Path | None = None, *, until: int | None = None) -> None:
         """Trains up to the end, or up to an update, with a checkpoint at least every minute."""
-        writer, saved = tensorboard(out), time.monotonic()
+        writer, saved, settings = tensorboard(out), time.monotonic(), self.settings
         every = max(1, self.updates // POINTS)
         while self.update < (self.updates if until is None else until):
             left = 1 - self.update / self.updates
@@ -389,13 +457,22 @@ class Training:
                 measured = self.learn(after, left)
             self.update += 1
             step = self.update * self.steps_of_update
+            if settings.check and step % settings.check < self.steps_of_update:
+                score = float(self.evaluate(CHECKED, drawn=True).mean())
+                self.checks.append(
+                    {"steps": step, "score": score, **self.matches.stage()}
+                )
             if self.update % every == 0 or self.update == self.updates:
                 means = self.matches.means()
-                self.curve.append({"steps": step, "score": means.get("score"), **measured})
+                self.curve.append(
+                    {"steps": step, "score": means.get("score"), **measured}
+                )
                 if writer is not None:
                     for name, mean in {**means, **measured}.items():
                         writer.add_scalar(name, mean, step)
-            if out is not None and (time.monotonic() - saved > 60 or self.update == self.updates):
+            if out is not None and (
+                time.monotonic() - saved > 60 or self.update == self.updates
+            ):
                 self.save(out / "checkpoint.pt")
                 saved = time.monotonic()
         if writer is not None:
@@ -411,9 +488,12 @@ class Training:
                 if self.settings.masks:
                     self.masks[at] = torch.from_numpy(self.matches.masks)
                 odds = log_odds(
-                    self.policy(self.seen[at]), self.masks[at] if self.settings.masks else None
+                    self.policy(self.seen[at]),
+                    self.masks[at] if self.settings.masks else None,
                 )
-                self.did[at] = torch.multinomial(odds.exp(), 1, generator=self.random)[:, 0]
+                self.did[at] = torch.multinomial(odds.exp(), 1, generator=self.random)[
+                    :, 0
+                ]
                 self.odds[at] = odds.gather(1, self.did[at, :, None])[:, 0]
                 chosen = self.did[at].cpu().numpy()
             with self.clock.on("environment"):
@@ -425,12 +505,18 @@ class Training:
                 # the last observation.
                 self.rest[at] = 0
                 if heard.cut:
-                    last = np.stack([*heard.cut.values()]).reshape(-1, *self.seen.shape[2:])
+                    last = np.stack([*heard.cut.values()]).reshape(
+                        -1, *self.seen.shape[2:]
+                    )
                     rows = np.array([*heard.cut])[:, None] * agents + np.arange(agents)
                     cut = self.policy.values(torch.from_numpy(last).to(self.device))
-                    self.rest[at, torch.from_numpy(rows.reshape(-1)).to(self.device)] = cut
+                    self.rest[
+                        at, torch.from_numpy(rows.reshape(-1)).to(self.device)
+                    ] = cut
         with self.clock.on("acting"):
-            return self.policy.values(torch.from_numpy(self.matches.rows).to(self.device))
+            return self.policy.values(
+                torch.from_numpy(self.matches.rows).to(self.device)
+            )
 
     def learn(self, after: Tensor, left: float) -> dict[str, float]:
         """Updates the policy on the collected decisions; `left` is the share of the run ahead."""
@@ -458,13 +544,19 @@ class Training:
                 gain, least, most = gained[rows], 1 - settings.clip, 1 + settings.clip
                 entropy = -(now.exp() * now).sum(-1).mean()
                 miss = (foreseen - targets[rows]).square().mean()
-                loss = -torch.min(change * gain, change.clamp(least, most) * gain).mean()
+                loss = -torch.min(
+                    change * gain, change.clamp(least, most) * gain
+                ).mean()
                 loss = loss + 0.25 * miss - settings.entropy * left * entropy
                 self.optimizer.zero_grad()
                 loss.backward()
                 nn.utils.clip_grad_norm_(policy.parameters(), settings.gradient)
                 self.optimizer.step()
-                spread, misses, parts = spread + entropy.item(), misses + miss.item(), parts + 1
+                spread, misses, parts = (
+                    spread + entropy.item(),
+                    misses + miss.item(),
+                    parts + 1,
+                )
         if isinstance(policy.sight, Running):
             policy.sight.take(observations)
         return {"entropy": spread / parts, "value_loss": misses / parts}
@@ -492,6 +584,7 @@ class Training:
             "matches": self.matches.state(),
             "clock": dict(self.clock.spent),
             "curve": self.curve,
+            "checks": self.checks,
         }
         torch.save(state, path.with_suffix(".part"))
         path.with_suffix(".part").replace(path)
@@ -510,7 +603,11 @@ class Training:
         self.optimizer.load_state_dict(state["optimizer"])
         self.random.set_state(state["random"].cpu())
         self.matches.load(state["matches"])
-        self.update, self.curve = state["update"], state["curve"]
+        self.update, self.curve, self.checks = (
+            state["update"],
+            state["curve"],
+            state["checks"],
+        )
         self.clock = Clock(state["clock"])
 
     @torch.no_grad()
@@ -527,13 +624,17 @@ class Training:
         scores, over = np.zeros(episodes, int), np.zeros(episodes, bool)
         while not over.all():
             rows = torch.from_numpy(observation).reshape(-1, *self.seen.shape[2:])
-            masks = torch.from_numpy(infos["action_mask"]).reshape(-1, self.actions).bool()
+            masks = (
+                torch.from_numpy(infos["action_mask"]).reshape(-1, self.actions).bool()
+            )
             odds = log_odds(
                 self.policy(rows.to(self.device)),
                 masks.to(self.device) if settings.masks else None,
             )
             actions = (
-                torch.multinomial(odds.exp(), 1, generator=random) if drawn else odds.argmax(-1)
+                torch.multinomial(odds.exp(), 1, generator=random)
+                if drawn
+                else odds.argmax(-1)
             )
             pressed = actions.view(envs.action_space.shape).cpu().numpy()
             for _ in range(settings.repeat):
@@ -566,11 +667,17 @@ def estimate(scores: np.ndarray) -> dict[str, float]:
     mean, n, z = float(scores.mean()), len(scores), 1.959964
     if set(np.unique(scores)) <= {0, 1}:
         half = z * (mean * (1 - mean) / n + z * z / (4 * n * n)) ** 0.5
-        low, high = ((mean + z * z / (2 * n) + by) / (1 + z * z / n) for by in (-half, half))
+        low, high = (
+            (mean + z * z / (2 * n) + by) / (1 + z * z / n) for by in (-half, half)
+        )
     else:
         half = z * float(scores.std()) / n**0.5
         low, high = mean - half, mean + half
-    return {"mean": mean, "low": round(min(low, mean), 4), "high": round(max(high, mean), 4)}
+    return {
+        "mean": mean,
+        "low": round(min(low, mean), 4),
+        "high": round(max(high, mean), 4),
+    }
 
 
 def result(training: Training, episodes: int) -> dict[str, Any]:
@@ -588,14 +695,23 @@ def result(training: Training, episodes: int) -> dict[str, Any]:
         "device": training.device.type,
         "versions": {"setpiece": setpiece.__version__, "torch": torch.__version__},
         "curve": [
-            {name: None if value is None else round(value, 4) for name, value in point.items()}
+            {
+                name: None if value is None else round(value, 4)
+                for name, value in point.items()
+            }
             for point in training.curve
         ],
+        "checks": training.checks,
     }
 
 
 def train(
-    settings: Settings, out: Path, *, threads: int = 1, device: str = "cpu", episodes: int = 500
+    settings: Settings,
+    out: Path,
+    *,
+    threads: int = 1,
+    device: str = "cpu",
+    episodes: int = 500,
 ) -> dict[str, Any]:
     """Trains, or continues what `out` has of it, evaluates, and writes all files into `out`."""
     training = Training(settings, threads=threads, device=device)
@@ -605,10 +721,14 @@ def train(
     out.mkdir(parents=True, exist_ok=True)
     training.run(out)
     found = result(training, episodes)
-    (out / "result.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    (out / "result.json").write_text(
+        json.dumps(found, indent=1) + "\n", encoding="utf-8"
+    )
     torch.save(training.policy.state_dict(), out / "policy.pt")
     try:
-        training.policy.export(out / "policy.onnx", training.matches.rows)
+        training.policy.export(
+            out / "policy.onnx", training.matches.rows, settings.repeat
+        )
     except ImportError as error:
         print(f"no policy.onnx: {error}")
     return found
@@ -623,7 +743,8 @@ def summary(found: dict[str, Any]) -> str:
     spent = found["seconds"]
     cpu = sum(seconds for name, seconds in spent.items() if name != "wall")
     shares = ", ".join(
-        f"{name} {spent[name] / cpu:.0%}" for name in ("acting", "environment", "learning")
+        f"{name} {spent[name] / cpu:.0%}"
+        for name in ("acting", "environment", "learning")
     )
     return (
         f"score of {found['episodes']} episodes with drawn actions: {shown['drawn']}\n"
@@ -651,15 +772,23 @@ def main(argv: list[str] | None = None) -> dict[str, Any]:
             parser.add_argument(
                 f"--{one.name}", type=type(one.default), default=one.default, help=about
             )
-    parser.add_argument("--threads", type=int, default=1, help="of the engine and of PyTorch")
+    parser.add_argument(
+        "--threads", type=int, default=1, help="of the engine and of PyTorch"
+    )
     parser.add_argument("--device", default="cpu", help="of PyTorch: cpu, cuda")
     parser.add_argument("--episodes", type=int, default=500, help="of an evaluation")
     parser.add_argument("--out", type=Path, default=Path("runs/ppo"), help="a folder")
     args = parser.parse_args(argv)
     try:
-        settings = Settings(**{one.name: getattr(args, one.name) for one in fields(Settings)})
+        settings = Settings(
+            **{one.name: getattr(args, one.name) for one in fields(Settings)}
+        )
         found = train(
-            settings, args.out, threads=args.threads, device=args.device, episodes=args.episodes
+            settings,
+            args.out,
+            threads=args.threads,
+            device=args.device,
+            episodes=args.episodes,
         )
     except (setpiece.SetpieceError, ValueError) as error:
         parser.error(str(error))

@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import onnx
 import torch
 from torch import Tensor, nn
 from torch.distributions import Categorical
@@ -65,8 +66,11 @@ class Policy(nn.Module):
             logits = logits.masked_fill(masks == 0, -1e9)
         return Categorical(logits=logits, validate_args=False), self.critic(seen).squeeze(-1)
 
-    def save(self, folder: Path, observations: np.ndarray) -> None:
-        """Writes `policy.pt`, and `policy.onnx`: from observations to the logits of the actions."""
+    def save(self, folder: Path, observations: np.ndarray, repeat: int) -> None:
+        """Writes `policy.pt`, and `policy.onnx`: from observations to the logits of the actions.
+
+        The metadata of `policy.onnx` says how many steps a decision lasts.
+        """
         torch.save(self.state_dict(), folder / "policy.pt")
         torch.onnx.export(
             nn.Sequential(self.eye, self.actor),
@@ -77,6 +81,9 @@ class Policy(nn.Module):
             dynamic_axes={"observation": {0: "batch"}, "logits": {0: "batch"}},
             dynamo=False,
         )
+        model = onnx.load(folder / "policy.onnx")
+        onnx.helper.set_model_props(model, {"repeat": str(repeat)})
+        onnx.save(model, folder / "policy.onnx")
 
 
 class Standard(nn.Module):
@@ -296,7 +303,7 @@ def train(args: argparse.Namespace) -> Policy:
                 print(f"mean score {score:.2f} after {step} steps")
                 break
     print(f"{step} steps in {time.monotonic() - began:.0f} s")
-    policy.save(args.out, observation)
+    policy.save(args.out, observation, args.repeat)
     writer.close()
     envs.close()
     return policy

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,13 +24,17 @@ class Crowd:
         self._table, self._num_envs = table, num_envs
 
     def actions(
-        self, given: Any, observations: NDArray[Any], look: Callable[[str, bool], list[Any]]
+        self,
+        given: Any,
+        observations: NDArray[Any],
+        look: Callable[[str, bool], list[Any]],
+        steps: Sequence[int],
     ) -> NDArray[np.int64]:
         """Returns everyone's actions, int64 `(num_envs, agents)`: the caller's and the opponents'.
 
         `observations` has a row for every match and agent; `look` observes each match in another
-        kind of observation. Raises `ActionError` for the caller's actions, `OpponentError` if an
-        opponent fails.
+        kind of observation; `steps` are those that each episode has played. Raises `ActionError`
+        for the caller's actions, `OpponentError` if an opponent fails.
         """
         table = self._table
         actions = np.full((self._num_envs, table.n_agents), int(Action.BUILTIN_AI), np.int64)
@@ -42,7 +46,8 @@ class Crowd:
                 seen = look(*kind)
                 # The only agent of a match has no axis of its own.
                 looks[kind] = seen if table.n_agents > 1 else [_alone(one) for one in seen]
-            acts = ask(seat, _rows(looks[kind], seat.at), self._num_envs * len(seat.at))
+            played = [step for step in steps for _ in seat.at]
+            acts = ask(seat, _rows(looks[kind], seat.at), played)
             actions[:, seat.at] = np.reshape(acts, (self._num_envs, len(seat.at)))
         return actions
 

@@ -234,7 +234,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                     )
                 match, table, given = self._match, self._match.table, action
                 if table is not None:
-                    action = table.actions(action, self.look)
+                    action = table.actions(action, self.look, match.native.steps)
                 with one_thread:
                     observation, reward, terminated, truncated, info = match.native.step(action)
                 observation, info = match.shown(observation, info)
@@ -408,9 +408,10 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             "options": replace(self._options, params={}),
             "scenario": self.scenario,
             "snapshot": self.snapshot() if begun else None,
-            # The snapshot contains neither a stack of frames nor what opponents were shown.
+            # The snapshot contains neither a stack of frames nor what opponents were shown and press.
             "frames": self._native.frames() if begun else None,
             "seen": None if self._table is None else self._table.seen,
+            "held": None if self._table is None else self._table.held,
             "tally": None if self._callbacks is None else self._callbacks.tally,
             "closed": self._turn.closed,
             "attributes": {name: getattr(self, name) for name in COPIED},
@@ -425,7 +426,7 @@ class FootballEnv(gymnasium.Env[Any, Any]):
             self.restore(state["snapshot"])
             self._native.set_frames(state["frames"])
         if self._table is not None:
-            self._table.seen = state["seen"]
+            self._table.seen, self._table.held = state["seen"], state["held"]
         if self._callbacks is not None:
             self._callbacks.tally = state["tally"]
         for name, value in state["attributes"].items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass
 from os import PathLike, fspath
 from typing import Any
 
@@ -17,13 +17,47 @@ TYPES = {"tensor(float)": np.float32, "tensor(double)": np.float64, "tensor(uint
 ACTION_COUNTS = (19, 20)
 
 
-def onnx_policy(path: str | PathLike[str]) -> Callable[[NDArray[Any]], NDArray[np.int64]]:
+REPEAT = "repeat"
+"""The key of a model's metadata that says how many steps a decision lasts."""
+
+
+@dataclass(frozen=True)
+class OnnxPolicy:
+    """A policy from an ONNX file; `onnx_policy` makes one."""
+
+    path: str
+    session: Any
+    given: Any
+    """The input of the model."""
+    repeat: int
+    """How many steps a decision lasts."""
+
+    def __call__(self, observation: NDArray[Any]) -> NDArray[np.int64]:
+        """Returns the actions of greatest logit, int64 `(n,)`, for observations `(n, …)`."""
+        name, dtype = self.given.name, TYPES[self.given.type]
+        batches = observation[:, None] if self.given.shape[:1] == [1] else [observation]
+        logits = np.concatenate(
+            [self.session.run(None, {name: np.asarray(one, dtype)})[0] for one in batches]
+        )
+        if logits.ndim != 2 or logits.shape[1] not in ACTION_COUNTS:
+            raise FormatError(
+                f"`{self.path}` returns {logits.shape}; expected logits (batch, 19) or (batch, 20)"
+            )
+        actions: NDArray[np.int64] = logits.argmax(axis=1)
+        return actions
+
+
+def onnx_policy(path: str | PathLike[str]) -> OnnxPolicy:
     """Returns a policy from an ONNX file: observations `(n, …)` to the actions of greatest logit.
 
     Actions are int64 `(n,)`. The model has one input, the observation with a batch axis in front
     (`(batch, 115)` for `simple115v2`, `(batch, 72, 96, 4)` for `smm`; the batch free, or 1), as
     float, double or uint8. Its first output is the logits `(batch, 19)` or `(batch, 20)`. Of equal
     logits the first wins. It runs on the CPU in one thread, so results are always the same.
+
+    If the model's metadata has the key `repeat`, a whole number, a decision lasts so many steps:
+    whoever plays the policy presses its action in all of them. The policy has the attribute
+    `repeat`, 1 without that key.
 
     Raises `FileError`, `FormatError`, `MissingPackageError`, and `ParameterError` if `path` isn't a
     path.
@@ -46,18 +80,9 @@ def onnx_policy(path: str | PathLike[str]) -> Callable[[NDArray[Any]], NDArray[n
         raise FormatError(
             f"`{fspath(path)}` has the inputs {found}; expected one: {', '.join(TYPES)}"
         )
-    name, dtype, alone = inputs[0].name, TYPES[inputs[0].type], inputs[0].shape[:1] == [1]
-
-    def play(observation: NDArray[Any]) -> NDArray[np.int64]:
-        batches = observation[:, None] if alone else [observation]
-        logits = np.concatenate(
-            [session.run(None, {name: np.asarray(one, dtype)})[0] for one in batches]
+    said = session.get_modelmeta().custom_metadata_map.get(REPEAT, "1")
+    if not (said.isdecimal() and int(said) >= 1):
+        raise FormatError(
+            f"`{fspath(path)}` has the `{REPEAT}` {said!r}; expected a count of steps"
         )
-        if logits.ndim != 2 or logits.shape[1] not in ACTION_COUNTS:
-            raise FormatError(
-                f"`{fspath(path)}` returns {logits.shape}; expected logits (batch, 19) or (batch, 20)"
-            )
-        actions: NDArray[np.int64] = logits.argmax(axis=1)
-        return actions
-
-    return play
+    return OnnxPolicy(fspath(path), session, inputs[0], int(said))

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from setpiece._actions import integers
 from setpiece._errors import ActionError, OpponentError, ParameterError
+from setpiece._held import Held
 from setpiece._native import ACTION_SETS, AgentInfo
-from setpiece._onnx import onnx_policy
-from setpiece._options import check_flag
+from setpiece._onnx import OnnxPolicy, onnx_policy
+from setpiece._options import check_count, check_flag
 from setpiece._rows import Picker, pick_info
 from setpiece._spaces import check_observation, check_scale
 from setpiece._vocabulary import Action
@@ -22,6 +23,8 @@ from setpiece._words import similar
 
 SIDES: tuple[Literal["left"], Literal["right"]] = ("left", "right")
 BOT = "bot"
+REPEAT_MAX = 1_000
+"""The most steps that a decision lasts."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,8 @@ class Policy:
       returns one, agent by agent.
     - `scale`: whether that `observation` is scaled, as in `setpiece.make`. With None as
       `observation`, the caller's scale applies.
+    - `repeat`: how many steps a decision lasts: its action is pressed in all of them. None: what
+      the `.onnx` file says, otherwise 1.
 
     Every agent sees itself attacking towards +x. Actions are integers 0..19; 19 hands the step over
     to the bot.
@@ -46,6 +51,7 @@ class Policy:
     observation: str | None = None
     batched: bool = True
     scale: bool = False
+    repeat: int | None = None
 
 
 Look = tuple[str, bool]
@@ -74,6 +80,7 @@ class Seat:
     pick: Picker
     policy: Policy
     play: Callable[[Any], Any]
+    held: Held
     side: Literal["left", "right"] | None
     what: str = "opponent"
 
@@ -119,9 +126,9 @@ class Table:
             ids = tuple(agents[slot].id for slot in at)
             teams = {agents[slot].team for slot in at}
             side = SIDES[teams.pop()] if len(teams) == 1 else None
-            self.seats.append(
-                Seat(ids, at, Picker(self.n_agents, at), policy, function_of(policy), side, what)
-            )
+            play, held = player_of(policy)
+            pick = Picker(self.n_agents, at)
+            self.seats.append(Seat(ids, at, pick, policy, play, held, side, what))
         self.seen = None
 
     @property
@@ -147,11 +154,22 @@ class Table:
         """Returns the caller's part of everyone's masks."""
         return self._pick(mask)[..., : self.n_actions]
 
-    def actions(self, action: Any, look: Callable[[str, bool], Any]) -> list[int]:
+    @property
+    def held(self) -> list[list[int]]:
+        """The actions that opponents keep pressed, for copies of the environment."""
+        return [seat.held.actions for seat in self.seats]
+
+    @held.setter
+    def held(self, held: list[list[int]]) -> None:
+        for seat, actions in zip(self.seats, held, strict=True):
+            seat.held.actions = [*actions]
+
+    def actions(self, action: Any, look: Callable[[str, bool], Any], step: int) -> list[int]:
         """Returns everyone's actions: the caller's, and the opponents' for the last observation.
 
-        `look` observes the match in another kind of observation. Raises `ActionError` for the
-        caller's action, `OpponentError` if an opponent fails.
+        `step` steps of the episode have been played. `look` observes the match in another kind of
+        observation. Raises `ActionError` for the caller's action, `OpponentError` if an opponent
+        fails.
         """
         all_actions = [int(Action.BUILTIN_AI)] * self.n_agents
         for at, one in zip(self.mine, self._read_actions(action), strict=True):
@@ -161,9 +179,8 @@ class Table:
             kind = seat.look
             if kind is not None and kind not in looks:
                 looks[kind] = look(*kind)
-            for at, one in zip(
-                seat.at, ask(seat, seat.pick(looks[kind]), len(seat.at)), strict=True
-            ):
+            acts = ask(seat, seat.pick(looks[kind]), [step] * len(seat.at))
+            for at, one in zip(seat.at, acts, strict=True):
                 all_actions[at] = one
         return all_actions
 
@@ -178,9 +195,24 @@ class Table:
         return _listed(actions.ravel())
 
 
-def ask(seat: Seat, seen: Any, n: int) -> list[int]:
-    """Returns an opponent's n actions for what its agents see; raises `OpponentError`."""
-    n_actions = ACTION_SETS["v2"]
+def ask(seat: Seat, seen: Any, steps: Sequence[int]) -> list[int]:
+    """Returns an opponent's actions for what its agents see; raises `OpponentError`.
+
+    The episode of each agent has played so many `steps`.
+    """
+    return seat.held.after(steps, lambda rows: _decided(seat, some_rows(seen, rows), rows))
+
+
+def some_rows(seen: Any, rows: Sequence[int]) -> Any:
+    """Returns some rows of what agents see: an array, or a tuple of dicts."""
+    if len(rows) == len(seen):
+        return seen
+    return seen[[*rows]] if isinstance(seen, np.ndarray) else tuple(seen[at] for at in rows)
+
+
+def _decided(seat: Seat, seen: Any, rows: Sequence[int]) -> list[int]:
+    """Returns the actions of the agents of some rows; raises `OpponentError`."""
+    n, n_actions = len(rows), ACTION_SETS["v2"]
     if seat.policy.batched:
         given = _asked(seat, seat.agents, seen)
         actions = integers(given, (n,), n_actions)
@@ -188,7 +220,7 @@ def ask(seat: Seat, seen: Any, n: int) -> list[int]:
             raise _no_action(seat, seat.agents, f"{n} actions, integers", given)
         return _listed(actions)
     # The agents of one match after those of another.
-    agents = [seat.agents[at % len(seat.agents)] for at in range(n)]
+    agents = [seat.agents[at % len(seat.agents)] for at in rows]
     given = [_asked(seat, (agent,), one) for agent, one in zip(agents, seen, strict=True)]
     # All at once is faster than one by one.
     actions = integers(given, (n,), n_actions)
@@ -280,6 +312,8 @@ def no_agent(who: str, ids: Sequence[str]) -> ParameterError:
 def policy_of(who: str, opponent: Opponent, argument: str = "opponents") -> Policy:
     """Returns an opponent as a policy, or raises `ParameterError` for the argument."""
     if isinstance(opponent, Policy):
+        if opponent.repeat is not None:
+            check_count("repeat", opponent.repeat, REPEAT_MAX)
         if opponent.observation is not None:
             kind = check_observation(opponent.observation)
             return replace(opponent, observation=kind, scale=check_scale(opponent.scale, kind))
@@ -304,8 +338,14 @@ def policy_of(who: str, opponent: Opponent, argument: str = "opponents") -> Poli
     )
 
 
-def function_of(policy: Policy) -> Callable[[Any], Any]:
-    """Returns the function that is called with observations."""
+def player_of(policy: Policy) -> tuple[Callable[[Any], Any], Held]:
+    """Returns the function that is called with observations, and what keeps its actions pressed."""
+    function = _function_of(policy)
+    own = function.repeat if isinstance(function, OnnxPolicy) else 1
+    return function, Held(own if policy.repeat is None else policy.repeat)
+
+
+def _function_of(policy: Policy) -> Callable[[Any], Any]:
     if is_onnx(policy.play):
         return onnx_policy(policy.play)
     predict = getattr(policy.play, "predict", None)

@@ -14,8 +14,9 @@ from typing import Any, TypedDict
 from setpiece import _native
 from setpiece._environment import FootballEnv
 from setpiece._errors import ParameterError, ReplayError
+from setpiece._held import Held
 from setpiece._native import Scenario
-from setpiece._opponents import Opponent, Seat, ask, function_of, is_word, policy_of
+from setpiece._opponents import Opponent, Seat, ask, is_word, player_of, policy_of
 from setpiece._options import check_flag
 from setpiece._rows import Picker
 from setpiece._source import Source, load, name_of, path_of, text_of
@@ -52,6 +53,7 @@ class NativePolicy(TypedDict):
     name: str
     observation: str
     scale: bool
+    repeat: int
     play: Callable[[Any, Sequence[str]], list[int]]
 
 
@@ -219,17 +221,24 @@ def _native_policy(name: str, given: Opponent, look: tuple[str, bool]) -> Native
             name="policies",
         )
     policy = policy_of(name, given, "policies")
-    function = function_of(policy)
+    function, held = player_of(policy)
 
     def play(seen: Any, ids: Sequence[str]) -> list[int]:
         n = len(ids)
         at = [*range(n)]
-        seat = Seat(tuple(ids), at, Picker(n, at), policy, function, None)
-        return ask(seat, seat.pick(seen), n)
+        # The studio keeps the actions of each episode that it shows.
+        seat = Seat(tuple(ids), at, Picker(n, at), policy, function, Held(1), None)
+        return ask(seat, seat.pick(seen), [0] * n)
 
     own = policy.observation is not None
     observation, scale = (policy.observation or "", policy.scale) if own else look
-    return {"name": name, "observation": observation, "scale": scale, "play": play}
+    return {
+        "name": name,
+        "observation": observation,
+        "scale": scale,
+        "repeat": held.repeat,
+        "play": play,
+    }
 
 
 def _parts(source: Source, outside: bool) -> Parts:

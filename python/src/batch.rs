@@ -243,6 +243,12 @@ impl Batch {
         self.lanes.lanes().iter().map(text).collect()
     }
 
+    /// How many steps of each environment's episode have been played.
+    #[getter]
+    fn steps(&self) -> Vec<u32> {
+        self.lanes.lanes().iter().map(|lane| lane.engine.steps()).collect()
+    }
+
     /// The scenario and the parameters of an environment's episode.
     fn played<'py>(
         &self,

@@ -233,6 +233,12 @@ impl Environment {
         self.engine.agents().iter().map(|slot| !slot.player.is_some_and(left)).collect()
     }
 
+    /// How many steps of the episode have been played.
+    #[getter]
+    fn steps(&self) -> u32 {
+        self.engine.steps()
+    }
+
     /// Whether it can be stepped.
     #[getter]
     fn running(&self) -> bool {

@@ -26,6 +26,9 @@ struct PolicyForm {
     observation: String,
     #[pyo3(item)]
     scale: bool,
+    /// How many steps a decision lasts.
+    #[pyo3(item)]
+    repeat: u32,
     /// A function of observations and the agents' ids that returns a list of action numbers.
     #[pyo3(item)]
     play: Py<PyAny>,
@@ -68,6 +71,7 @@ impl Guests for PythonGuests {
         Some(Box::new(PythonPolicy {
             observation: policy.observation.clone(),
             scale: policy.scale,
+            repeat: policy.repeat.max(1),
             play: Python::attach(|py| policy.play.clone_ref(py)),
             engine: None,
             chosen: Vec::new(),
@@ -82,10 +86,11 @@ impl Guests for PythonGuests {
 struct PythonPolicy {
     observation: String,
     scale: bool,
+    repeat: u32,
     play: Py<PyAny>,
     /// A copy of the match, because looking at one may move its scratch memory.
     engine: Option<Engine>,
-    /// The actions of a step.
+    /// The actions that are pressed.
     chosen: Vec<Action>,
     step: Option<u32>,
     fault: Option<String>,
@@ -114,14 +119,17 @@ impl PythonPolicy {
 impl Policy for PythonPolicy {
     fn begin(&mut self, _environment: &Engine) {
         (self.step, self.fault) = (None, None);
+        self.chosen.clear();
     }
 
     fn act(&mut self, environment: &Engine, agent: usize) -> Action {
         if self.is_closed.load(Ordering::Acquire) {
             return Action::Idle;
         }
-        if self.step != Some(environment.steps()) && self.fault.is_none() {
-            self.step = Some(environment.steps());
+        let step = environment.steps();
+        let is_due = self.chosen.is_empty() || step.is_multiple_of(self.repeat);
+        if is_due && self.step != Some(step) && self.fault.is_none() {
+            self.step = Some(step);
             match &mut self.engine {
                 Some(engine) => engine.clone_from(environment),
                 none => *none = Some(environment.clone()),

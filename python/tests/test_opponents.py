@@ -167,6 +167,61 @@ def test_a_named_agent_wins_over_its_side() -> None:
     assert not same(side.seen, keeper.seen)
 
 
+class Counter:
+    """An opponent that counts its decisions and presses another key in each."""
+
+    def __init__(self) -> None:
+        self.rows: list[int] = []
+
+    def __call__(self, observations: Any) -> Any:
+        self.rows.append(len(observations))
+        keys = (Action.LEFT, Action.TOP, Action.RIGHT, Action.BOTTOM)
+        return np.full(len(observations), keys[len(self.rows) % 4])
+
+
+def test_a_decision_lasts_several_steps() -> None:
+    counter = Counter()
+    opponents = {"right": Policy(counter, repeat=4)}
+    env = setpiece.make(DUEL, right=1, opponents=opponents)
+    env.reset(seed=1)
+    pressed = []
+    for _ in range(10):
+        env.step(Action.IDLE)
+        pressed.append(env.played()["right_GK_1"])
+    assert pressed == [Action.TOP] * 4 + [Action.RIGHT] * 4 + [Action.BOTTOM] * 2
+    # Every episode begins with a decision, and a copy presses what its original does.
+    env.reset(seed=2)
+    env.step(Action.IDLE)
+    assert env.played()["right_GK_1"] == Action.LEFT
+    twin = env.clone()
+    twin.step(Action.IDLE)
+    assert twin.played()["right_GK_1"] == Action.LEFT
+    assert len(counter.rows) == 4
+
+
+def test_the_matches_of_a_vector_decide_at_their_own_times() -> None:
+    counter = Counter()
+    scenario = MARKED.replace("end limit 40 steps", "end limit 6 steps")
+    opponents = {"right": Policy(counter, repeat=4)}
+    envs = setpiece.make_vec(
+        scenario, 3, left=1, right=["carla", "dora"], opponents=opponents, autoreset_mode="disabled"
+    )
+    envs.reset(seed=1)
+    envs.step([Action.IDLE] * 3)
+    envs.reset(options={"reset_mask": np.array([False, True, False])})
+    for _ in range(5):
+        envs.step([Action.IDLE] * 3)
+    # All six decide at once, then the two of the match that has begun again, then the other four,
+    # then those two.
+    assert counter.rows == [6, 2, 4, 2]
+
+
+@pytest.mark.parametrize("repeat", [0, -1, 1.5, "often"])
+def test_a_decision_lasts_at_least_a_step(repeat: Any) -> None:
+    with pytest.raises(setpiece.ParameterError, match="repeat"):
+        setpiece.make(DUEL, right=1, opponents={"right": Policy(Counter(), repeat=repeat)})
+
+
 def test_what_stable_baselines_predicts() -> None:
     class Model:
         def predict(self, observation: Any, deterministic: bool = False) -> tuple[Any, None]:

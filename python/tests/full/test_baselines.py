@@ -54,7 +54,7 @@ def test_it_continues_bit_for_bit(ppo: Any, tmp_path: Path, settings: dict[str, 
     whole, first, second = (ppo.Training(chosen) for _ in range(3))
     whole.run(until=12)
     first.run(until=5)
-    assert (first.matches.index > 0).any()
+    assert any(":" in level.rpartition("#")[2] for level in first.matches.envs.levels)
     assert len(set(first.matches.began)) > 1
     first.save(tmp_path / "checkpoint.pt")
     second.load(tmp_path / "checkpoint.pt")
@@ -77,11 +77,38 @@ def test_every_episode_begins_with_a_decision(ppo: Any) -> None:
     for _ in range(30):
         matches.decide(np.full(8, setpiece.Action.SHOT))
         for at in np.flatnonzero(matches.began == len(matches.acts)):
-            env = setpiece.make(THREE, seed=5 + int(at))
-            shown, _ = env.reset(options={"episode": int(matches.index[at])})
+            shown, _ = setpiece.make(matches.envs.levels[at]).reset()
             assert np.array_equal(matches.rows[at, :115], shown)
             begun += 1
     assert begun >= 8
+
+
+CURRICULUM = """
+curriculum course {
+    stage near = academy_empty_goal_close until episodes > 40
+    stage far = academy_empty_goal
+}
+"""
+
+
+def test_it_trains_on_a_curriculum_and_checks_the_scenario(ppo: Any, tmp_path: Path) -> None:
+    file = tmp_path / "course.pitch"
+    file.write_text(CURRICULUM, encoding="utf-8")
+    settings = ppo.Settings(
+        "academy_empty_goal", str(file), steps=16 * 8 * 4 * 12, check=1024, **SMALL
+    )
+    first, second = (ppo.Training(settings) for _ in range(2))
+    first.run(until=8)
+    assert any(level.startswith("academy_empty_goal{") for level in first.matches.envs.levels)
+    assert [check["steps"] for check in first.checks] == [1024, 2048, 3072, 4096]
+    assert first.checks[0]["stage"] == "near"
+    assert first.checks[-1]["stage"] == "far"
+    first.save(tmp_path / "checkpoint.pt")
+    second.load(tmp_path / "checkpoint.pt")
+    assert second.matches.envs.levels == first.matches.envs.levels
+    assert second.matches.stage() == first.matches.stage()
+    assert np.array_equal(first.matches.rows, second.matches.rows)
+    assert second.checks == first.checks
 
 
 def test_a_decision_is_credited_with_what_comes_after_it(ppo: Any) -> None:

@@ -25,6 +25,7 @@ def save(
     n_actions: int = 19,
     batch: Any = "batch",
     kind: int = TensorProto.FLOAT,
+    repeat: str | None = None,
 ) -> Path:
     """Writes a linear model with one favourite action."""
     size = int(np.prod(shape))
@@ -43,6 +44,8 @@ def save(
         [numpy_helper.from_array(weights, "weights"), numpy_helper.from_array(bias, "bias")],
     )
     model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=9)
+    if repeat is not None:
+        helper.set_model_props(model, {"repeat": repeat})
     onnx.checker.check_model(model)
     onnx.save(model, path)
     return path
@@ -88,6 +91,15 @@ def test_the_greatest_logit_wins(tmp_path: Path) -> None:
     actions = policy(np.zeros((5, 115), np.float32))
     assert actions.tolist() == [Action.SHOT] * 5
     assert actions.dtype == np.int64
+
+
+def test_a_model_says_how_long_a_decision_lasts(tmp_path: Path) -> None:
+    policy = setpiece.onnx_policy(save(tmp_path / "policy.onnx", repeat="4"))
+    assert policy.repeat == 4
+    assert setpiece.onnx_policy(save(tmp_path / "policy.onnx")).repeat == 1
+    for wrong in ("0", "often", "-1", "1.5"):
+        with pytest.raises(setpiece.FormatError, match="expected a count of steps"):
+            setpiece.onnx_policy(save(tmp_path / "wrong.onnx", repeat=wrong))
 
 
 def test_a_match_of_two_models(tmp_path: Path) -> None:

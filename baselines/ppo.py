@@ -27,10 +27,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import setpiece
 import torch
 from torch import Tensor, nn
-
-import setpiece
 
 EVALUATION_SEED = 1_000_000
 """The seed of the first episode of an evaluation; the others have the following ones."""

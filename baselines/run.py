@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import statistics
 import sys
 from collections.abc import Iterable
@@ -25,7 +26,7 @@ HERE = Path(__file__).parent
 RESULTS = HERE / "results"
 CHECKPOINTS = HERE.parent / "target" / "baselines"
 GOOD = 0.8
-"""The training score whose first step the table shows."""
+"""The score whose first step the tables show."""
 
 
 @dataclass(frozen=True)
@@ -77,8 +78,12 @@ def spread(values: list[float], digits: int = 2) -> str:
 
 
 def reached(found: dict[str, Any], score: float = GOOD) -> float | None:
-    """Returns after how many steps the training score was first at least `score`."""
-    points = (point for point in found["curve"] if (point["score"] or 0) >= score)
+    """Returns after how many steps the score was first at least `score`.
+
+    It is that of the evaluations while training if there are any, else the training score.
+    """
+    curve = found.get("checks") or found["curve"]
+    points = (point for point in curve if (point["score"] or 0) >= score)
     return next((point["steps"] for point in points), None)
 
 
@@ -99,7 +104,7 @@ def row(found: list[dict[str, Any]]) -> list[str]:
         for one in found
     ]
     return [
-        f"`{settings['scenario']}`",
+        f"`{settings.get('levels') or settings['scenario']}`",
         f"{found[0]['steps'] / 1e6:.1f} M",
         str(len(found)),
         spread([one["drawn"]["mean"] for one in found]),
@@ -116,7 +121,7 @@ HEAD = (
     "seeds",
     "drawn actions",
     "likeliest actions",
-    f"training score reaches {GOOD}",
+    f"score reaches {GOOD}",
     "CPU minutes",
     "steps per CPU second",
 )
@@ -175,6 +180,7 @@ def markdown(rows: Iterable[Iterable[str]]) -> str:
 def play(run: Run, threads: int) -> None:
     """Trains a run, or continues it, and keeps its result."""
     sys.path.insert(0, str(HERE))
+    os.chdir(HERE.parent)
     import ppo
 
     print(f"{run.name}, seed {run.seed}", flush=True)

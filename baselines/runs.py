@@ -29,6 +29,12 @@ def academy(name: str, steps: int, **settings: Any) -> Entry:
     )
 
 
+def three(name: str, **settings: Any) -> Entry:
+    """Three against one, with the entropy that a curriculum needs, evaluated while training."""
+    chosen = {"steps": 3_000_000, "entropy": 0.1, "check": 100_000, **settings}
+    return Entry(name, "curriculum", {"scenario": "academy_3_vs_1_with_keeper", **chosen})
+
+
 ENTRIES = (
     academy("3_vs_1_with_keeper", 5_000_000),
     academy("run_to_score_with_keeper", 2_500_000),
@@ -38,4 +44,7 @@ ENTRIES = (
     academy("pass_and_shoot_with_keeper", 3_000_000),
     academy("run_pass_and_shoot_with_keeper", 3_000_000),
     academy("counterattack_easy", 5_000_000),
+    three("alone"),
+    three("past_the_defender", levels="examples/waking_defender.pitch"),
+    three("learn_3_vs_1", levels="learn_3_vs_1"),
 )

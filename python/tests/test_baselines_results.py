@@ -85,6 +85,16 @@ def test_a_row_has_the_median_the_least_and_the_greatest(run: Any) -> None:
     assert run.row([three])[3:6] == ["0.30", "0.31", "not reached"]
 
 
+def test_evaluations_while_training_say_when_a_score_is_reached(run: Any) -> None:
+    checked = {
+        **found([0.9, 0.9]),
+        "checks": [{"steps": s, "score": s / 1e6} for s in (700_000, 900_000)],
+    }
+    checked["settings"] = {"scenario": "mine", "levels": "examples/course.pitch"}
+    assert run.row([checked])[0] == "`examples/course.pitch`"
+    assert run.row([checked])[5] == "0.9 M"
+
+
 def test_an_unknown_run_is_named(run: Any, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         run.main(["--only", "3_vs_1"])

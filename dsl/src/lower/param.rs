@@ -44,7 +44,9 @@ pub(super) fn lower_params<'w>(world: &World<'w>) -> Vec<ParamInfo<'w>> {
 
 fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> {
     let decl = flat.decl;
-    let declared = decl.ty.as_ref().map(|ty| declared_type(world, ty));
+    // A type that there is not has been reported: the value says which one is meant.
+    let named = decl.ty.as_ref().map(|ty| declared_type(world, ty));
+    let declared = named.filter(|ty| *ty != Ty::Error);
     let mut info = ParamInfo {
         param: Param {
             name: decl.name.node.clone(),

@@ -2,6 +2,7 @@
 
 use crate::figure::Section;
 use crate::pitch::{LabError, Trial, deviation, mean, text};
+use setpiece::scenario::pitch::BALL_RADIUS_M;
 use setpiece::scenario::vocabulary::{Action, EventKind};
 
 /// Seeds of every kick.
@@ -279,20 +280,25 @@ fn span([low, high]: [f64; 2]) -> String {
     if low == high { short(low) } else { format!("{}–{}", short(low), short(high)) }
 }
 
+/// The most spin that a scenario can give a ball, rad/s.
+const SPIN_MAX: f64 = 200.0;
+
 const FREE: &str = "scenario free {
     agents { left: [runner] }
-    ball at (X, 0) { velocity: (V, 0m/s)  height: Z }
+    ball at (X, 0) { velocity: (V, 0m/s)  height: Z  spin: (0, W, 0) }
     team left { runner: CB at (-0.9, 0.35) { ai: hold } }
     team right { GK at (0.9, 0.35) { ai: lazy } }
     rules { assist: off }
     end limit 200 steps
 }";
 
-/// A ball released with a horizontal speed from a height.
+/// A ball released with a horizontal speed from a height; one on the ground rolls.
 fn let_go(x: f64, speed: f64, height: f64) -> Result<Trial, LabError> {
+    let spin = if height == 0.0 { (speed / BALL_RADIUS_M).min(SPIN_MAX) } else { 0.0 };
     let source = FREE
         .replace('X', &x.to_string())
         .replace('V', &format!("{speed}m/s"))
+        .replace('W', &spin.to_string())
         .replace('Z', &format!("{height}m"));
     Trial::new(text(&source)?, 0)
 }
@@ -306,7 +312,7 @@ fn motion(section: &mut Section) -> Result<(), LabError> {
         trial.step(Action::Idle)?;
         let after = level(&trial);
         let at = (before + after) * 0.5;
-        let theirs = 1.7 + 0.060 * at * at;
+        let theirs = 1.6 + 0.055 * at * at;
         section.near(
             format!("rolling at {speed:.0} m/s slows by, m/s²"),
             theirs,
@@ -339,7 +345,7 @@ fn motion(section: &mut Section) -> Result<(), LabError> {
         }
     }
     section.near("height after a bounce over that before", 0.37, 0.25, rebound / 1.89);
-    let mut trial = let_go(-0.8, 15.0, 3.0)?;
+    let mut trial = let_go(-0.8, 15.0, 1.9)?;
     let mut before = level(&trial);
     let mut kept = f64::NAN;
     for _ in 0..16 {

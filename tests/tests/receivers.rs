@@ -121,7 +121,7 @@ fn goals(text: &str) -> (u32, u32) {
     let mut environment = environment(text);
     let mut scratch = Scratch::default();
     let (mut assisted, mut alone) = (0, 0);
-    for index in 0..160 {
+    for index in 0..480 {
         environment.reset(Some(5), Some(index)).unwrap();
         let mut history: Vec<Event> = Vec::new();
         while environment.is_running() {

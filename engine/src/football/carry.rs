@@ -15,8 +15,7 @@ const WAY_TO_PACE: f32 = 0.7;
 /// and what full skill adds (GRF's). `CLOSE`: the divisor for which the speeds here hold.
 const CLOSEST: [f32; 2] = [0.38, 0.02];
 const CLOSE: f32 = 0.394;
-/// What that divisor is multiplied by: a touch is a little softer than the way asks for. Fitted to
-/// the speeds of touches.
+/// What that divisor is multiplied by: a touch is a little softer than the way asks for. (GRF's.)
 const SOFTER: f32 = 1.1;
 /// Opponents within these distances annoy a dribbler; the most annoyed sends the ball `ANNOYED_M`
 /// further, metres. (GRF's.)

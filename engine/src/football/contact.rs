@@ -2,7 +2,6 @@
 
 use crate::football::{forecast, offside, report, whistle};
 use crate::math;
-use crate::physics::constants::BALL_RADIUS;
 use crate::state::event::{Event, Events};
 use crate::state::play::{Flight, Received};
 use crate::state::{Match, PlayerId};
@@ -12,9 +11,10 @@ use setpiece_scenario::vocabulary::{EventKind, Qualifier, Role, Team};
 
 /// How much of its spin a ball keeps when it is pushed on. (GRF's.)
 const KEPT_SPIN: f32 = 0.4;
-/// The backspin of a push at `BACKSPIN_MPS` or more, rad/s, and by which power of its speed. GRF's
-/// form; fitted to how far dribblers' balls run.
-const BACKSPIN: f32 = 10.0;
+/// The topspin of a push, rad/s per m/s, and what it loses at `BACKSPIN_MPS` or more, rad/s, by
+/// which power of its speed. (GRF's.)
+const TOPSPIN_PER_MPS: f32 = 2.0 * std::f32::consts::PI;
+const BACKSPIN: f32 = 30.0;
 const BACKSPIN_MPS: f32 = 10.0;
 const BACKSPINS: f32 = 0.7;
 
@@ -53,15 +53,25 @@ pub fn push(game: &mut Match, events: &mut Events, id: PlayerId, velocity: Vec2,
     let fall = if game.ball.pos.z > 0.3 { game.ball.vel.z.min(0.0) - 1.0 } else { 0.0 };
     game.ball.vel = velocity.extend(if hop > 0.0 { hop } else { fall });
     game.ball.pos.z = game.ball.pos.z.max(0.11);
-    game.ball.spin = game.ball.spin * KEPT_SPIN + pushed_spin(velocity) * (1.0 - KEPT_SPIN);
+    let spin = spun(game, id, pushed_spin(velocity) * (1.0 - KEPT_SPIN));
+    game.ball.spin = game.ball.spin * KEPT_SPIN + spin;
     forecast::renew(game);
 }
 
-/// The spin that a push gives a ball, rad/s: a bit less than that of one that rolls.
+/// The spin that a push gives a ball, rad/s: less than that of one that rolls.
 fn pushed_spin(velocity: Vec2) -> Vec3 {
     let speed = velocity.length();
     let back = BACKSPIN * math::pow((speed / BACKSPIN_MPS).min(1.0), BACKSPINS);
-    (velocity.normalize_or_zero().perp() * (speed / BALL_RADIUS - back)).extend(0.0)
+    (velocity.normalize_or_zero().perp() * (TOPSPIN_PER_MPS * speed - back)).extend(0.0)
+}
+
+/// The spin that a player's touch gives the ball.
+///
+/// For the team that isn't the early one it is turned the wrong way: its passes float, its lofted
+/// balls and shots dip, and the grass brakes its dribblers' balls more. (GRF's: the team whose turn
+/// is second is played in a turned frame, and the spin isn't turned back.)
+pub fn spun(game: &Match, id: PlayerId, spin: Vec3) -> Vec3 {
+    if id.team() == game.play.early { spin } else { Vec3::new(-spin.x, -spin.y, spin.z) }
 }
 
 /// Records that the ball sprang off a player or a keeper's hands: a shot is saved or blocked, and a

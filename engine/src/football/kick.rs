@@ -9,11 +9,12 @@ use crate::football::{
     switching, whistle,
 };
 use crate::math;
+use crate::physics::constants::BALL_RADIUS;
 use crate::state::event::Events;
 use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
 use crate::state::{Match, PlayerId, Squad};
 use glam::{Vec2, Vec3};
-use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier, Stat};
+use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier};
 
 /// Ticks from the start of a bot's swing to the contact: ground pass, lofted pass, shot.
 const SWING_TICKS: [i32; 3] = [28, 25, 22];
@@ -35,12 +36,6 @@ pub const KICK_M: f32 = 0.85;
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
 /// How near the ball must be to a leg that is already on its way, metres; chosen.
 const STRETCH_M: f32 = 1.3;
-/// How much of its spin a ball keeps when it is kicked. (GRF's.)
-const KEPT_SPIN: f32 = 0.1;
-/// How much topspin the grass gives to a ball that is kicked off it, rad/s, and up to which height,
-/// metres. Fitted to how high passes fly.
-const GRASS_SPIN: f32 = 6.0;
-const ON_GRASS_M: f32 = 0.2;
 /// Ticks of a leg's follow-through after a kick. Measured.
 const FOLLOW_TICKS: i32 = 34;
 /// The highest ball that can be volleyed, metres.
@@ -76,15 +71,7 @@ fn dmps(mps: f32) -> u8 {
 
 /// A bot's swing: where to is decided already.
 fn begun(ready_at: i32) -> Swing {
-    Swing {
-        ready_at,
-        way: None,
-        mate: None,
-        runs: true,
-        end_dmps: Swing::RUN,
-        left_m: 0.0,
-        stroke: None,
-    }
+    Swing { ready_at, way: None, mate: None, end_dmps: Swing::RUN, left_m: 0.0, stroke: None }
 }
 
 fn asked(kind: KickKind) -> KickPlan {
@@ -179,8 +166,7 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
     }
     let (way, mate) = meant(game, id, plan);
     let now = game.tick as i32;
-    let runs = at_hand || shot::runs(player);
-    let swing = |ticks: i32| Swing { way: Some(way), mate, runs, ..begun(now + ticks) };
+    let swing = |ticks: i32| Swing { way: Some(way), mate, ..begun(now + ticks) };
     Some(match game.play.set_piece {
         Some(set_piece) => swing(run_up_ticks(set_piece.mode)),
         None if at_hand => swing(at_hand_ticks(plan.kind)),
@@ -297,14 +283,15 @@ pub(super) fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: 
             let shot = if mode == Some(GameMode::FreeKick) {
                 shot::over_wall(game, id, &plan)
             } else {
-                shot::struck(game, id, &plan, roughness(game, id))
+                shot::struck(game, id, &plan)
             };
             send(game, id, shot);
         }
         KickKind::Clear => {
             let way = plan.dir.unwrap_or(Vec2::new(id.team().side() as f32, 0.0));
             let way = way + Vec2::new(-way.y, way.x) * (noise::bell(game) * 0.25);
-            send(game, id, Struck { velocity: (way * 21.0).extend(10.0), spin: Vec3::ZERO });
+            let velocity = (way * 21.0).extend(10.0);
+            send(game, id, Struck { velocity, spin: Vec3::ZERO, kept_spin: 0.0 });
         }
         _ => {
             let (way, mate) = refined(game, id, &plan);
@@ -359,33 +346,9 @@ fn refined(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerI
 }
 
 /// Gives the ball a velocity and spin.
-///
-/// For the team that isn't the early one the spin is turned the wrong way: its passes float, and
-/// its lofted balls and shots dip. (GRF's: the team whose turn is second is played in a turned
-/// frame, and the spin isn't turned back.)
 fn send(game: &mut Match, id: PlayerId, struck: Struck) {
-    let turned = if id.team() == game.play.early { 1.0 } else { -1.0 };
-    game.ball.pos.z = game.ball.pos.z.max(0.13);
-    game.ball.vel = struck.velocity;
-    let way = struck.velocity.truncate().normalize_or_zero();
-    let grass = if game.ball.pos.z < ON_GRASS_M { GRASS_SPIN } else { 0.0 };
-    let rolls = game.ball.spin.truncate() * KEPT_SPIN + way.perp() * grass;
-    game.ball.spin = (struck.spin.truncate() * turned + rolls).extend(struck.spin.z);
-}
-
-/// How awkward a shot is, 0..1. A distant ball adds to it, a push, and everybody nearby (less for
-/// calm players). A shot computes the effect of a moving ball itself.
-fn roughness(game: &Match, id: PlayerId) -> f32 {
-    let player = game.player(id);
-    let far = (player.pos.distance(game.ball.pos.truncate()) - 0.5).max(0.0);
-    let near = game
-        .players
-        .iter()
-        .filter(|rival| rival.active && rival.pos.distance_squared(player.pos) < 2.2 * 2.2)
-        .count()
-        .saturating_sub(1);
-    let pushed = 3.0 * player.body.push_m;
-    // About 1 for the average player of the table.
-    let hurry = 1.3 - 0.4 * player.skill(Stat::Calmness);
-    (far * 0.5 + near as f32 * 0.16 * hurry + pushed).clamp(0.0, 1.0)
+    let Struck { velocity, spin, kept_spin } = struck;
+    game.ball.vel = velocity;
+    game.ball.pos.z = game.ball.pos.z.max(BALL_RADIUS);
+    game.ball.spin = game.ball.spin * kept_spin + contact::spun(game, id, spin);
 }

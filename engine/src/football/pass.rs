@@ -4,9 +4,8 @@
 
 use crate::football::{awkward, noise, swing};
 use crate::math;
-use crate::physics::constants::MAGNUS;
 use crate::state::player::{KickKind, KickPlan};
-use crate::state::{Match, Player, PlayerId};
+use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;
 
@@ -45,17 +44,19 @@ const FAR_UP_MPS: f32 = 1.5;
 const HIGH_UP_MPS: f32 = 1.0;
 const HIGH_KEEPS: f32 = 0.5;
 const HARD_UP_MPS: f32 = 5.0;
-/// What the grass leaves of the speed of a ball that is kicked off it. Measured.
-const OFF_GRASS: f32 = 0.97;
 /// Speed of the hardest pass out of the hands, m/s. Measured.
 const HANDS_MPS: f32 = 15.0;
-/// From this angle to the run on, a kick goes behind the back, degrees; chosen.
-const BEHIND_DEG: f32 = 135.0;
 /// Topspin of a ground pass and backspin of a lofted one, rad/s per m/s, and the speed up to which
-/// they grow. (GRF's ratios; fitted to the measured heights.)
-const TOPSPIN_PER_MPS: f32 = 4.3;
-const BACKSPIN_PER_MPS: f32 = 1.5;
+/// they grow. (GRF's.)
+const TOPSPIN_PER_MPS: f32 = 3.15;
+const BACKSPIN_PER_MPS: f32 = 1.17;
 const SPUN_MPS: f32 = 15.0;
+/// Side spin of a pass that leaves off the way its body faces, rad/s per radian, and how much of
+/// that a lofted one has. (GRF's.)
+const CURL: f32 = 306.0;
+const LOFTED_CURL: f32 = 0.2;
+/// How much of its own spin a ball keeps in a pass. (GRF's.)
+const KEPT_SPIN: f32 = 0.1;
 /// Speed of a throw-in at any distance, m/s. Measured.
 const THROW_MPS: f32 = 17.4;
 /// How much faster a throw-in rises per metre of its way, 1/s. Measured.
@@ -68,11 +69,13 @@ const THROW_M: f32 = 30.0;
 pub struct Struck {
     /// m/s.
     pub velocity: Vec3,
-    /// rad/s.
+    /// What the foot gives it, rad/s.
     pub spin: Vec3,
+    /// The share of its own spin that it keeps beside that.
+    pub kept_spin: f32,
 }
 
-/// Strikes a pass along a way, metres; its side spin bends it back to that way.
+/// Strikes a pass along a way, metres.
 ///
 /// GRF's: how hard a pass of a length is meant, how hard a leg can strike at most (missing speed
 /// becomes height), and what an awkward ball makes of it.
@@ -87,13 +90,13 @@ pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, way: Vec2, by_han
     let meant = ahead.extend(rise).normalize() * meant;
     let ball =
         if by_hand { meant.clamp_length_max(HANDS_MPS) } else { best(game, id, plan, meant) };
-    let level = ball.truncate().length();
-    let lag = curl(game.player(id).body.facing, ball.truncate(), level);
-    let lag = if lofted { lag * 0.2 } else { lag };
-    let velocity = math::unit(lag).rotate(ball.truncate()).extend(ball.z) * OFF_GRASS;
+    let off = off_body(game.player(id).body.facing, ball.truncate());
+    let off = if lofted { LOFTED_CURL * off } else { off };
+    let flat = math::unit(-lag(off, ball.length())).rotate(ball.truncate());
+    let velocity = flat.extend(ball.z);
     let per_mps = if lofted { BACKSPIN_PER_MPS } else { -TOPSPIN_PER_MPS };
     let spin = across(velocity) * (per_mps * velocity.length().min(SPUN_MPS));
-    Struck { velocity, spin: spin.with_z(-2.0 * lag / (distance * MAGNUS)) }
+    Struck { velocity, spin: spin.with_z(CURL * off), kept_spin: KEPT_SPIN }
 }
 
 /// The best that a player's leg can make of a pass that is meant to leave like this, m/s. (GRF's.)
@@ -127,12 +130,17 @@ fn best(game: &mut Match, id: PlayerId, plan: &KickPlan, meant: Vec3) -> Vec3 {
     ball
 }
 
-/// The angle by which a ball leaves closer to where the body faces than the kick is meant, radians.
-/// (GRF's.)
-pub fn curl(facing: Vec2, way: Vec2, speed_mps: f32) -> f32 {
+/// How far a kick leaves off the way that the body faces, or its back, radians: at most a quarter,
+/// for one across the body. (GRF's.)
+pub fn off_body(facing: Vec2, way: Vec2) -> f32 {
     let turn = math::atan2(facing.perp_dot(way), facing.dot(way)) / std::f32::consts::PI;
     let turn = if turn.abs() > 0.5 { (1.0 - turn.abs()) * math::sign_or(turn, 1.0) } else { turn };
-    -0.5 * turn * (0.4 + 0.6 * (speed_mps / 70.0).clamp(0.0, 1.0))
+    0.5 * turn
+}
+
+/// The angle by which a ball lags behind its kick, radians. (GRF's.)
+pub fn lag(off: f32, speed_mps: f32) -> f32 {
+    off * (0.4 + 0.6 * (speed_mps / 70.0).clamp(0.0, 1.0))
 }
 
 /// A throw-in: the speed is the same for any distance, and longer ones rise more.
@@ -140,22 +148,15 @@ pub fn thrown(game: &mut Match, id: PlayerId, way: Vec2) -> Struck {
     let rise = THROW_UP_PER_S * way.length().clamp(2.0, THROW_M);
     let ahead = way.normalize_or(game.player(id).body.facing);
     let aside = Vec2::new(-ahead.y, ahead.x) * (noise::bell(game) * 0.02);
-    Struck { velocity: ((ahead + aside) * THROW_MPS).extend(rise), spin: Vec3::ZERO }
+    Struck {
+        velocity: ((ahead + aside) * THROW_MPS).extend(rise),
+        spin: Vec3::ZERO,
+        kept_spin: KEPT_SPIN,
+    }
 }
 
 /// The horizontal unit axis of backspin for a velocity.
 fn across(velocity: Vec3) -> Vec3 {
     let flat = velocity.truncate().normalize_or_zero();
     Vec3::new(flat.y, -flat.x, 0.0)
-}
-
-/// Whether a way leads behind a player's back.
-pub fn is_behind(player: &Player, way: Vec2) -> bool {
-    off_run(player, way) > BEHIND_DEG
-}
-
-/// The angle between the way a player runs (or faces) and another way, degrees.
-fn off_run(player: &Player, way: Vec2) -> f32 {
-    let ahead = player.vel.normalize_or(player.body.facing);
-    math::atan2(ahead.perp_dot(way), ahead.dot(way)).abs().to_degrees()
 }

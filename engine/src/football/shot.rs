@@ -1,55 +1,37 @@
 //! Where a shot goes and how hard.
 
-use crate::football::noise;
-use crate::football::pace::WALKS_FROM_MPS;
+use crate::football::pace::SPRINT_MPS;
 use crate::football::pass::{self, Struck};
+use crate::football::{noise, swing};
 use crate::math;
 use crate::state::player::KickPlan;
-use crate::state::{Match, Player, PlayerId};
+use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::PitchSize;
 use setpiece_scenario::vocabulary::Stat;
 
-/// Backspin of a shot, rad/s. At 25 m/s it falls with 8 m/s², or with 11.5 m/s² if the spin is
-/// turned. Measured.
-const SHOT_BACKSPIN: f32 = 11.0;
-/// Side spin of a shot across the body that bends it back, rad/s per radian; chosen.
-const CURL: f32 = 420.0;
-/// The most side spin that a shot gets by chance, rad/s; chosen.
-const STRAY_SPIN: f32 = 8.0;
+/// Backspin of a shot, and the most that chance adds to it about every axis, rad/s. (GRF's.)
+const SPIN: f32 = 14.0;
+/// Side spin of a shot that leaves off the way its body faces, rad/s per radian; and the share of
+/// chance in it. (GRF's.)
+const CURL: f32 = 294.0;
+const STRAY_CURL: f32 = 0.7;
+/// How much of its own spin a ball keeps in a shot. (GRF's.)
+const KEPT_SPIN: f32 = 0.3;
 /// Fall of a shot without spin, m/s².
 const FALL_MPS2: f32 = 9.81;
 /// A player's own movement counts in the aim for this long, seconds. (GRF's.)
 const AHEAD_S: f32 = 0.12;
 /// The angle to the run at which a shot is easiest, radians: across the body. (GRF's.)
 const IDEAL_RAD: f32 = 0.2 * std::f32::consts::PI;
-/// Bounds of the speed at which a player strikes, m/s. Fitted to the measured speeds of standing
-/// and sprinting shots.
-const STEP_MPS: f32 = 1.6;
-const BRAKED_MPS: f32 = 4.5;
-/// The share of the hardest shot that is left without a run-up. Measured.
-const STANDING: f32 = 0.765;
-/// How much a hard shot is lifted (GRF's), and how much more the hardest one is. Fitted to the
-/// measured heights.
+/// What every swing has of the hardest shot. (GRF's.)
+const ANY_SWING: f32 = 0.2;
+/// How much the hardest shot is lifted. (GRF's.)
 const LIFT: f32 = 0.7;
-const LIFTS: f32 = 1.25;
-/// The speed at which a shot is easiest (GRF's), and the most speed that a runner has left at the
-/// strike, m/s. Fitted to the measured heights.
+/// The speed at which a shot is easiest, m/s. (GRF's.)
 const EASIEST_MPS: f32 = 3.5;
-const LEFT_MPS: f32 = 3.8;
-/// Above this speed running makes aiming no harder, m/s. Fitted to how far shots on the run go
-/// astray.
-const HARDEST_MPS: f32 = 4.4;
-/// Difficulty of the easiest shot. Fitted to the measured directions.
-const LEAST_HARD: f32 = 0.07;
-/// How much a hard shot is pulled towards the run, for each radian between them, and at most
-/// (GRF's). A shooter turns in the swing, so small angles hardly count. Fitted to the directions of
-/// shots across the run.
-const PULL_PER_RAD: f32 = 0.6;
-const PULL_MOST: f32 = 0.8;
-/// The factor from GRF's ball speed at the foot to ours. GRF brakes the ball before it can first be
-/// observed.
-const GIVEN: f32 = 1.015;
+/// How much the hardest shot is pulled towards the run. (GRF's.)
+const PULL: f32 = 0.8;
 
 /// The point that a shot aims at now: the bot's choice, or what the held direction means.
 pub fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
@@ -65,11 +47,6 @@ pub fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
 fn aim(game: &Match, id: PlayerId, plan: &KickPlan) -> Vec2 {
     let settled = plan.swing.and_then(|swing| swing.way).map(|way| game.ball.pos.truncate() + way);
     settled.unwrap_or_else(|| meant(game, id, plan))
-}
-
-/// Whether a player runs, as opposed to setting off or standing.
-pub fn runs(player: &Player) -> bool {
-    player.vel.length_squared() >= WALKS_FROM_MPS * WALKS_FROM_MPS
 }
 
 /// The middle of the goal that a side attacks.
@@ -102,69 +79,67 @@ fn eased(share: f32, smooth: f32) -> f32 {
     curve * smooth + share * (1.0 - smooth)
 }
 
-/// A shot from the ground or in the air. `rough` (0..1) is how much opponents hamper it.
+/// A shot from the ground or in the air.
 ///
-/// GRF's: what makes a shot hard (the angle to the run, speed, a moving ball, its own power); how
-/// that pulls it towards the run, lifts and weakens it; and how chance mixes the best shot with the
-/// worst.
-pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan, rough: f32) -> Struck {
+/// GRF's: what makes a shot hard (the angle to the run, speed, a push, a moving ball, its own
+/// power); how that pulls it towards the run, lifts and weakens it; and how chance mixes the best
+/// shot with the worst.
+pub fn struck(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Struck {
     let player = *game.player(id);
     let from = game.ball.pos.truncate();
     let way = (aim(game, id, plan) - from).normalize_or(Vec2::new(id.team().side() as f32, 0.0));
-    let run = if player.vel.length() > 1.0 { player.vel.normalize() } else { player.body.facing };
-    // Whoever shoots backwards has turned round in the swing.
-    let run = if pass::is_behind(&player, way) { way } else { run };
-    // A standing player takes a step, and a sprinter brakes for the ball.
-    let pace = player.vel.length().clamp(STEP_MPS, BRAKED_MPS);
+    let stroke = plan
+        .swing
+        .and_then(|swing| swing.stroke)
+        .unwrap_or_else(|| swing::stroke(&player, plan.kind, way));
+    let mps = stroke.body.length();
+    let run = stroke.body.normalize_or(player.body.facing);
     let off = math::atan2(run.perp_dot(way), run.dot(way)).abs();
     let across = eased(1.0 - (off - IDEAL_RAD).abs() / std::f32::consts::PI, 0.8).max(0.0);
     let across = libm::powf(across, 0.8);
     let pushed = (player.body.push_m / 0.1).clamp(0.0, 1.0);
-    let meeting = ((player.vel.extend(0.0) - game.ball.vel).length() / 10.0).clamp(0.0, 1.0);
+    let meeting = ((stroke.body.extend(0.0) - game.ball.vel).length() / 10.0).clamp(0.0, 1.0);
     let wanted =
         if plan.power > 0.0 { plan.power } else { libm::powf(plan.gauge(), 0.6).max(0.01) };
 
     let foot = (0.7 + 0.3 * across)
-        * (0.7 + 0.3 * libm::powf((pace / 8.0).clamp(0.0, 1.0), 0.3))
+        * (0.7 + 0.3 * libm::powf((mps / SPRINT_MPS).clamp(0.0, 1.0), 0.3))
         * (1.0 - 0.6 * pushed)
         * (45.0 * (0.7 + 0.3 * wanted.sqrt()));
-    let strides = ((player.vel.length() - STEP_MPS) / 1.2).clamp(0.0, 1.0);
-    let most =
-        (32.0 + 13.0 * player.skill(Stat::ShotPower)) * (STANDING + (1.0 - STANDING) * strides);
+    let most = (32.0 + 13.0 * player.skill(Stat::ShotPower))
+        * (ANY_SWING + (1.0 - ANY_SWING) * stroke.power);
     let power = foot.min(most) * (1.0 + 0.2 * meeting);
 
     let ease = (0.4 + 0.6 * across)
+        * (1.0 - 0.3 * ((mps - EASIEST_MPS).abs() / 4.0).clamp(0.0, 1.0))
         * (1.0 - 0.7 * pushed)
         * (1.0 - 0.4 * meeting * (0.5 - 0.3 * player.skill(Stat::Volley)))
-        * (0.6 + 0.4 * eased(1.0 - ((power - 30.0) / 70.0).clamp(0.0, 1.0), 1.0))
-        * (1.0 - 0.5 * rough);
-    let hard_at = |pace: f32| {
-        let easy = 1.0 - 0.3 * ((pace - EASIEST_MPS).abs() / 4.0).clamp(0.0, 1.0);
-        (1.0 - ease * easy).clamp(LEAST_HARD, 1.0)
-    };
-    // A swing that began before the run strikes the ball from a step.
-    let steps = plan.swing.is_some_and(|swing| !swing.runs);
-    let pace = if steps { STEP_MPS } else { pace };
-    let hard = hard_at(if steps { pace } else { player.vel.length().clamp(STEP_MPS, HARDEST_MPS) });
+        * (0.6 + 0.4 * eased(1.0 - ((power - 30.0) / 70.0).clamp(0.0, 1.0), 1.0));
+    let hard = (1.0 - ease).clamp(0.0, 1.0);
     let harder = libm::powf(hard, 0.7);
-    let lifts = libm::powf(hard_at(pace.min(LEFT_MPS)), 0.7);
 
     let best = way.extend(0.05).normalize() * power;
-    let pull = (PULL_PER_RAD * off).min(PULL_MOST);
-    let pulled = (way + (run - way) * (pull * hard)).normalize_or(way);
-    let (on, aside, up) = (noise::spread(game), noise::spread(game), noise::spread(game));
+    let pulled = way.lerp(run, PULL * hard).normalize_or(way);
+    let mut stray = || noise::spread(game);
+    let (on, aside, up) = (stray(), stray(), stray());
     let shaken = (way * on + way.perp() * aside).extend(up) * (0.5 * hard);
     let worst = (pulled.extend(0.0) + shaken).normalize_or(way.extend(0.0));
-    let worst = (worst + Vec3::Z * (LIFT * libm::powf(eased(lifts, 0.7), LIFTS))).normalize()
+    let worst = (worst + Vec3::Z * (LIFT * eased(harder, 0.7))).normalize()
         * (power * (1.0 - 0.5 * harder));
     let luck = libm::powf(noise::roll(game), 0.7 * player.skill(Stat::Shot));
     let ball = best + (worst - best) * luck;
 
-    let lag = pass::curl(player.body.facing, ball.truncate(), ball.length());
-    let flat = math::unit(lag).rotate(ball.truncate());
-    let backspin = Vec3::new(way.y, -way.x, 0.0) * SHOT_BACKSPIN;
-    let twist = -CURL * lag + noise::spread(game) * STRAY_SPIN;
-    Struck { velocity: flat.extend(ball.z) * GIVEN, spin: backspin.with_z(twist) }
+    let off = pass::off_body(player.body.facing, ball.truncate());
+    let flat = math::unit(-pass::lag(off, ball.length())).rotate(ball.truncate());
+    let mut stray = || noise::spread(game);
+    let (over, aside, twist) = (stray(), stray(), stray());
+    let spin = way * aside + way.perp() * over;
+    let level = SPIN * (spin * (0.3 + 0.7 * luck) - way.perp());
+    Struck {
+        velocity: flat.extend(ball.z),
+        spin: level.extend(CURL * off + SPIN * STRAY_CURL * twist),
+        kept_spin: KEPT_SPIN,
+    }
 }
 
 /// A free kick at goal: slower and higher, so that it comes down behind the wall.
@@ -183,5 +158,5 @@ pub fn over_wall(game: &mut Match, id: PlayerId, plan: &KickPlan) -> Struck {
     let flat = (ahead + Vec2::new(-ahead.y, ahead.x) * (noise::bell(game) * wild)) * speed;
     let velocity =
         flat.extend(speed * (rise * (1.0 + noise::bell(game) * 2.0 * wild)).clamp(0.02, 0.7));
-    Struck { velocity, spin: Vec3::new(ahead.y, -ahead.x, 0.0) * SHOT_BACKSPIN }
+    Struck { velocity, spin: Vec3::new(ahead.y, -ahead.x, 0.0) * SPIN, kept_spin: KEPT_SPIN }
 }

@@ -31,6 +31,10 @@ pub(super) struct SwingMotion {
     /// The share of their strength that a player can put into it, and how hard it is, both 0..1.
     power: f32,
     hard: f32,
+    /// How fast its body counts as at the contact of a shot, m/s, whoever plays it, and how far it
+    /// is then turned from the run to the kick's side, degrees. (GRF's: of the motion it is made
+    /// from, whose turn counts twice.)
+    body: [f32; 2],
 }
 
 impl SwingMotion {
@@ -66,6 +70,7 @@ const fn swing(
         crosses: false,
         power: 1.0,
         hard: 0.0,
+        body: [0.0; 2],
     }
 }
 
@@ -87,6 +92,12 @@ impl SwingMotion {
         (self.power, self.hard) = (power, hard);
         self
     }
+
+    /// The same for shots, with a body that moves like this.
+    const fn moving(mut self, mps: f32, turned_degrees: f32) -> SwingMotion {
+        self.body = [mps, turned_degrees];
+        self
+    }
 }
 
 /// The swings of a kind by the gait that they begin at: standing, dribbling, walking, sprinting.
@@ -94,23 +105,34 @@ type ByGait = [&'static [SwingMotion]; 4];
 
 const SHOTS: ByGait = [
     &[
-        swing([11.0, 45.0], 25, [0.45, -0.16], [1.88, 0.0], [1.4, 0.0], 0.3),
-        swing([90.0, 45.0], 24, [0.67, 0.0], [0.0, 0.0], [0.0, 0.0], 0.9),
-        swing([169.0, 45.0], 36, [-0.06, -0.06], [1.0, 0.0], [1.8, 0.0], 0.7),
+        swing([11.0, 45.0], 25, [0.45, -0.16], [1.88, 0.0], [1.4, 0.0], 0.3)
+            .limited(0.7, 0.0)
+            .moving(1.42, 0.0),
+        swing([90.0, 45.0], 24, [0.67, 0.0], [0.0, 0.0], [0.0, 0.0], 0.9).limited(0.7, 0.0),
+        swing([169.0, 45.0], 36, [-0.06, -0.06], [1.0, 0.0], [1.8, 0.0], 0.7)
+            .limited(0.7, 0.0)
+            .moving(1.72, 0.0),
     ],
-    &[swing([90.0, 45.0], 29, [1.02, 0.0], [2.63, 0.2], [1.8, 0.0], 0.8).at_height(0.73)],
+    &[swing([90.0, 45.0], 29, [1.02, 0.0], [2.63, 0.2], [1.8, 0.0], 0.8)
+        .at_height(0.73)
+        .moving(1.84, 0.0)],
     &[
-        swing([11.0, 45.0], 15, [0.22, -0.33], [0.53, 0.92], [2.28, 0.5], 3.4),
-        swing([11.0, 45.0], 23, [0.22, -0.33], [2.14, 0.61], [4.8, 0.0], 3.3),
-        swing([90.0, 45.0], 28, [0.83, 0.0], [1.45, 0.77], [2.05, 0.27], 0.7),
-        swing([169.0, 45.0], 36, [-0.06, -0.06], [2.38, 0.28], [1.8, 0.0], 0.7).crossed(),
+        swing([11.0, 45.0], 15, [0.22, -0.33], [0.53, 0.92], [2.28, 0.5], 3.4).moving(4.99, 0.0),
+        swing([11.0, 45.0], 23, [0.22, -0.33], [2.14, 0.61], [4.8, 0.0], 3.3).moving(5.0, 0.0),
+        swing([90.0, 45.0], 28, [0.83, 0.0], [1.45, 0.77], [2.05, 0.27], 0.7).moving(2.62, -29.0),
+        swing([169.0, 45.0], 36, [-0.06, -0.06], [2.38, 0.28], [1.8, 0.0], 0.7)
+            .crossed()
+            .limited(0.7, 0.0)
+            .moving(1.72, 0.0),
     ],
     &[
-        swing([11.0, 45.0], 15, [0.22, -0.28], [2.25, 0.69], [4.36, 0.23], 3.4),
-        swing([11.0, 45.0], 24, [0.22, -0.33], [2.96, 0.51], [4.06, 0.11], 3.4),
-        swing([31.0, 45.0], 26, [0.02, 0.64], [2.75, 0.51], [4.6, 0.0], 4.1).crossed(),
-        swing([25.0, 45.0], 17, [0.54, -0.14], [2.48, 0.65], [4.1, 0.27], 3.4),
-        swing([80.0, 45.0], 29, [0.77, 0.0], [1.46, 0.77], [2.35, 0.19], 1.3),
+        swing([11.0, 45.0], 15, [0.22, -0.28], [2.25, 0.69], [4.36, 0.23], 3.4).moving(6.0, 0.0),
+        swing([11.0, 45.0], 24, [0.22, -0.33], [2.96, 0.51], [4.06, 0.11], 3.4).moving(4.44, 0.0),
+        swing([31.0, 45.0], 26, [0.02, 0.64], [2.75, 0.51], [4.6, 0.0], 4.1)
+            .crossed()
+            .moving(4.54, 16.2),
+        swing([25.0, 45.0], 17, [0.54, -0.14], [2.48, 0.65], [4.1, 0.27], 3.4).moving(4.46, 13.4),
+        swing([80.0, 45.0], 29, [0.77, 0.0], [1.46, 0.77], [2.35, 0.19], 1.3).moving(2.77, -29.0),
     ],
 ];
 const PASSES: ByGait = [
@@ -238,8 +260,14 @@ impl Stance {
 
     /// What the leg can do in a swing to one side.
     fn stroke(&self, swing: &SwingMotion, side: f32) -> Stroke {
-        let natural = math::unit((side * swing.to_degrees).to_radians()).rotate(self.run);
-        Stroke { power: swing.power, hard: swing.hard, natural }
+        let turned = |degrees: f32| math::unit((side * degrees).to_radians()).rotate(self.run);
+        let [mps, turned_degrees] = swing.body;
+        Stroke {
+            power: swing.power,
+            hard: swing.hard,
+            natural: turned(swing.to_degrees),
+            body: turned(turned_degrees) * mps,
+        }
     }
 }
 
@@ -249,9 +277,15 @@ pub(super) fn stroke(player: &Player, kind: KickKind, way: Vec2) -> Stroke {
     let side = math::sign_or(stance.turn, RIGHT);
     let swings = ORDER[stance.gait].iter().flat_map(|gait| of(kind)[*gait]);
     let swing = swings.into_iter().find(|swing| stance.leads(swing, side));
-    swing.map_or(Stroke { power: 1.0, hard: 0.0, natural: way.normalize_or(stance.run) }, |swing| {
-        stance.stroke(swing, side)
-    })
+    swing.map_or(
+        Stroke {
+            power: 1.0,
+            hard: 0.0,
+            natural: way.normalize_or(stance.run),
+            body: stance.run * stance.pace,
+        },
+        |swing| stance.stroke(swing, side),
+    )
 }
 
 /// The first swing of a kind that kicks the ball this way, world metres, from where it will be.

@@ -1,8 +1,8 @@
 //! What nature does to the ball in an episode: gravity, the wind, the air, the ground.
 
 use super::constants::{
-    AIR_DRAG, BOUNCE, BOUNCE_FRICTION, BOUNCE_LEAST, BOUNCE_LOSS, GRAVITY, MAGNUS, REST_SPEED,
-    ROLL_DRAG, ROLL_DRAG_SQUARE, SPIN_DECAY, TICK_S,
+    AIR_DRAG, BOUNCE, BOUNCE_GRIP, BOUNCE_LEAST, BOUNCE_LOSS, GRAVITY, MAGNUS, REST_SPEED,
+    ROLL_DRAG, ROLL_DRAG_SQUARE, SLIDE_DRAG, SPIN_DECAY, TICK_S,
 };
 use glam::Vec2;
 use setpiece_scenario::vocabulary::WorldFigure;
@@ -108,10 +108,10 @@ impl Conditions {
         BOUNCE_LEAST.max(1.5 * self.fall())
     }
 
-    /// See [`BOUNCE_FRICTION`].
+    /// See [`BOUNCE_GRIP`].
     #[inline]
-    pub(super) const fn bounce_friction(&self) -> f32 {
-        BOUNCE_FRICTION * self.figure(WorldFigure::Friction)
+    pub(super) const fn bounce_grip(&self) -> f32 {
+        BOUNCE_GRIP * self.figure(WorldFigure::Friction)
     }
 
     /// See [`ROLL_DRAG`].
@@ -124,6 +124,12 @@ impl Conditions {
     #[inline]
     pub(super) const fn roll_drag_square(&self) -> f32 {
         ROLL_DRAG_SQUARE * self.figure(WorldFigure::Friction)
+    }
+
+    /// See [`SLIDE_DRAG`].
+    #[inline]
+    pub(super) const fn slide_drag(&self) -> f32 {
+        SLIDE_DRAG * self.figure(WorldFigure::Friction)
     }
 
     /// See [`REST_SPEED`]; more than one tick's fall.

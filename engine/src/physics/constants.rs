@@ -17,9 +17,9 @@ pub const BALL_INERTIA_SHARE: f32 = 2.0 / 3.0;
 /// Air drag over squared speed, 1/m. Measured at 12–30 m/s. (A smooth sphere of this size with a
 /// drag coefficient of 0.29 has the same: ½ · 1.2 · 0.038 · 0.29 / 0.43.)
 pub const AIR_DRAG: f32 = 0.0155;
-/// Magnus acceleration over speed and the product of spin and velocity, s/m. Fitted: with 15 rad/s
-/// of backspin a shot falls with 7.4 m/s² instead of 9.81, as measured.
-pub const MAGNUS: f32 = 0.00027;
+/// Magnus acceleration over speed and the product of spin and velocity, s/m. GRF's, within 5 %
+/// from 15 to 25 m/s: with 12 rad/s of backspin a shot falls with 7.4 m/s² instead of 9.81.
+pub const MAGNUS: f32 = 0.00034;
 /// The Magnus effect doesn't grow beyond this spin, rad/s: the lift coefficient of a football
 /// levels off near 0.3 (Goff and Carré 2009, "Trajectory analysis of a soccer ball").
 pub const MAGNUS_SPIN_MAX: f32 = 60.0;
@@ -41,19 +41,23 @@ pub const BOUNCE: f32 = 0.62;
 pub const BOUNCE_LOSS: f32 = 0.065;
 /// Below this downward speed a touch of the ground counts as rolling, not as a bounce, m/s.
 pub const BOUNCE_LEAST: f32 = 0.15;
-/// Sliding friction at a bounce. Fitted to low, flat bounces, which lose less than the full share.
-pub const BOUNCE_FRICTION: f32 = 0.40;
-/// The largest share of the sliding speed that one bounce takes. Measured: horizontal speed × 0.77.
-pub const BOUNCE_GRIP: f32 = 0.23;
-/// Height of the blades that brake a ball, m above the resting centre. Fitted.
-pub const GRASS_DEPTH: f32 = 0.02;
-/// Rolling resistance that does not depend on speed, m/s². Measured: a ≈ −(1.7 + 0.060 v²).
-pub const ROLL_DRAG: f32 = 1.7;
-/// Rolling resistance over squared speed, 1/m: the measured 0.060 minus the air's share.
-pub const ROLL_DRAG_SQUARE: f32 = 0.060 - AIR_DRAG;
-/// Share of the angular speed that rolling resistance could add (a/R · 3/2 for a shell). Less than
-/// one, so that spin never holds more energy than the roll has lost.
-pub const ROLL_SPIN_SHARE: f32 = 0.9;
+/// The largest share of the sliding speed that a bounce takes, and from which to which downward
+/// speed that grows, m/s. (GRF's.)
+pub const BOUNCE_GRIP: f32 = 0.5;
+/// See [`BOUNCE_GRIP`].
+pub const BOUNCE_GRIPS: [f32; 2] = [0.5, 12.5];
+/// Height of the blades that brake a ball, m above the resting centre. (GRF's are 0.025 high, but
+/// brake with the power 0.7 of how deep the ball is in.)
+pub const GRASS_DEPTH: f32 = 0.03;
+/// Rolling resistance that does not depend on speed, m/s². Measured: a ≈ −(1.6 + 0.055 v²).
+pub const ROLL_DRAG: f32 = 1.6;
+/// Rolling resistance over squared speed, 1/m: the measured 0.055 minus the air's share.
+pub const ROLL_DRAG_SQUARE: f32 = 0.055 - AIR_DRAG;
+/// How much of the speed at which a ball slides over the grass the grass takes, 1/s. Measured: a
+/// ball that leaves the foot at 30 m/s without spin loses twice what one that rolls does. (GRF's.)
+pub const SLIDE_DRAG: f32 = 1.0;
+/// The most that grass changes a ball's spin by, rad/s². Measured. (GRF's.)
+pub const GRASS_TURN: f32 = 314.0;
 /// Share of the spin about the vertical axis that grass takes per second.
 pub const ROLL_TWIST_DECAY: f32 = 2.0;
 

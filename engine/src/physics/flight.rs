@@ -10,7 +10,7 @@
 //! grows.
 
 use super::constants::{
-    BALL_RADIUS, BOUNCE_GRIP, GRASS_DEPTH, MAGNUS_SPEED_MAX, MAGNUS_SPIN_MAX, ROLL_SPIN_SHARE,
+    BALL_RADIUS, BOUNCE_GRIPS, GRASS_DEPTH, GRASS_TURN, MAGNUS_SPEED_MAX, MAGNUS_SPIN_MAX,
     ROLL_TWIST_DECAY, TICK_S, WIND_SHELTER,
 };
 use super::{Ball, Conditions};
@@ -77,19 +77,25 @@ pub(super) fn magnus(spin: Vec3, vel: Vec3, speed: f32, conditions: &Conditions)
 fn roll(ball: &mut Ball, grass: f32, conditions: &Conditions) {
     let along = ball.vel.truncate();
     let speed = along.length();
-    if speed == 0.0 {
+    let drag = conditions.roll_drag() + conditions.roll_drag_square() * speed * speed;
+    let seconds = grass * TICK_S;
+    let lost = drag * seconds;
+    if lost >= speed {
+        ball.vel = Vec3::new(0.0, 0.0, ball.vel.z);
         return;
     }
-    let drag = conditions.roll_drag() + conditions.roll_drag_square() * speed * speed;
-    let lost = (drag * grass * TICK_S).min(speed);
-    let kept = along * (1.0 - lost / speed);
-    ball.vel = kept.extend(ball.vel.z);
-    let rolling = Vec2::new(-kept.y, kept.x) / BALL_RADIUS;
-    let slip = rolling - ball.spin.truncate();
-    let gap = slip.length();
-    let gained = SPIN_PER_SPEED * ROLL_SPIN_SHARE * lost;
-    let turned = if gap <= gained { rolling } else { ball.spin.truncate() + slip * (gained / gap) };
-    ball.spin = turned.extend(ball.spin.z * (1.0 - ROLL_TWIST_DECAY * grass * TICK_S));
+    let rolled = along * (1.0 - lost / speed);
+    ball.vel = slide(&mut ball.spin, rolled, seconds, conditions).extend(ball.vel.z);
+}
+
+/// What the grass leaves of a level velocity, m/s, for it brakes the sliding of the lowest point
+/// and turns the spin towards pure rolling.
+pub(super) fn slide(spin: &mut Vec3, vel: Vec2, seconds: f32, conditions: &Conditions) -> Vec2 {
+    let rolling = Vec2::new(-vel.y, vel.x) / BALL_RADIUS;
+    let slip = rolling - spin.truncate();
+    let turned = slip.clamp_length_max(GRASS_TURN * seconds);
+    *spin += turned.extend(-spin.z * ROLL_TWIST_DECAY * seconds);
+    vel + slip.perp() * (BALL_RADIUS * conditions.slide_drag() * seconds)
 }
 
 /// Holds the ball up on the ground, and throws back one that came down fast.
@@ -115,13 +121,9 @@ pub(super) fn land(ball: &mut Ball, conditions: &Conditions) {
 fn grip(ball: &mut Ball, impact: f32, conditions: &Conditions) {
     let sliding =
         Vec2::new(ball.vel.x - BALL_RADIUS * ball.spin.y, ball.vel.y + BALL_RADIUS * ball.spin.x);
-    let speed = sliding.length();
-    if speed == 0.0 {
-        return;
-    }
-    let push = conditions.bounce_friction() * (1.0 + conditions.bounce()) * impact;
-    let taken = push.min(BOUNCE_GRIP * speed);
-    let change = sliding * (-taken / speed);
+    let [from, to] = BOUNCE_GRIPS;
+    let share = conditions.bounce_grip() * ((impact - from) / (to - from)).clamp(0.0, 1.0);
+    let change = sliding * -share.min(1.0);
     ball.vel += change.extend(0.0);
     ball.spin += Vec3::new(change.y, -change.x, 0.0) * SPIN_PER_SPEED;
 }

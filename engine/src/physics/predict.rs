@@ -5,9 +5,7 @@
 //! centimetres. After a second it can reach a quarter of a metre if a fast ball falls steeply or
 //! spins much.
 
-use super::constants::{
-    BALL_RADIUS, GRASS_DEPTH, MAGNUS_SPIN_MAX, ROLL_SPIN_SHARE, ROLL_TWIST_DECAY, TICK_S,
-};
+use super::constants::{BALL_RADIUS, GRASS_DEPTH, MAGNUS_SPIN_MAX, ROLL_TWIST_DECAY, TICK_S};
 use super::{Ball, Conditions, flight};
 use glam::{Vec2, Vec3};
 
@@ -98,14 +96,9 @@ impl Stride {
         if ball.spin.z != 0.0 {
             after += self.twist(ball, ahead * (0.5 * (speed + slower)));
         }
+        after = flight::slide(&mut ball.spin, after, self.seconds, &self.conditions);
         ball.pos += self.way(before.extend(0.0), after.extend(0.0));
         ball.vel = after.extend(0.0);
-        // Grass turns its spin towards pure rolling.
-        let rolling = Vec2::new(-after.y, after.x) / BALL_RADIUS;
-        let slip = rolling - ball.spin.truncate();
-        let gained = flight::SPIN_PER_SPEED * ROLL_SPIN_SHARE * (speed - slower);
-        let turned = rolling - slip.normalize_or_zero() * (slip.length() - gained).max(0.0);
-        ball.spin = turned.extend(ball.spin.z * (1.0 - ROLL_TWIST_DECAY * self.seconds));
     }
 
     /// What spin about the vertical axis adds to a rolling ball's velocity, m/s. `vel`: the

@@ -43,10 +43,9 @@ fn busy() -> Match {
         ready_at: 0,
         way: Some(spot),
         mate: Some(id),
-        runs: false,
         end_dmps: 0,
         left_m: 0.0,
-        stroke: Some(Stroke { power: 1.0, hard: 0.0, natural: spot }),
+        stroke: Some(Stroke { power: 1.0, hard: 0.0, natural: spot, body: spot }),
     });
     let (dir, point) = (Some(spot), Some(spot));
     body.kick = Some(KickPlan { dir, mate: Some(id), point, swing, ..kick::pressed(kind, 0) });

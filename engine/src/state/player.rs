@@ -221,8 +221,6 @@ pub struct Swing {
     pub way: Option<Vec2>,
     /// The receiver when it began.
     pub mate: Option<PlayerId>,
-    /// Whether the player was running when it began.
-    pub runs: bool,
     /// How fast the player is at its end, 0.1 m/s; [`Swing::RUN`] leaves their run to them.
     pub end_dmps: u8,
     /// How far they still run until then, metres.
@@ -240,6 +238,8 @@ pub struct Stroke {
     pub hard: f32,
     /// The way that the ball goes most easily, world, unit.
     pub natural: Vec2,
+    /// How the body counts as moving at the contact of a shot, world, m/s.
+    pub body: Vec2,
 }
 
 impl Swing {

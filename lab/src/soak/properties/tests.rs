@@ -329,8 +329,8 @@ fn a_restart_that_is_wrong_is_seen() {
 
 #[test]
 fn what_waits_for_too_long_is_seen() {
-    let all = steps(0);
-    let waits = all.iter().find(|step| step.after.play.set_piece.is_some()).unwrap().clone();
+    let is_wait = |step: &Taken| step.after.play.set_piece.is_some();
+    let waits = (0..8).find_map(|index| steps(index).into_iter().find(is_wait)).unwrap();
     let wait = |spoil: &dyn Fn(&mut Match), most: u32| {
         let (mut waiting, mut step) = (Waiting::default(), waits.clone());
         step.judged.dead = false;

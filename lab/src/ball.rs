@@ -345,7 +345,7 @@ fn motion(section: &mut Section) -> Result<(), LabError> {
         }
     }
     section.near("height after a bounce over that before", 0.37, 0.25, rebound / 1.89);
-    let mut trial = let_go(-0.8, 15.0, 1.9)?;
+    let mut trial = let_go(-0.8, 15.0, 3.0)?;
     let mut before = level(&trial);
     let mut kept = f64::NAN;
     for _ in 0..16 {

@@ -44,7 +44,7 @@ pub(super) fn lower_params<'w>(world: &World<'w>) -> Vec<ParamInfo<'w>> {
 
 fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> {
     let decl = flat.decl;
-    // A type that there is not has been reported: the value says which one is meant.
+    // A type that there is not has been reported. Levels may bind what the value is.
     let named = decl.ty.as_ref().map(|ty| declared_type(world, ty));
     let declared = named.filter(|ty| *ty != Ty::Error);
     let mut info = ParamInfo {
@@ -112,6 +112,9 @@ fn lower_param<'w>(world: &World<'w>, flat: &'w FlatParam<'w>) -> ParamInfo<'w> 
             None => world.report(not_constant(world, expr)),
         },
         _ => {}
+    }
+    if named == Some(Ty::Error) {
+        info.ty = Ty::Error;
     }
     info
 }

@@ -45,5 +45,5 @@ ENTRIES = (
     academy("run_pass_and_shoot_with_keeper", 3_000_000),
     academy("counterattack_easy", 5_000_000),
     three("alone"),
-    three("past_the_defender", steps=3_000_000, levels="examples/waking_defender.pitch"),
+    three("past_the_defender", levels="examples/waking_defender.pitch"),
 )

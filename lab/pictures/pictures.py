@@ -6,7 +6,7 @@ Bots play episodes of the files in examples/. The same engine gives the same pic
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -220,7 +220,7 @@ def drawn_opponents() -> list[Panel]:
 def randomised_world() -> list[Panel]:
     """Shots on four days: the ball's way, and the wind as an arrow, one metre for each m/s."""
     panels = []
-    for episode in (12, 19, 20, 22):
+    for episode in episodes_with("randomised_world", ["scoring/goal"], 4):
         match = Match("randomised_world", episode, observation="vector")
         wind, shot = match.seen[6:8] * 10, Stretch(match)
         panel = shot.play(lambda: False, (40, 0), 40)
@@ -312,9 +312,26 @@ def first_pay(name: str, term: str) -> tuple[int, int]:
     raise LookupError(f"`{term}` of {name} pays nothing in {EPISODES} episodes")
 
 
+def episodes_with(name: str, terms: Sequence[str], count: int) -> list[int]:
+    """The first episodes in which these terms pay, one after the other."""
+    found = []
+    for episode in range(EPISODES):
+        match, left = Match(name, episode), [*terms]
+        while left and not match.over:
+            match.step()
+            if match.pays(left[0]):
+                left.pop(0)
+        if not left:
+            found.append(episode)
+        if len(found) == count:
+            return found
+    raise LookupError(f"{', '.join(terms)} of {name} pay too seldom in {EPISODES} episodes")
+
+
 def phases() -> list[Panel]:
     """The start and the end of each phase, with the ball's way in that phase."""
-    match = Match("phases", 29)
+    phases = ["attack/won", "attack/advanced", "scoring/goal"]
+    match = Match("phases", episodes_with("phases", phases, 1)[0])
     panels = [match.panel((10, 0), 100)]
     for term, colour in (("attack/won", WHITE), ("attack/advanced", GOLD), ("", RED)):
         phase = Stretch(match)

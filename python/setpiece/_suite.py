@@ -198,7 +198,7 @@ class Suite:
 
         >>> import setpiece
         >>> suite = setpiece.suite("suite s { academy_empty_goal_close for 20 episodes }")
-        >>> suite.evaluate("bot").rows[0].success_rate.value
+        >>> suite.evaluate("run_and_shoot").rows[0].success_rate.value
         1.0
         """
         options = EnvOptions.read(

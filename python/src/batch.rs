@@ -16,7 +16,7 @@ use crate::info::records;
 use crate::level;
 use crate::observation::{self, BlockInfo, ObservationForm, ObservationKind, Observer, Wanted};
 use crate::options::EnvOptions;
-use crate::params::{bind, to_python};
+use crate::params::bind;
 use crate::picture::Frames;
 use crate::scenario::Scenario;
 use lane::{BatchLane, BatchRow, LaneFailure, NewestObservations, Rows};
@@ -255,13 +255,7 @@ impl Batch {
         py: Python<'py>,
         at: usize,
     ) -> PyResult<Option<(Scenario, Bound<'py, PyDict>)>> {
-        let Some(lane) = self.lanes.lanes().get(at) else { return Ok(None) };
-        let scenario = lane.engine.scenario().clone();
-        let values = PyDict::new(py);
-        for (param, &value) in scenario.params.iter().zip(&lane.played.0) {
-            values.set_item(&param.name, to_python(py, param, value)?)?;
-        }
-        Ok(Some((Scenario::of(py, scenario), values)))
+        self.lanes.lanes().get(at).map(|lane| lane.played(py)).transpose()
     }
 
     /// Sets the levels that environments begin next; of all or, if it fails, of none.

@@ -4,7 +4,10 @@ use super::stage::{BatchStage, Unfit, Upcoming};
 use crate::actions::{ActionSet, GivenAction};
 use crate::info::write_mask;
 use crate::observation::{ByteWriter, ObservationForm, ObservationKind, Stack, write_floats};
+use crate::params::to_python;
+use crate::scenario::Scenario;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use setpiece::engine::draw::DrawError;
 use setpiece::engine::environment::{Environment as Engine, Scratch, StepError};
 use setpiece::engine::observe::{Floats, ObserveError};
@@ -109,6 +112,16 @@ impl NewestObservations {
 }
 
 impl BatchLane {
+    /// The scenario and the parameters of the current episode.
+    pub(super) fn played<'py>(&self, py: Python<'py>) -> PyResult<(Scenario, Bound<'py, PyDict>)> {
+        let scenario = self.engine.scenario().clone();
+        let values = PyDict::new(py);
+        for (param, &value) in scenario.params.iter().zip(&self.played.0) {
+            values.set_item(&param.name, to_python(py, param, value)?)?;
+        }
+        Ok((Scenario::of(py, scenario), values))
+    }
+
     /// Begins an episode and shows its first moment.
     pub(super) fn begin(
         &mut self,

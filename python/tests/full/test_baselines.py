@@ -85,7 +85,7 @@ def test_every_episode_begins_with_a_decision(ppo: Any) -> None:
 
 CURRICULUM = """
 curriculum course {
-    stage near = academy_empty_goal_close until episodes > 40
+    stage near = academy_empty_goal_close until episodes > 15
     stage far = academy_empty_goal
 }
 """

@@ -87,7 +87,9 @@ What was found by playing the same keys in both games, step by step, and built:
 - A ball springs off a body only within 0.2 s of a rival's touch. Later it is played, or passes by.
 - A rolling ball lends half of its speed to a pass. A ball kicked off the grass gets topspin, so that floating passes
   fly lower: receivers meet them, and strike them first time.
-- A shot behind the back leaves a player who has turned round in the swing.
+- The grass brakes a ball that slides over it until it rolls: a shot along the ground loses 4 m/s in its first steps.
+- A shot is as hard as the body's motion in its swing makes it, however fast the player is. It keeps three tenths of
+  the ball's spin, so those of runners dip and stay low.
 
 What remains:
 

@@ -10,6 +10,7 @@ until then. Steps are those of the environments everywhere.
 `--out` gets `policy.pt`, `policy.onnx`, `result.json` (score, curve and where the time went), the
 TensorBoard log if `tensorboard` is installed, and `checkpoint.pt`. The same command continues from
 the checkpoint: on a CPU, in one thread, the result is bit for bit that of an uninterrupted run.
+With `--levels` the episodes that were interrupted don't count for the curriculum.
 
 It needs `torch`, and `onnx` for `policy.onnx`.
 """
@@ -50,19 +51,13 @@ def setting(default: Any, about: str) -> Any:
 class Settings:
     """What a run depends on. Each is an option of the command line."""
 
-    scenario: str = setting(
-        "academy_empty_goal_close", "a name of the library or a file"
-    )
-    levels: str = setting(
-        "", "a curriculum that is trained on instead: a name or a file"
-    )
+    scenario: str = setting("academy_empty_goal_close", "a name of the library or a file")
+    levels: str = setting("", "a curriculum that is trained on instead: a name or a file")
     rewards: str = setting("scoring,checkpoints", "reward terms, separated by commas")
     seed: int = setting(0, "of the policy and of the first environment")
     steps: int = setting(2_000_000, "of all environments together")
     players: int = setting(1, "of the left team that the policy plays")
-    observation: str = setting(
-        "simple115v2", "numbers or pictures that the policy sees"
-    )
+    observation: str = setting("simple115v2", "numbers or pictures that the policy sees")
     stack: int = setting(1, "observations that are seen at once")
     masks: bool = setting(False, "draw only actions that can change something")
     repeat: int = setting(4, "steps that a decision lasts")
@@ -77,9 +72,7 @@ class Settings:
     entropy: float = setting(0.03, "weight of the entropy; it falls to 0")
     gradient: float = setting(0.5, "greatest norm of a gradient")
     rate: float = setting(7e-4, "learning rate; it falls to 0")
-    check: int = setting(
-        0, "evaluate the scenario whenever so many steps are done; 0: never"
-    )
+    check: int = setting(0, "evaluate the scenario whenever so many steps are done; 0: never")
 
     def __post_init__(self) -> None:
         """Raises `ValueError` for a count that isn't one."""
@@ -121,9 +114,7 @@ class Running(nn.Module):
         before = min(float(self.taken), memory)
         share, away = len(numbers) / (before + len(numbers)), mean - self.mean
         self.mean += share * away
-        self.variance += share * (
-            variance - self.variance + (1 - share) * away.square()
-        )
+        self.variance += share * (variance - self.variance + (1 - share) * away.square())
         self.taken.fill_(before + len(numbers))
 
 
@@ -157,9 +148,7 @@ class Eye(nn.Module):
 
     def forward(self, pictures: Tensor) -> Tensor:
         """Returns the features."""
-        seen: Tensor = self.features(
-            self.filters(pictures.permute(0, 3, 1, 2).float() / 255)
-        )
+        seen: Tensor = self.features(self.filters(pictures.permute(0, 3, 1, 2).float() / 255))
         return seen
 
 
@@ -185,18 +174,12 @@ class Policy(nn.Module):
 
     def values(self, observations: Tensor) -> Tensor:
         """Predicts the returns, in parts that fit the cache."""
-        foreseen = torch.cat(
-            [self.critic(self.sight(part)) for part in observations.split(4096)]
-        )
+        foreseen = torch.cat([self.critic(self.sight(part)) for part in observations.split(4096)])
         return (foreseen * self.returns.deviation + self.returns.mean).squeeze(-1)
 
     def learned(self, observations: Tensor) -> Tensor:
         """Prepares observations of an update: what doesn't learn is done once."""
-        return (
-            self.sight(observations)
-            if isinstance(self.sight, Running)
-            else observations
-        )
+        return self.sight(observations) if isinstance(self.sight, Running) else observations
 
     def judge(self, prepared: Tensor) -> tuple[Tensor, Tensor]:
         """Returns the logits and the standardised returns for prepared observations."""
@@ -226,9 +209,7 @@ class Policy(nn.Module):
 
 def log_odds(logits: Tensor, masks: Tensor | None) -> Tensor:
     """Returns the logarithms of the actions' probabilities; masked actions have none."""
-    return (logits if masks is None else logits.masked_fill(~masks, -1e9)).log_softmax(
-        -1
-    )
+    return (logits if masks is None else logits.masked_fill(~masks, -1e9)).log_softmax(-1)
 
 
 def environments(settings: Settings, number: int, threads: int, **others: Any) -> Any:
@@ -305,9 +286,7 @@ class Matches:
         for _ in range(self.settings.repeat):
             played = np.where(heard.ended[:, None], 0, pressed).astype(np.uint8)
             rewards, over, cut = self.step(played)
-            heard.rewards += np.where(
-                heard.ended[:, None], 0, rewards.reshape(number, -1)
-            )
+            heard.rewards += np.where(heard.ended[:, None], 0, rewards.reshape(number, -1))
             for at in np.flatnonzero(cut & ~heard.ended):
                 heard.cut[int(at)] = self.infos["final_obs"][at]
             late = heard.ended.copy()
@@ -343,9 +322,7 @@ class Matches:
     def means(self) -> dict[str, float]:
         """Returns the means over the episodes that ended since the last call."""
         ended = self.sums.pop("episodes", 0)
-        means = (
-            {name: total / ended for name, total in self.sums.items()} if ended else {}
-        )
+        means = {name: total / ended for name, total in self.sums.items()} if ended else {}
         self.sums.clear()
         return means
 
@@ -409,25 +386,15 @@ class Clock:
 class Training:
     """A run: the policy, its optimizer, the environments, and what was measured so far."""
 
-    def __init__(
-        self, settings: Settings, *, threads: int = 1, device: str = "cpu"
-    ) -> None:
-        self.settings, self.threads, self.device = (
-            settings,
-            threads,
-            torch.device(device),
-        )
+    def __init__(self, settings: Settings, *, threads: int = 1, device: str = "cpu") -> None:
+        self.settings, self.threads, self.device = settings, threads, torch.device(device)
         torch.set_num_threads(threads)
         torch.manual_seed(settings.seed)
         self.matches = Matches(settings, threads)
         rows = self.matches.rows
         self.actions = self.matches.masks.shape[-1]
-        self.policy = Policy(rows.shape[1:], self.actions, settings.width).to(
-            self.device
-        )
-        self.optimizer = torch.optim.Adam(
-            self.policy.parameters(), lr=settings.rate, eps=1e-5
-        )
+        self.policy = Policy(rows.shape[1:], self.actions, settings.width).to(self.device)
+        self.optimizer = torch.optim.Adam(self.policy.parameters(), lr=settings.rate, eps=1e-5)
         self.random = torch.Generator(self.device).manual_seed(settings.seed)
         self.update, self.clock = 0, Clock()
         self.curve: list[dict[str, Any]] = []
@@ -437,9 +404,7 @@ class Training:
         many = (settings.decisions, len(rows))
         kind = torch.uint8 if rows.dtype == np.uint8 else torch.float32
         self.seen = torch.zeros(*many, *rows.shape[1:], dtype=kind, device=self.device)
-        self.masks = torch.ones(
-            *many, self.actions, dtype=torch.bool, device=self.device
-        )
+        self.masks = torch.ones(*many, self.actions, dtype=torch.bool, device=self.device)
         self.did = torch.zeros(many, dtype=torch.int64, device=self.device)
         self.odds, self.rewards, self.ended, self.rest = (
             torch.zeros(many, device=self.device) for _ in range(4)
@@ -458,20 +423,14 @@ class Training:
             step = self.update * self.steps_of_update
             if settings.check and step % settings.check < self.steps_of_update:
                 score = float(self.evaluate(CHECKED, drawn=True).mean())
-                self.checks.append(
-                    {"steps": step, "score": score, **self.matches.stage()}
-                )
+                self.checks.append({"steps": step, "score": score, **self.matches.stage()})
             if self.update % every == 0 or self.update == self.updates:
                 means = self.matches.means()
-                self.curve.append(
-                    {"steps": step, "score": means.get("score"), **measured}
-                )
+                self.curve.append({"steps": step, "score": means.get("score"), **measured})
                 if writer is not None:
                     for name, mean in {**means, **measured}.items():
                         writer.add_scalar(name, mean, step)
-            if out is not None and (
-                time.monotonic() - saved > 60 or self.update == self.updates
-            ):
+            if out is not None and (time.monotonic() - saved > 60 or self.update == self.updates):
                 self.save(out / "checkpoint.pt")
                 saved = time.monotonic()
         if writer is not None:
@@ -487,12 +446,9 @@ class Training:
                 if self.settings.masks:
                     self.masks[at] = torch.from_numpy(self.matches.masks)
                 odds = log_odds(
-                    self.policy(self.seen[at]),
-                    self.masks[at] if self.settings.masks else None,
+                    self.policy(self.seen[at]), self.masks[at] if self.settings.masks else None
                 )
-                self.did[at] = torch.multinomial(odds.exp(), 1, generator=self.random)[
-                    :, 0
-                ]
+                self.did[at] = torch.multinomial(odds.exp(), 1, generator=self.random)[:, 0]
                 self.odds[at] = odds.gather(1, self.did[at, :, None])[:, 0]
                 chosen = self.did[at].cpu().numpy()
             with self.clock.on("environment"):
@@ -504,18 +460,12 @@ class Training:
                 # the last observation.
                 self.rest[at] = 0
                 if heard.cut:
-                    last = np.stack([*heard.cut.values()]).reshape(
-                        -1, *self.seen.shape[2:]
-                    )
+                    last = np.stack([*heard.cut.values()]).reshape(-1, *self.seen.shape[2:])
                     rows = np.array([*heard.cut])[:, None] * agents + np.arange(agents)
                     cut = self.policy.values(torch.from_numpy(last).to(self.device))
-                    self.rest[
-                        at, torch.from_numpy(rows.reshape(-1)).to(self.device)
-                    ] = cut
+                    self.rest[at, torch.from_numpy(rows.reshape(-1)).to(self.device)] = cut
         with self.clock.on("acting"):
-            return self.policy.values(
-                torch.from_numpy(self.matches.rows).to(self.device)
-            )
+            return self.policy.values(torch.from_numpy(self.matches.rows).to(self.device))
 
     def learn(self, after: Tensor, left: float) -> dict[str, float]:
         """Updates the policy on the collected decisions; `left` is the share of the run ahead."""
@@ -543,19 +493,13 @@ class Training:
                 gain, least, most = gained[rows], 1 - settings.clip, 1 + settings.clip
                 entropy = -(now.exp() * now).sum(-1).mean()
                 miss = (foreseen - targets[rows]).square().mean()
-                loss = -torch.min(
-                    change * gain, change.clamp(least, most) * gain
-                ).mean()
+                loss = -torch.min(change * gain, change.clamp(least, most) * gain).mean()
                 loss = loss + 0.25 * miss - settings.entropy * left * entropy
                 self.optimizer.zero_grad()
                 loss.backward()
                 nn.utils.clip_grad_norm_(policy.parameters(), settings.gradient)
                 self.optimizer.step()
-                spread, misses, parts = (
-                    spread + entropy.item(),
-                    misses + miss.item(),
-                    parts + 1,
-                )
+                spread, misses, parts = spread + entropy.item(), misses + miss.item(), parts + 1
         if isinstance(policy.sight, Running):
             policy.sight.take(observations)
         return {"entropy": spread / parts, "value_loss": misses / parts}
@@ -602,11 +546,7 @@ class Training:
         self.optimizer.load_state_dict(state["optimizer"])
         self.random.set_state(state["random"].cpu())
         self.matches.load(state["matches"])
-        self.update, self.curve, self.checks = (
-            state["update"],
-            state["curve"],
-            state["checks"],
-        )
+        self.update, self.curve, self.checks = state["update"], state["curve"], state["checks"]
         self.clock = Clock(state["clock"])
 
     @torch.no_grad()
@@ -623,17 +563,13 @@ class Training:
         scores, over = np.zeros(episodes, int), np.zeros(episodes, bool)
         while not over.all():
             rows = torch.from_numpy(observation).reshape(-1, *self.seen.shape[2:])
-            masks = (
-                torch.from_numpy(infos["action_mask"]).reshape(-1, self.actions).bool()
-            )
+            masks = torch.from_numpy(infos["action_mask"]).reshape(-1, self.actions).bool()
             odds = log_odds(
                 self.policy(rows.to(self.device)),
                 masks.to(self.device) if settings.masks else None,
             )
             actions = (
-                torch.multinomial(odds.exp(), 1, generator=random)
-                if drawn
-                else odds.argmax(-1)
+                torch.multinomial(odds.exp(), 1, generator=random) if drawn else odds.argmax(-1)
             )
             pressed = actions.view(envs.action_space.shape).cpu().numpy()
             for _ in range(settings.repeat):
@@ -666,17 +602,11 @@ def estimate(scores: np.ndarray) -> dict[str, float]:
     mean, n, z = float(scores.mean()), len(scores), 1.959964
     if set(np.unique(scores)) <= {0, 1}:
         half = z * (mean * (1 - mean) / n + z * z / (4 * n * n)) ** 0.5
-        low, high = (
-            (mean + z * z / (2 * n) + by) / (1 + z * z / n) for by in (-half, half)
-        )
+        low, high = ((mean + z * z / (2 * n) + by) / (1 + z * z / n) for by in (-half, half))
     else:
         half = z * float(scores.std()) / n**0.5
         low, high = mean - half, mean + half
-    return {
-        "mean": mean,
-        "low": round(min(low, mean), 4),
-        "high": round(max(high, mean), 4),
-    }
+    return {"mean": mean, "low": round(min(low, mean), 4), "high": round(max(high, mean), 4)}
 
 
 def result(training: Training, episodes: int) -> dict[str, Any]:
@@ -694,10 +624,7 @@ def result(training: Training, episodes: int) -> dict[str, Any]:
         "device": training.device.type,
         "versions": {"setpiece": setpiece.__version__, "torch": torch.__version__},
         "curve": [
-            {
-                name: None if value is None else round(value, 4)
-                for name, value in point.items()
-            }
+            {name: None if value is None else round(value, 4) for name, value in point.items()}
             for point in training.curve
         ],
         "checks": training.checks,
@@ -705,12 +632,7 @@ def result(training: Training, episodes: int) -> dict[str, Any]:
 
 
 def train(
-    settings: Settings,
-    out: Path,
-    *,
-    threads: int = 1,
-    device: str = "cpu",
-    episodes: int = 500,
+    settings: Settings, out: Path, *, threads: int = 1, device: str = "cpu", episodes: int = 500
 ) -> dict[str, Any]:
     """Trains, or continues what `out` has of it, evaluates, and writes all files into `out`."""
     training = Training(settings, threads=threads, device=device)
@@ -720,14 +642,10 @@ def train(
     out.mkdir(parents=True, exist_ok=True)
     training.run(out)
     found = result(training, episodes)
-    (out / "result.json").write_text(
-        json.dumps(found, indent=1) + "\n", encoding="utf-8"
-    )
+    (out / "result.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
     torch.save(training.policy.state_dict(), out / "policy.pt")
     try:
-        training.policy.export(
-            out / "policy.onnx", training.matches.rows, settings.repeat
-        )
+        training.policy.export(out / "policy.onnx", training.matches.rows, settings.repeat)
     except ImportError as error:
         print(f"no policy.onnx: {error}")
     return found
@@ -742,8 +660,7 @@ def summary(found: dict[str, Any]) -> str:
     spent = found["seconds"]
     cpu = sum(seconds for name, seconds in spent.items() if name != "wall")
     shares = ", ".join(
-        f"{name} {spent[name] / cpu:.0%}"
-        for name in ("acting", "environment", "learning")
+        f"{name} {spent[name] / cpu:.0%}" for name in ("acting", "environment", "learning")
     )
     return (
         f"score of {found['episodes']} episodes with drawn actions: {shown['drawn']}\n"
@@ -771,23 +688,15 @@ def main(argv: list[str] | None = None) -> dict[str, Any]:
             parser.add_argument(
                 f"--{one.name}", type=type(one.default), default=one.default, help=about
             )
-    parser.add_argument(
-        "--threads", type=int, default=1, help="of the engine and of PyTorch"
-    )
+    parser.add_argument("--threads", type=int, default=1, help="of the engine and of PyTorch")
     parser.add_argument("--device", default="cpu", help="of PyTorch: cpu, cuda")
     parser.add_argument("--episodes", type=int, default=500, help="of an evaluation")
     parser.add_argument("--out", type=Path, default=Path("runs/ppo"), help="a folder")
     args = parser.parse_args(argv)
     try:
-        settings = Settings(
-            **{one.name: getattr(args, one.name) for one in fields(Settings)}
-        )
+        settings = Settings(**{one.name: getattr(args, one.name) for one in fields(Settings)})
         found = train(
-            settings,
-            args.out,
-            threads=args.threads,
-            device=args.device,
-            episodes=args.episodes,
+            settings, args.out, threads=args.threads, device=args.device, episodes=args.episodes
         )
     except (setpiece.SetpieceError, ValueError) as error:
         parser.error(str(error))

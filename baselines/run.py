@@ -92,16 +92,11 @@ def row(found: list[dict[str, Any]]) -> list[str]:
     settings = found[0]["settings"]
     good = [reached(one) for one in found]
     there = [steps / 1e6 for steps in good if steps is not None]
-    when = (
-        f"{statistics.median(there):.1f} M"
-        if len(there) == len(good)
-        else "not reached"
-    )
+    when = f"{statistics.median(there):.1f} M" if len(there) == len(good) else "not reached"
     if 0 < len(there) < len(good):
         when = f"in {len(there)} of {len(good)} runs"
     seconds = [
-        sum(spent for what, spent in one["seconds"].items() if what != "wall")
-        for one in found
+        sum(spent for what, spent in one["seconds"].items() if what != "wall") for one in found
     ]
     return [
         f"`{settings.get('levels') or settings['scenario']}`",
@@ -132,10 +127,7 @@ def tables(runs: list[Run]) -> dict[str, str]:
 
     They have a row for each entry that has a result. `tried` has one for each run of `tried`.
     """
-    found, lines = (
-        results(runs),
-        {run.table: [HEAD, ("---",) * len(HEAD)] for run in runs},
-    )
+    found, lines = results(runs), {run.table: [HEAD, ("---",) * len(HEAD)] for run in runs}
     for name, table in {run.name: run.table for run in runs}.items():
         if found[name]:
             lines[table].append(tuple(row(found[name])))
@@ -144,21 +136,12 @@ def tables(runs: list[Run]) -> dict[str, str]:
 
 def tried() -> str:
     """Returns the table of the runs that settings were chosen by, in their order."""
-    head = (
-        "scenario",
-        "seed",
-        "steps",
-        "what was different",
-        "drawn actions",
-        "likeliest actions",
-    )
+    head = ("scenario", "seed", "steps", "what was different", "drawn actions", "likeliest actions")
     rows = [head, ("---",) * len(head)]
     for path in sorted((RESULTS / "tried").glob("*.json")):
         found = json.loads(path.read_text(encoding="utf-8"))
         settings = found["settings"]
-        changed = [
-            f"`{name}` {str(value).lower()}" for name, value in found["changed"].items()
-        ]
+        changed = [f"`{name}` {str(value).lower()}" for name, value in found["changed"].items()]
         rows.append(
             (
                 f"`{settings['scenario'].removeprefix('academy_')}`",
@@ -198,9 +181,7 @@ def main(argv: list[str] | None = None) -> None:
     parser.add_argument("--list", action="store_true", help="only show what is done")
     parser.add_argument("--table", action="store_true", help="only print the tables")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="only these entries")
-    parser.add_argument(
-        "--threads", type=int, default=1, help="of the engine and of PyTorch"
-    )
+    parser.add_argument("--threads", type=int, default=1, help="of the engine and of PyTorch")
     args = parser.parse_args(argv)
     runs = ledger()
     names = sorted({run.name for run in runs})
@@ -212,9 +193,7 @@ def main(argv: list[str] | None = None) -> None:
         print("\n".join(f"{name}\n\n{text}" for name, text in tables(runs).items()))
         return
     for run in runs:
-        state = (
-            "done" if run.result.is_file() else "begun" if run.out.exists() else "to do"
-        )
+        state = "done" if run.result.is_file() else "begun" if run.out.exists() else "to do"
         print(f"{state:6} {run.name} seed {run.seed}")
     if not args.list:
         for run in runs:

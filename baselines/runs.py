@@ -24,9 +24,7 @@ class Entry:
 
 def academy(name: str, steps: int, **settings: Any) -> Entry:
     """An Academy scenario, one player, seen as numbers."""
-    return Entry(
-        name, "academy", {"scenario": f"academy_{name}", "steps": steps, **settings}
-    )
+    return Entry(name, "academy", {"scenario": f"academy_{name}", "steps": steps, **settings})
 
 
 def three(name: str, **settings: Any) -> Entry:

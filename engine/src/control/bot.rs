@@ -24,7 +24,7 @@ mod view;
 
 pub use view::TeamView;
 
-use crate::state::player::{Aim, Intent};
+use crate::state::player::Intent;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Role;
@@ -94,9 +94,7 @@ fn hold(game: &mut Match, view: &TeamView, id: PlayerId) {
 
 /// Decides for one player.
 fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
-    let now = game.tick as i32;
-    let lunge = game.player(id).body.lunge;
-    if lunge.is_some_and(|lunge| lunge.aim() == Some(Aim::Kick) && lunge.at >= now) {
+    if game.player(id).body.swings() {
         return;
     }
     let has_ball = view.owner == Some(id);

@@ -4,8 +4,8 @@ use crate::football::{contact, forecast, foul, offside};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
-use crate::state::player::{Aim, Pose, Swing};
-use crate::state::{Match, Player, Squad};
+use crate::state::player::{Aim, Pose};
+use crate::state::{Match, Squad};
 
 /// For `UNSEEN_TICKS` nobody has seen where a rival's touch sends the ball. Between two bounces off
 /// a body there are more than `BOUNCE_TICKS`. (GRF's.)
@@ -47,7 +47,7 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
             && ball.z < player.body.height_m
             && player.pos.distance_squared(ball.truncate()) < BODY_M * BODY_M
             && ticks_since(game.tick, player.body.touched_at) >= UNSEEN_TICKS
-            && !swings(player)
+            && !player.body.swings()
             && player
                 .body
                 .lunge
@@ -73,10 +73,4 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
     forecast::renew(game);
     // Last, because it may stop play.
     foul::handball(game, events, id, shot);
-}
-
-/// Whether a player swings at the ball, and so lets it come to the foot.
-fn swings(player: &Player) -> bool {
-    let swing = player.body.kick.and_then(|plan| plan.swing);
-    swing.is_some_and(|swing| swing.end_dmps != Swing::RUN)
 }

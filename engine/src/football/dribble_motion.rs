@@ -274,13 +274,12 @@ fn next(game: &Match, near: Squad) -> Option<PlayerId> {
     };
     let player = game.player(id);
     let ready = now >= player.body.ready_at || game.last_touch.is_none();
-    let kicks = player.body.kick.is_some_and(|plan| plan.swing.is_some());
     let free = match player.body.lunge {
         None => ready && !runs_on(game, id),
         Some(lunge) => begins_again(player, &lunge, now),
     };
     let plays = player.ai != Ai::Lazy || game.is_driven(id);
-    (near.has(id) && player.is_up() && free && plays && !kicks).then_some(id)
+    (near.has(id) && player.is_up() && free && plays && !player.body.swings()).then_some(id)
 }
 
 /// Whether a player who runs as they want is within a stride, which they finish before they touch

@@ -6,18 +6,16 @@
 use crate::football::carry::Carry;
 use crate::football::pace::DRIBBLES_FROM_MPS;
 use crate::football::reach_motion::{
-    BACK_DEG, KEEPER_POKES, KICKS, RUNNING_POKES, ReachMotion, STANDING_POKES, TAKES, TRAP, motions,
+    BACK_DEG, KEEPER_POKES, RUNNING_POKES, ReachMotion, STANDING_POKES, TAKES, TRAP, motions,
 };
 use crate::football::{
-    bounce, contact, dribble_motion, first_touch, foot, forecast, kick, noise, possession, reach,
-    report, slide, touch,
+    bounce, contact, dribble_motion, first_touch, foot, leg, noise, possession, reach, report,
+    slide, touch,
 };
-use crate::math;
 use crate::state::event::Events;
-use crate::state::play::ticks_since;
-use crate::state::player::{Aim, Intent, Lunge, Motion};
+use crate::state::player::{Aim, Lunge, Motion};
 use crate::state::{Match, Player, PlayerId, Squad};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, Role};
 
 /// A carrier's ball that they have again no sooner than this is stopped like one that nobody has,
@@ -51,8 +49,6 @@ const SLIDE_HIGH_M: f32 = 0.4;
 const LEFT_S: f32 = 0.26;
 const LATER: f32 = 0.6;
 const SLIDES_TO: f32 = -0.4;
-/// How far off the ball may be when the foot arrives, metres. (GRF's.)
-const MISSED_M: f32 = 0.4;
 /// Speed of a poked ball, besides half of what taking it would give, m/s. (GRF's.)
 const POKED_MPS: f32 = 4.0;
 /// The same for a keeper, who clears the ball. Fitted to where balls go when a keeper comes out.
@@ -116,7 +112,8 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let seen = reach::has_seen(game, id);
     // A player who hasn't seen the last touch trusts the ball's earlier path, unless the touch
     // changed it much.
-    if ball_in(game, seen, AHEAD_TICKS).distance(game.play.forecast.at(game.tick + AHEAD_TICKS))
+    if reach::expected(game, id, AHEAD_TICKS)
+        .distance(game.play.forecast.at(game.tick + AHEAD_TICKS))
         > MISJUDGED_M
     {
         return;
@@ -135,19 +132,12 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
     let loose = other.body.meet_s > LOOSE_S && !possession::has_ball(game, rival);
     let traps =
         first && (sooner || loose) && seen && rolls && pace >= TRAP.from_mps && !game.is_driven(id);
-    let kicks = first && (sooner || loose) && player.body.kick.is_some() && !game.is_driven(id);
-    let ways = if kicks { motions(&KICKS, pace, 0.0) } else { &[] };
-    if ways.iter().any(|way| lunges(game, id, way, Aim::Kick, seen)) {
-        // The leg swings on the way: where to is settled.
-        game.players[id.index()].body.intent = Intent::Run(player.vel);
-        return;
-    }
     let turn = turn_degrees(&player);
     let takes = if takes { motions(&TAKES, pace, turn) } else { &[] };
-    if takes.iter().any(|way| lunges(game, id, way, Aim::Take, seen)) {
+    if takes.iter().any(|way| lunges(game, id, way, Aim::Take)) {
         return;
     }
-    if traps && turn > BACK_DEG && lunges(game, id, &TRAP, Aim::Take, seen) {
+    if traps && turn > BACK_DEG && lunges(game, id, &TRAP, Aim::Take) {
         return;
     }
     let running = if player.role == Role::GK { &KEEPER_POKES[..] } else { &RUNNING_POKES[..] };
@@ -156,7 +146,7 @@ fn begin(game: &mut Match, events: &mut Events, id: PlayerId, rival: PlayerId) {
         [] => &STANDING_POKES[..],
         pokes => pokes,
     };
-    if pokes.iter().any(|way| lunges(game, id, way, Aim::Poke, seen)) {
+    if pokes.iter().any(|way| lunges(game, id, way, Aim::Poke)) {
         return;
     }
     if hidden <= SLIDES_TO && comes_late(game, id, &player, &other) {
@@ -190,8 +180,8 @@ fn comes_late(game: &Match, id: PlayerId, player: &Player, carrier: &Player) -> 
 }
 
 /// Reaches for the ball in a way, if that meets it where it will be.
-fn lunges(game: &mut Match, id: PlayerId, way: &ReachMotion, aim: Aim, seen: bool) -> bool {
-    let ball = ball_in(game, seen, way.ticks as u32);
+fn lunges(game: &mut Match, id: PlayerId, way: &ReachMotion, aim: Aim) -> bool {
+    let ball = reach::expected(game, id, way.ticks as u32);
     let now = game.tick as i32;
     let player = &mut game.players[id.index()];
     if ball.z >= LOW_M || !reaches(player, ball.truncate(), way) {
@@ -204,20 +194,6 @@ fn lunges(game: &mut Match, id: PlayerId, way: &ReachMotion, aim: Aim, seen: boo
     player.body.lunge = Some(Lunge { at, out, back, changes_feet: true, motion });
     player.body.ready_at = now + way.lasts;
     true
-}
-
-/// Where the ball will be after this many ticks, for a player who has or hasn't seen its last
-/// touch.
-fn ball_in(game: &Match, seen: bool, ticks: u32) -> Vec3 {
-    if seen { game.play.forecast.at(game.tick + ticks) } else { unseen(game, ticks) }
-}
-
-/// Where the ball would be after this many ticks without its last touch.
-fn unseen(game: &Match, ticks: u32) -> Vec3 {
-    let since =
-        game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
-    let [place, velocity] = game.play.unseen;
-    (place + velocity * ((since as f32 + ticks as f32) * 0.01)).extend(game.ball.pos.z)
 }
 
 /// Whether the foot's place is near enough to the ball.
@@ -261,20 +237,9 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
             return;
         }
     };
-    let off = ball.truncate().distance(place) / MISSED_M;
-    if off >= 1.0 {
-        return;
-    }
+    let Some(missed) = leg::missed_share(game, place) else { return };
     let rival = game.on_ball().filter(|rival| rival.team() != id.team());
-    let left = math::smooth(math::smooth(off));
     let before = game.ball.vel;
-    if let (Aim::Kick, Some(plan)) = (aim, game.player(id).body.kick) {
-        game.players[id.index()].body.kick = None;
-        kick::launch(game, events, id, plan);
-        game.ball.vel = game.ball.vel.lerp(before, left);
-        forecast::renew(game);
-        return;
-    }
     let taken = first_touch::contested(game, id);
     let velocity = if aim == Aim::Poke {
         let tackler = game.player(id);
@@ -284,7 +249,7 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
     } else {
         taken
     };
-    let velocity = velocity.lerp(before, left);
+    let velocity = velocity.lerp(before, missed);
     if let Some(rival) = rival {
         report::did(game, events, EventKind::Tackle, id, Some(rival));
     }

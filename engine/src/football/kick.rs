@@ -5,7 +5,7 @@
 use crate::football::pass::Struck;
 use crate::football::swing::ChosenSwing;
 use crate::football::{
-    contact, dribble_motion, forecast, noise, offside, pass, pass_target, report, shot, swing,
+    contact, dribble_motion, forecast, leg, noise, offside, pass, pass_target, report, shot, swing,
     switching, whistle,
 };
 use crate::math;
@@ -16,8 +16,6 @@ use crate::state::{Match, PlayerId, Squad};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier};
 
-/// Ticks from the start of a bot's swing to the contact: ground pass, lofted pass, shot.
-const SWING_TICKS: [i32; 3] = [28, 25, 22];
 /// Ticks that a kick waits for the ball after its key is released. (GRF's.)
 pub const PATIENCE_TICKS: i32 = 200;
 /// A key held for longer than this no longer delays the swing, ticks. (GRF's.)
@@ -28,29 +26,18 @@ const GAUGE_TICKS: u8 = 100;
 const LOST_S: f32 = 0.7;
 /// The same for a ball that its player has pushed on; fitted.
 const OWN_LOST_S: f32 = 0.95;
-/// A swing that has missed the ball for this many ticks begins again; chosen.
-const MISSED_TICKS: i32 = 30;
-/// The ball must be this near for a bot's kick, metres.
-pub const KICK_M: f32 = 0.85;
 /// The contact may still turn a pass by this angle, radians. (GRF's.)
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
-/// How near the ball must be to a leg that is already on its way, metres; chosen.
-const STRETCH_M: f32 = 1.3;
 /// Ticks of a leg's follow-through after a kick. Measured.
 const FOLLOW_TICKS: i32 = 34;
+/// Ticks until a player whose swing has missed the ball can begin another; chosen.
+const MISSED_TICKS: i32 = 20;
 /// The highest ball that can be volleyed, metres.
 const VOLLEY_M: f32 = 1.2;
 
-/// A kick that a bot decides on now; its swing begins at once.
+/// A kick that a bot decides on now; its swing begins as soon as one meets the ball.
 pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
-    let now = tick as i32;
-    let ticks = match kind {
-        KickKind::Short | KickKind::Long => SWING_TICKS[0],
-        KickKind::High => SWING_TICKS[1],
-        KickKind::Shot | KickKind::Clear => SWING_TICKS[2],
-    };
-    let swing = begun(now + ticks);
-    KickPlan { swing: Some(swing), until: now + PATIENCE_TICKS, ..asked(kind) }
+    KickPlan { until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
 
 /// A kick whose key is pressed now.
@@ -69,9 +56,17 @@ fn dmps(mps: f32) -> u8 {
     (mps * 10.0).round().clamp(0.0, f32::from(Swing::RUN - 1)) as u8
 }
 
-/// A bot's swing: where to is decided already.
+/// A swing at a ball that waits for it.
 fn begun(ready_at: i32) -> Swing {
-    Swing { ready_at, way: None, mate: None, end_dmps: Swing::RUN, left_m: 0.0, stroke: None }
+    Swing {
+        ready_at,
+        way: None,
+        place: Vec2::ZERO,
+        mate: None,
+        end_dmps: Swing::RUN,
+        left_m: 0.0,
+        stroke: None,
+    }
 }
 
 fn asked(kind: KickKind) -> KickPlan {
@@ -119,31 +114,28 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
             game.players[i].body.kick = None;
             continue;
         }
-        let body = &mut game.players[i].body;
-        if plan.swing.is_some_and(|swing| swing.way.is_none())
-            && body.lunge.is_some_and(|lunge| dribble_motion::has_only_begun(&lunge, now))
-        {
-            // A bot's swing takes the place of the motion that has only begun.
-            (body.lunge, body.ready_at) = (None, now);
-        }
         match plan.swing {
-            Some(swing) if now >= swing.ready_at && !kicked && can_kick(game, id) => {
-                game.players[i].body.kick = None;
-                launch(game, events, id, plan);
-                kicked = true;
-                continue;
-            }
-            Some(swing) if now > swing.ready_at + MISSED_TICKS && swing.way.is_some() => {
-                plan.swing = None;
-            }
+            Some(swing) if now >= swing.ready_at && !kicked => match missed_share(game, id, &swing)
+            {
+                Some(missed) => {
+                    game.players[i].body.kick = None;
+                    strike(game, events, id, plan, missed);
+                    kicked = true;
+                    continue;
+                }
+                None if swing.stroke.is_some() => {
+                    // The leg has passed the ball.
+                    plan.swing = None;
+                    game.players[i].body.ready_at = now + MISSED_TICKS;
+                }
+                None => {}
+            },
             Some(_) => {}
             None => {
                 plan.swing = begin(game, id, &plan);
                 let body = &mut game.players[i].body;
-                if plan.swing.is_some()
-                    && body.lunge.is_some_and(|lunge| dribble_motion::has_yet_to_touch(&lunge, now))
-                {
-                    // The swing takes the place of the motion.
+                if plan.swing.is_some_and(|swing| swing.stroke.is_some()) {
+                    // The swing takes the place of the motion of a dribble.
                     (body.lunge, body.ready_at) = (None, now);
                 }
             }
@@ -171,11 +163,12 @@ fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
         Some(set_piece) => swing(run_up_ticks(set_piece.mode)),
         None if at_hand => swing(at_hand_ticks(plan.kind)),
         None => {
-            let ChosenSwing { motion, stroke } = swing::find(game, id, plan.kind, way)?;
+            let ChosenSwing { motion, place, stroke } = swing::find(game, id, plan.kind, way)?;
             let pace = player.vel.length();
             Swing {
                 end_dmps: dmps(motion.end_mps(pace)),
                 left_m: motion.way_m(pace),
+                place,
                 stroke: Some(stroke),
                 ..swing(motion.ticks)
             }
@@ -189,13 +182,16 @@ fn looks(game: &Match, id: PlayerId) -> bool {
     (game.tick + u32::from(id.team() != game.play.early)).is_multiple_of(2)
 }
 
-/// Whether a player can begin a swing: not in a motion, but for one of a dribble before its touch.
-/// (GRF's.)
+/// Whether a player can begin a swing: not in a motion, but for one of a dribble before its touch,
+/// or for a bot one that has only begun. (GRF's.)
 fn is_free(game: &Match, id: PlayerId) -> bool {
     let now = game.tick as i32;
     let player = game.player(id);
     match player.body.lunge {
-        Some(lunge) if lunge.until() > now => dribble_motion::has_yet_to_touch(&lunge, now),
+        Some(lunge) if lunge.until() > now && game.is_driven(id) => {
+            dribble_motion::has_yet_to_touch(&lunge, now)
+        }
+        Some(lunge) if lunge.until() > now => dribble_motion::has_only_begun(&lunge, now),
         _ => now >= player.body.ready_at && player.is_up(),
     }
 }
@@ -236,34 +232,38 @@ fn at_hand_ticks(kind: KickKind) -> i32 {
     if matches!(kind, KickKind::Short | KickKind::Long) { 34 } else { 24 }
 }
 
-/// Whether the ball is at the player's foot and may be kicked.
-fn can_kick(game: &Match, id: PlayerId) -> bool {
+/// How much a swing that arrives now misses the ball that it is made for, 0..1. None if it can't
+/// kick it.
+fn missed_share(game: &Match, id: PlayerId, swing: &Swing) -> Option<f32> {
     if game.dead || !game.player(id).is_up() {
-        return false;
+        return None;
     }
     if let Some(set_piece) = game.play.set_piece {
-        return set_piece.taker == id;
+        return (set_piece.taker == id).then_some(0.0);
     }
     if let Some((keeper, _)) = game.play.hands {
-        return keeper == id;
+        return (keeper == id).then_some(0.0);
     }
-    let player = game.player(id);
-    let ball = game.ball.pos;
-    let stretched =
-        player.body.kick.is_some_and(|plan| plan.swing.is_some_and(|swing| swing.way.is_some()));
-    let reach_m = if stretched { STRETCH_M } else { KICK_M };
-    if ball.z > VOLLEY_M || player.pos.distance_squared(ball.truncate()) > reach_m * reach_m {
-        return false;
+    if game.ball.pos.z > VOLLEY_M {
+        return None;
     }
-    if (game.tick as i32) < player.body.ready_at {
-        return false;
+    leg::missed_share(game, swing.place)
+}
+
+/// Kicks a ball that has come off the swing's place by a share of what a leg allows for: so much of
+/// its own way it keeps. (GRF's.)
+fn strike(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan, missed: f32) {
+    let before = game.ball;
+    launch(game, events, id, plan);
+    if missed > 0.0 {
+        game.ball.vel = game.ball.vel.lerp(before.vel, missed);
+        game.ball.spin = game.ball.spin.lerp(before.spin, missed);
+        forecast::renew(game);
     }
-    // A rival who dribbles the ball must be tackled first.
-    game.controller().is_none_or(|owner| owner.team() == id.team())
 }
 
 /// Kicks.
-pub(super) fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
+fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     let set_piece = game.play.set_piece;
     let from_hands = game.play.hands.is_some();
     let from = game.ball.pos.truncate();

@@ -40,6 +40,9 @@ const SHARE: f32 = 0.5;
 const PULLED: f32 = 0.6;
 const SLACK_M: f32 = 0.02;
 
+/// How far off its place the ball may be when the foot arrives, metres. (GRF's.)
+const MISSED_M: f32 = 0.4;
+
 /// A motion's touch, in the frame of the player's run: x along it, y to one side.
 pub(super) struct MotionTouch {
     /// Ticks until then.
@@ -109,6 +112,13 @@ pub(super) fn meets(touch: &MotionTouch, ball: Vec2, reach: Reach, fresh: f32) -
 fn in_time_m(ticks: i32) -> f32 {
     let time = math::pow(ticks as f32 / MEAN_TICKS, SOONER);
     REACH_M * if time > 1.0 { 1.0 + (time - 1.0) * LATE } else { time }
+}
+
+/// How much of its own way a ball keeps that has come off the place where a foot arrives now, 0..1.
+/// None if the foot misses it. (GRF's.)
+pub(super) fn missed_share(game: &Match, place: Vec2) -> Option<f32> {
+    let off = game.ball.pos.truncate().distance(place) / MISSED_M;
+    (off < 1.0).then(|| math::smooth(math::smooth(off)))
 }
 
 #[cfg(test)]

@@ -143,6 +143,17 @@ pub fn has_seen(game: &Match, id: PlayerId) -> bool {
     toucher == Some(id) || since >= delay_ticks(game.player(id), game.is_driven(id))
 }
 
+/// Where a player expects the ball after this many ticks: on its earlier path, as long as they
+/// haven't seen the last touch.
+pub fn expected(game: &Match, id: PlayerId, ticks: u32) -> Vec3 {
+    if has_seen(game, id) {
+        return game.play.forecast.at(game.tick + ticks);
+    }
+    let [place, velocity] = game.play.unseen;
+    let (since, _) = last_touch(game);
+    (place + velocity * ((since as f32 + ticks as f32) * 0.01)).extend(game.ball.pos.z)
+}
+
 /// Ticks since the last touch, and who touched.
 fn last_touch(game: &Match) -> (i32, Option<PlayerId>) {
     let since = |id: PlayerId| ticks_since(game.tick, game.player(id).body.touched_at);

@@ -102,16 +102,6 @@ pub(super) const TAKES: [ReachMotion; 20] = [
 /// Stops a ball that rolls towards the player, long before it arrives, to go back with it. (GRF's.)
 pub(super) const TRAP: ReachMotion =
     stop(DRIBBLES_FROM_MPS, ABOUT_DEG, [29, 54], [0.17, 0.0], [0.19, 0.16]);
-/// Kicks at a ball that a rival still dribbles. (Measured of GRF's motions.)
-pub(super) const KICKS: [ReachMotion; 7] = [
-    motion(WALKS_FROM_MPS, ABOUT_DEG, [41, 69], [0.25, 0.0], [0.35, 0.3]),
-    stop(WALKS_FROM_MPS, ABOUT_DEG, [27, 61], [0.3, 0.0], [0.35, 0.3]),
-    motion(WALKS_FROM_MPS, ABOUT_DEG, [12, 39], [0.4, 0.0], [0.35, 0.3]),
-    motion(WALKS_FROM_MPS, ABOUT_DEG, [10, 29], [0.3, 0.0], [0.35, 0.3]),
-    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [27, 61], [0.2, 0.0], [0.35, 0.3]),
-    motion(DRIBBLES_FROM_MPS, ABOUT_DEG, [10, 29], [0.3, 0.0], [0.35, 0.3]),
-    motion(0.0, ABOUT_DEG, [35, 73], [0.6, 0.0], [0.35, 0.3]),
-];
 
 /// The motions of a list for a pace and a turn: of those for the fastest gait that the pace allows,
 /// those of the least angle that holds the turn.
@@ -147,15 +137,5 @@ mod tests {
             }
         }
         assert!(motions(&TAKES, 5.0, 170.0).is_empty(), "who goes back with it traps it");
-    }
-
-    #[test]
-    fn a_kick_is_tried_from_afar_first() {
-        for pace in [0.0, 2.0, 5.0, 7.0] {
-            let kicks = motions(&KICKS, pace, 0.0);
-            assert!(!kicks.is_empty(), "at {pace}");
-            assert!(kicks.windows(2).all(|pair| pair[0].ticks > pair[1].ticks), "at {pace}");
-        }
-        assert_eq!(motions(&KICKS, 6.0, 0.0).iter().filter(|kick| kick.stops).count(), 1);
     }
 }

@@ -3,9 +3,9 @@
 //! A kick takes the first swing that leads its way and meets the ball; of a gait, those for the
 //! foot that leads now come first. (Measured of GRF's motions.)
 
-use crate::football::foot;
 use crate::football::leg::{self, KICK, MotionTouch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
+use crate::football::{foot, reach};
 use crate::math;
 use crate::state::player::{KickKind, Stroke};
 use crate::state::{Match, Player, PlayerId};
@@ -226,6 +226,8 @@ fn of(kind: KickKind) -> &'static ByGait {
 /// The swing that a player chooses for a kick.
 pub(super) struct ChosenSwing {
     pub(super) motion: &'static SwingMotion,
+    /// Where it meets the ball, world metres.
+    pub(super) place: Vec2,
     pub(super) stroke: Stroke,
 }
 
@@ -293,8 +295,9 @@ pub(super) fn find(game: &Match, id: PlayerId, kind: KickKind, way: Vec2) -> Opt
     let player = game.player(id);
     let stance = Stance::of(player, way);
     let Stance { pace, run, .. } = stance;
+    let ball_at = |swing: &SwingMotion| reach::expected(game, id, swing.ticks as u32);
     let meets = |swing: &SwingMotion, side: f32| {
-        let ball = game.play.forecast.at(game.tick + swing.ticks as u32);
+        let ball = ball_at(swing);
         let place = ball.truncate() - player.pos - run * swing.way_m(pace);
         let place = Vec2::new(place.dot(run), run.perp_dot(place));
         is_high_enough(ball.z, swing.ball_m[2])
@@ -318,7 +321,8 @@ pub(super) fn find(game: &Match, id: PlayerId, kind: KickKind, way: Vec2) -> Opt
                         && suits(motion, side) == first
                         && meets(motion, side)
                 })?;
-                Some(ChosenSwing { motion, stroke: stance.stroke(motion, side) })
+                let place = ball_at(motion).truncate();
+                Some(ChosenSwing { motion, place, stroke: stance.stroke(motion, side) })
             })
         };
         find(true).or_else(|| find(false))

@@ -4,7 +4,7 @@
 //! ball, `duel` fights for an owned ball, and `keeper` hands. `contact` and `offside` decide what a
 //! touch means (passes, offside).
 
-use crate::football::{dribble, dribble_motion, first_touch, kick};
+use crate::football::{dribble, dribble_motion, first_touch};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
 use crate::state::player::{Intent, Pose};
@@ -20,8 +20,6 @@ const NEAR_M: f32 = 1.3;
 /// From how far somebody may reach for the ball, metres: as far as they run until their foot is
 /// there.
 const ABOUT_M: f32 = 4.5;
-/// For how many ticks before a bot's kick its leg is on the way. (Measured of GRF's motions.)
-const SWING_TICKS: i32 = 28;
 /// A stumbling player keeps a ball this near, metres, within `KEPT_TICKS` of their last touch.
 /// (GRF's.)
 const KEPT_M: f32 = 0.4;
@@ -78,7 +76,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
             let reaches = distance <= foot * foot && ball.z < FOOT_HIGH_M;
             if reaches
                 && wants_ball(game, id)
-                && !swings(game, id)
+                && !player.body.swings()
                 && !dribble_motion::waits(game, id)
                 && dribble::touch(game, events, id)
             {
@@ -91,7 +89,7 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
     let Some((distance, id)) = nearest else { return };
     let near = libm::sqrtf(distance);
     let contested = owner.is_some_and(|rival| rival.team() != id.team());
-    if !contested && near <= first_touch::reach_m(game, id) && !about_to_kick(game, id) {
+    if !contested && near <= first_touch::reach_m(game, id) && !game.player(id).body.swings() {
         first_touch::take(game, events, id);
     }
 }
@@ -146,13 +144,6 @@ fn keeps(game: &Match, id: PlayerId, distance_squared: f32) -> bool {
         && ticks_since(game.tick, player.body.touched_at) >= KEPT_TICKS
 }
 
-/// Whether a bot's leg is on its way to a kick: the player lets the ball roll until then.
-fn swings(game: &Match, id: PlayerId) -> bool {
-    let swing = game.player(id).body.kick.and_then(|plan| plan.swing);
-    !game.is_driven(id)
-        && swing.is_some_and(|swing| swing.ready_at - (game.tick as i32) < SWING_TICKS)
-}
-
 /// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as
 /// their kick.
 fn heads(game: &Match, id: PlayerId) -> bool {
@@ -163,17 +154,6 @@ fn heads(game: &Match, id: PlayerId) -> bool {
             .any(|(_, rival)| rival.pos.distance_squared(player.pos) < 2.2 * 2.2)
     };
     player.body.kick.is_some() || deep || rival()
-}
-
-/// Whether the planned kick will meet the ball, so that the player needn't take it down first.
-fn about_to_kick(game: &Match, id: PlayerId) -> bool {
-    let player = game.player(id);
-    let Some(plan) = player.body.kick else { return false };
-    let Some(swing) = plan.swing else { return false };
-    let wait_s = (swing.ready_at - game.tick as i32).max(0) as f32 * 0.01;
-    let apart =
-        player.pos - game.ball.pos.truncate() + (player.vel - game.ball.vel.truncate()) * wait_s;
-    apart.length_squared() <= kick::KICK_M * kick::KICK_M
 }
 
 /// Whether a keeper may use their hands: not if lazy, and not if driven by an agent under

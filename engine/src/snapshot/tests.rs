@@ -42,6 +42,7 @@ fn busy() -> Match {
     let swing = Some(Swing {
         ready_at: 0,
         way: Some(spot),
+        place: spot,
         mate: Some(id),
         end_dmps: 0,
         left_m: 0.0,

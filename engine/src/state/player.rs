@@ -217,15 +217,17 @@ pub struct KickPlan {
 pub struct Swing {
     /// First tick at which the foot can meet the ball.
     pub ready_at: i32,
-    /// The way from the ball to the target, world metres; none if the bot has chosen it.
+    /// The way from the ball to the target, world metres; none at a set piece that a bot takes.
     pub way: Option<Vec2>,
+    /// Where the foot is to meet the ball, world metres.
+    pub place: Vec2,
     /// The receiver when it began.
     pub mate: Option<PlayerId>,
     /// How fast the player is at its end, 0.1 m/s; [`Swing::RUN`] leaves their run to them.
     pub end_dmps: u8,
     /// How far they still run until then, metres.
     pub left_m: f32,
-    /// What the leg can do; none if no swing was chosen: a bot's, at a set piece, out of the hands.
+    /// What the leg can do; none if no swing was chosen: at a set piece, out of the hands.
     pub stroke: Option<Stroke>,
 }
 
@@ -254,8 +256,6 @@ pub enum Aim {
     Poke,
     /// Takes it along.
     Take,
-    /// Kicks it as the player has planned.
-    Kick,
 }
 
 /// What a leg is out for.
@@ -338,6 +338,11 @@ pub struct Mind {
 }
 
 impl Body {
+    /// Whether a leg swings at a ball that doesn't wait for it.
+    pub fn swings(&self) -> bool {
+        self.kick.is_some_and(|plan| plan.swing.is_some_and(|swing| swing.stroke.is_some()))
+    }
+
     /// An empty body, before `begin` fills it in.
     pub const fn blank() -> Body {
         Body {

@@ -5,7 +5,6 @@ use crate::control::bot::{TeamView, dribbling, odds};
 use crate::football::pace::SPRINT_MPS;
 use crate::football::{kick, noise};
 use crate::math::{self, ease, share};
-use crate::state::play::ticks_since;
 use crate::state::player::{Intent, KickKind, KickPlan};
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
@@ -53,9 +52,6 @@ const KEEPER_CALM: f32 = 3.0;
 const AHEAD_S: f32 = 1.0;
 /// A rival must be at least this far off in time for a clearance to succeed, seconds; chosen.
 const SWING_S: f32 = 0.1;
-/// Ticks after a touch of a dribble, and after taking the ball down, until a player can begin
-/// something else. (Measured of GRF's motions.)
-const REST_TICKS: [i32; 2] = [20, 26];
 /// Ticks after which a kick that did not come off is thought over; chosen.
 const MIND_TICKS: i32 = 80;
 
@@ -235,9 +231,7 @@ fn perform(game: &mut Match, view: &TeamView, id: PlayerId, act: OnBallChoice) {
         return;
     }
     let until = game.tick as i32 + MIND_TICKS;
-    let from = game.tick + rest_ticks(game, id);
-    let plan = |kind: KickKind| KickPlan { until, ..kick::planned(kind, from) };
-    let (shot, clearance) = (plan(KickKind::Shot), plan(KickKind::Clear));
+    let plan = KickPlan { until, ..kick::planned(kind, game.tick) };
     let goal = game.goal();
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);
@@ -249,12 +243,12 @@ fn perform(game: &mut Match, view: &TeamView, id: PlayerId, act: OnBallChoice) {
             let plan = KickPlan {
                 point: Some(point * view.side),
                 power: (0.7 + 0.3 * luck) * most,
-                ..shot
+                ..plan
             };
             game.players[id.index()].body.kick = Some(plan);
         }
-        OnBallChoice::Pass(mate, kind) => {
-            body.kick = Some(KickPlan { until, mate: Some(mate), ..kick::planned(kind, from) });
+        OnBallChoice::Pass(mate, _) => {
+            body.kick = Some(KickPlan { mate: Some(mate), ..plan });
         }
         OnBallChoice::Clear => {
             let facing = body.facing * view.side;
@@ -262,19 +256,9 @@ fn perform(game: &mut Match, view: &TeamView, id: PlayerId, act: OnBallChoice) {
             let away = Vec2::new(0.8 * facing.x, facing.y).normalize_or_zero()
                 + Vec2::new(0.7, 0.5 * wide);
             let dir = away.normalize_or(Vec2::X) * view.side;
-            body.kick = Some(KickPlan { dir: Some(dir), ..clearance });
+            body.kick = Some(KickPlan { dir: Some(dir), ..plan });
         }
     }
-}
-
-/// Ticks until a player who has just touched the ball can do something else; longer after taking it
-/// down.
-fn rest_ticks(game: &Match, id: PlayerId) -> u32 {
-    let body = &game.player(id).body;
-    let taken =
-        game.owner == Some(id) && (game.play.owned_since as i32 - body.touched_at).abs() < 5;
-    let rests = if taken { REST_TICKS[1] } else { REST_TICKS[0] };
-    (rests - ticks_since(game.tick, body.touched_at)).max(0) as u32
 }
 
 /// Lets the keeper release the ball: soon if a teammate is free, at the latest after four seconds.

@@ -314,11 +314,6 @@ pub(super) fn has_yet_to_touch(lunge: &Lunge, now: i32) -> bool {
     matches!(lunge.motion, Motion::Dribble { .. }) && now < lunge.at
 }
 
-/// Whether a motion has only begun, so that a bot's kick may take its place. (GRF's.)
-pub(super) fn has_only_begun(lunge: &Lunge, now: i32) -> bool {
-    matches!(lunge.motion, Motion::Dribble { .. }) && now <= lunge.from() + AGAIN_TICKS
-}
-
 /// The player nearest to a ball that lies, if they would play it.
 fn first(game: &Match, near: Squad) -> Option<PlayerId> {
     let ball = game.ball.pos.truncate();

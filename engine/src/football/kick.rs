@@ -5,7 +5,7 @@
 use crate::football::pass::Struck;
 use crate::football::swing::ChosenSwing;
 use crate::football::{
-    contact, dribble_motion, forecast, leg, noise, offside, pass, pass_target, report, shot, swing,
+    contact, dribble_motion, forecast, leg, offside, pass, pass_target, report, shot, swing,
     switching, whistle,
 };
 use crate::math;
@@ -13,7 +13,7 @@ use crate::physics::constants::BALL_RADIUS;
 use crate::state::event::Events;
 use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
 use crate::state::{Match, PlayerId, Squad};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier};
 
 /// Ticks that a kick waits for the ball after its key is released. (GRF's.)
@@ -30,6 +30,22 @@ const OWN_LOST_S: f32 = 0.95;
 const TURN_RAD: f32 = 0.15 * std::f32::consts::PI;
 /// Ticks of a leg's follow-through after a kick. Measured.
 const FOLLOW_TICKS: i32 = 34;
+/// A way to clear the ball.
+struct Clearance {
+    kind: KickKind,
+    /// Where to: this far the way it is cleared, and this far up the pitch, metres.
+    to_m: f32,
+    on_m: f32,
+    /// Of a shot.
+    power: f32,
+}
+
+/// Ways to clear the ball, in the order in which they are tried. (GRF's.)
+const CLEARED: [Clearance; 3] = [
+    Clearance { kind: KickKind::High, to_m: 42.0, on_m: 0.0, power: 0.0 },
+    Clearance { kind: KickKind::Shot, to_m: 30.0, on_m: 0.0, power: 0.6 },
+    Clearance { kind: KickKind::Long, to_m: 48.0, on_m: 9.6, power: 0.0 },
+];
 /// Ticks until a player whose swing has missed the ball can begin another; chosen.
 const MISSED_TICKS: i32 = 20;
 /// The highest ball that can be volleyed, metres.
@@ -47,7 +63,7 @@ pub fn pressed(kind: KickKind, tick: u32) -> KickPlan {
 
 /// A set piece that a bot takes from now on.
 pub fn taken(kind: KickKind, mode: GameMode, tick: u32) -> KickPlan {
-    let swing = begun(tick as i32 + run_up_ticks(mode));
+    let swing = begun(kind, tick as i32 + run_up_ticks(mode));
     KickPlan { swing: Some(swing), until: tick as i32 + PATIENCE_TICKS, ..asked(kind) }
 }
 
@@ -57,8 +73,9 @@ fn dmps(mps: f32) -> u8 {
 }
 
 /// A swing at a ball that waits for it.
-fn begun(ready_at: i32) -> Swing {
+fn begun(kind: KickKind, ready_at: i32) -> Swing {
     Swing {
+        kind,
         ready_at,
         way: None,
         place: Vec2::ZERO,
@@ -132,11 +149,13 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
             },
             Some(_) => {}
             None => {
-                plan.swing = begin(game, id, &plan);
-                let body = &mut game.players[i].body;
-                if plan.swing.is_some_and(|swing| swing.stroke.is_some()) {
-                    // The swing takes the place of the motion of a dribble.
-                    (body.lunge, body.ready_at) = (None, now);
+                if let Some(begun) = begin(game, id, &plan) {
+                    plan = begun;
+                    if plan.swing.is_some_and(|swing| swing.stroke.is_some()) {
+                        // The swing takes the place of the motion of a dribble.
+                        let body = &mut game.players[i].body;
+                        (body.lunge, body.ready_at) = (None, now);
+                    }
                 }
             }
         }
@@ -144,35 +163,60 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
     }
 }
 
-/// Begins the swing of an agent's kick. The key must be released (or held long enough), and a swing
-/// must meet the ball.
-fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<Swing> {
+/// Begins the swing of a kick. The key must be released (or held long enough), and a swing must
+/// meet the ball. A clearance becomes the first kick that has one.
+fn begin(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<KickPlan> {
     if plan.held && (plan.gauge_ticks <= CHARGE_TICKS || stays(game, plan.kind)) {
         return None;
     }
     let at_hand = game.play.set_piece.is_some() || game.play.hands.is_some();
-    let player = game.player(id);
     let may = at_hand || is_free(game, id) && looks(game, id);
     if !may {
         return None;
     }
+    if plan.kind == KickKind::Clear && !at_hand {
+        let kicks = clearances(game, id, plan);
+        let begun = kicks.iter().find_map(|kick| swung(game, id, kick))?;
+        return Some(KickPlan { kind: KickKind::Clear, ..begun });
+    }
+    if !at_hand {
+        return swung(game, id, plan);
+    }
     let (way, mate) = meant(game, id, plan);
-    let now = game.tick as i32;
-    let swing = |ticks: i32| Swing { way: Some(way), mate, ..begun(now + ticks) };
-    Some(match game.play.set_piece {
-        Some(set_piece) => swing(run_up_ticks(set_piece.mode)),
-        None if at_hand => swing(at_hand_ticks(plan.kind)),
-        None => {
-            let ChosenSwing { motion, place, stroke } = swing::find(game, id, plan.kind, way)?;
-            let pace = player.vel.length();
-            Swing {
-                end_dmps: dmps(motion.end_mps(pace)),
-                left_m: motion.way_m(pace),
-                place,
-                stroke: Some(stroke),
-                ..swing(motion.ticks)
-            }
-        }
+    let ticks =
+        game.play.set_piece.map_or(at_hand_ticks(plan.kind), |piece| run_up_ticks(piece.mode));
+    let swing = Swing { way: Some(way), mate, ..begun(plan.kind, game.tick as i32 + ticks) };
+    Some(KickPlan { swing: Some(swing), ..*plan })
+}
+
+/// A kick with the swing that meets the ball, if there is one.
+fn swung(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<KickPlan> {
+    let (way, mate) = meant(game, id, plan);
+    let ChosenSwing { motion, place, stroke } = swing::find(game, id, plan.kind, way)?;
+    let pace = game.player(id).vel.length();
+    let swing = Swing {
+        way: Some(way),
+        mate,
+        end_dmps: dmps(motion.end_mps(pace)),
+        left_m: motion.way_m(pace),
+        place,
+        stroke: Some(stroke),
+        ..begun(plan.kind, game.tick as i32 + motion.ticks)
+    };
+    Some(KickPlan { swing: Some(swing), ..*plan })
+}
+
+/// The kicks that clear a ball, in the order in which they are tried: a lofted pass, a shot, a
+/// ground pass. (GRF's.)
+fn clearances(game: &Match, id: PlayerId, plan: &KickPlan) -> [KickPlan; 3] {
+    let side = Vec2::new(id.team().side() as f32, 0.0);
+    let way = plan.dir.unwrap_or(side);
+    let from = game.player(id).pos;
+    CLEARED.map(|Clearance { kind, to_m, on_m, power }| KickPlan {
+        kind,
+        point: Some(from + way * to_m + side * on_m),
+        power,
+        ..*plan
     })
 }
 
@@ -182,16 +226,13 @@ fn looks(game: &Match, id: PlayerId) -> bool {
     (game.tick + u32::from(id.team() != game.play.early)).is_multiple_of(2)
 }
 
-/// Whether a player can begin a swing: not in a motion, but for one of a dribble before its touch,
-/// or for a bot one that has only begun. (GRF's.)
+/// Whether a player can begin a swing: not in a motion, but for one of a dribble before its touch.
+/// (GRF's.)
 fn is_free(game: &Match, id: PlayerId) -> bool {
     let now = game.tick as i32;
     let player = game.player(id);
     match player.body.lunge {
-        Some(lunge) if lunge.until() > now && game.is_driven(id) => {
-            dribble_motion::has_yet_to_touch(&lunge, now)
-        }
-        Some(lunge) if lunge.until() > now => dribble_motion::has_only_begun(&lunge, now),
+        Some(lunge) if lunge.until() > now => dribble_motion::has_yet_to_touch(&lunge, now),
         _ => now >= player.body.ready_at && player.is_up(),
     }
 }
@@ -201,9 +242,6 @@ fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>
     let from = game.ball.pos.truncate();
     match plan.kind {
         KickKind::Shot => (shot::meant(game, id, plan) - from, None),
-        KickKind::Clear => {
-            (plan.dir.unwrap_or(Vec2::new(id.team().side() as f32, 0.0)) * 30.0, None)
-        }
         _ => {
             let target = pass_target::choose(game, id, plan);
             (target.point - from, target.mate)
@@ -264,6 +302,8 @@ fn strike(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan, m
 
 /// Kicks.
 fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
+    let clears = plan.kind == KickKind::Clear;
+    let plan = KickPlan { kind: plan.swing.map_or(plan.kind, |swing| swing.kind), ..plan };
     let set_piece = game.play.set_piece;
     let from_hands = game.play.hands.is_some();
     let from = game.ball.pos.truncate();
@@ -287,15 +327,9 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
             };
             send(game, id, shot);
         }
-        KickKind::Clear => {
-            let way = plan.dir.unwrap_or(Vec2::new(id.team().side() as f32, 0.0));
-            let way = way + Vec2::new(-way.y, way.x) * (noise::bell(game) * 0.25);
-            let velocity = (way * 21.0).extend(10.0);
-            send(game, id, Struck { velocity, spin: Vec3::ZERO, kept_spin: 0.0 });
-        }
         _ => {
             let (way, mate) = refined(game, id, &plan);
-            receiver = mate;
+            receiver = mate.filter(|_| !clears);
             let ball = if mode == Some(GameMode::ThrowIn) {
                 pass::thrown(game, id, way)
             } else {
@@ -314,7 +348,7 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
         events.push(report::event(game, kind).by(id).qualified(Qualifier::Taken));
     }
     match plan.kind {
-        KickKind::Shot => contact::shot_struck(game, events, id, from),
+        KickKind::Shot if !clears => contact::shot_struck(game, events, id, from),
         _ => contact::pass_struck(game, events, id, receiver, from),
     }
     forecast::renew(game);

@@ -218,8 +218,8 @@ const GRASS_M: f32 = 0.11;
 fn of(kind: KickKind) -> &'static ByGait {
     match kind {
         KickKind::Short | KickKind::Long => &PASSES,
-        KickKind::High => &LOFTS,
-        KickKind::Shot | KickKind::Clear => &SHOTS,
+        KickKind::High | KickKind::Clear => &LOFTS,
+        KickKind::Shot => &SHOTS,
     }
 }
 

@@ -40,6 +40,7 @@ fn busy() -> Match {
     body.intent = Intent::Go(spot, 1.0);
     let kind = KickKind::Shot;
     let swing = Some(Swing {
+        kind: KickKind::Shot,
         ready_at: 0,
         way: Some(spot),
         place: spot,

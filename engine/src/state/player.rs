@@ -215,6 +215,8 @@ pub struct KickPlan {
 /// The swing of a leg, with the kick as planned when it began.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Swing {
+    /// The kick that it makes: what is planned, or what it clears the ball with.
+    pub kind: KickKind,
     /// First tick at which the foot can meet the ball.
     pub ready_at: i32,
     /// The way from the ball to the target, world metres; none at a set piece that a bot takes.

@@ -64,9 +64,6 @@ pub fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
         return;
     }
     game.players[id.index()].body.intent = Intent::Ball(SPRINT_MPS);
-    if is_decided(game, id) {
-        return;
-    }
     game.players[id.index()].body.dribble =
         dribbling::way(game, view, id, 1.0 - DARES * long(game, id));
     match choose(game, view, id) {
@@ -75,20 +72,11 @@ pub fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
     }
 }
 
-/// Whether a player sticks to the kick they have in mind: a clearance is thought over until the leg
-/// swings, as the danger may be past.
-fn is_decided(game: &Match, id: PlayerId) -> bool {
-    game.player(id)
-        .body
-        .kick
-        .is_some_and(|plan| plan.kind != KickKind::Clear || plan.swing.is_some())
-}
-
 /// Decides for the player who will have the ball soon.
 pub fn before_touch(game: &mut Match, view: &TeamView, id: PlayerId) {
     let body = &game.player(id).body;
     let rests = (game.tick as i32) < body.ready_at;
-    if is_decided(game, id) || game.play.led[view.team.index()] || body.meet_s > AHEAD_S || rests {
+    if game.play.led[view.team.index()] || body.meet_s > AHEAD_S || rests {
         return;
     }
     match choose(game, view, id) {

@@ -9,7 +9,7 @@ use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
 use crate::football::foot::{self, STRIDE_TICKS};
 use crate::football::leg::{self, MotionTouch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
-use crate::football::{contact, noise, possession, touch};
+use crate::football::{awkward, contact, noise, possession, reach, touch};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
@@ -138,6 +138,10 @@ const CHANGED: f32 = 0.9;
 /// metres; chosen.
 const WAITS_M: f32 = 0.4;
 const ASIDE_M: f32 = 0.2;
+/// How fast a ball rises that springs off the foot as high as it can, m/s. (GRF's.)
+const SPRINGS_MPS: f32 = 4.0;
+/// A ball that meets a player faster than this can't be taken along, m/s. (GRF's.)
+const TAKES_MPS: f32 = 15.0;
 /// How near the ball must still be at the touch, metres.
 const REACH_M: f32 = 1.1;
 /// By how much a sprinter's touch strays, radians. Fitted to how far sprinters get off their line.
@@ -161,12 +165,13 @@ const SLOWS_MPS: f32 = 4.6;
 const BEND_RAD: f32 = 0.39;
 const BENT_MPS: f32 = 6.7;
 
-/// Begins the motion of the player who plays the ball next. `near`: who may be in reach.
-pub(super) fn begin(game: &mut Match, near: Squad) {
-    let Some(id) = next(game, near) else { return };
+/// Begins the motion of the player who plays the ball next. `near`: who may be in reach; `about`:
+/// who may be when a free ball has come.
+pub(super) fn begin(game: &mut Match, near: Squad, about: Squad) {
+    let Some(id) = next(game, near, about) else { return };
     let player = game.player(id);
     let Some(motion) = wanted(player) else { return };
-    let ball = game.play.forecast.at(game.tick + motion.ticks as u32);
+    let ball = reach::expected(game, id, motion.ticks as u32);
     let run = run(player);
     if ball.z >= touch::FOOT_HIGH_M || !fits(game, id, motion) {
         return;
@@ -249,7 +254,7 @@ impl DribbleMotion {
             MotionEnd::On => on_mps(player, player.body.dribble.length()),
             MotionEnd::Bent => BENT_MPS,
         };
-        let ball = game.play.forecast.at(game.tick + self.ticks as u32).truncate();
+        let ball = reach::expected(game, id, self.ticks as u32).truncate();
         let way_m = (self.mean[0] + self.mean[1] * pace) * self.ticks as f32 * 0.01;
         let place = ball - player.pos - run * way_m;
         let touch = MotionTouch {
@@ -264,13 +269,16 @@ impl DribbleMotion {
 }
 
 /// Who plays the ball next: its owner, or whoever is nearest to a ball that lies.
-fn next(game: &Match, near: Squad) -> Option<PlayerId> {
+fn next(game: &Match, near: Squad, about: Squad) -> Option<PlayerId> {
     let now = game.tick as i32;
     let lies = || game.ball.vel.length_squared() < LIES_MPS * LIES_MPS;
     let id = match game.on_ball() {
         Some(owner) => owner,
         None if lies() => first(game, near)?,
-        None => return None,
+        None => {
+            let id = reach::first(game)?;
+            return (about.has(id) && touch::wants_ball(game, id) && meets(game, id)).then_some(id);
+        }
     };
     let player = game.player(id);
     let ready = now >= player.body.ready_at || game.last_touch.is_none();
@@ -280,6 +288,16 @@ fn next(game: &Match, near: Squad) -> Option<PlayerId> {
     };
     let plays = player.ai != Ai::Lazy || game.is_driven(id);
     (near.has(id) && player.is_up() && free && plays && !player.body.swings()).then_some(id)
+}
+
+/// Whether a free ball comes slowly enough to take it along. (GRF's.)
+fn meets(game: &Match, id: PlayerId) -> bool {
+    let (player, ball) = (game.player(id), game.ball.vel);
+    player.is_up()
+        && player.body.lunge.is_none()
+        && !player.body.swings()
+        && ball.z.abs() < TAKES_MPS
+        && (ball.truncate() - player.vel).length_squared() < TAKES_MPS * TAKES_MPS
 }
 
 /// Whether a player who runs as they want is within a stride, which they finish before they touch
@@ -385,5 +403,14 @@ pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId, carry: 
     let sprints = carry.wish.length_squared() > SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
     let stray = if sprints { noise::bell(game) * STRAY_RAD } else { ASIDE_RAD };
     let velocity = math::unit(stray).rotate(velocity);
-    contact::push(game, events, id, velocity, carry::hop_mps(velocity));
+    if owns {
+        contact::push(game, events, id, velocity, carry::hop_mps(velocity));
+        return;
+    }
+    let before = game.ball.vel;
+    let awkward = awkward::to(game, id);
+    let velocity = carry::longer(velocity, awkward.far);
+    let up = carry::hop_mps(velocity) + (before.z + SPRINGS_MPS) * awkward.high;
+    let velocity = velocity.extend(up).lerp(before, awkward.kept);
+    contact::push(game, events, id, velocity.truncate(), velocity.z);
 }

@@ -33,8 +33,9 @@ pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
     slide::resolve(game, events, busy.slides);
     kick::kick_ball(game, events, busy.kicks);
     let near = touch::near(game);
-    duel::contest(game, events, busy.legs, touch::about(game));
-    touch::play_ball(game, events, near);
+    let about = touch::about(game);
+    duel::contest(game, events, busy.legs, about);
+    touch::play_ball(game, events, near, about);
     scratch.laps().end(Phase::Play);
     if !game.dead {
         let before = game.ball.pos;

@@ -49,11 +49,11 @@ pub(super) fn about(game: &Match) -> Squad {
 
 /// Lets a player who can and wants to play the ball do so, at most one touch per tick. `near`: who
 /// may be in reach.
-pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad) {
+pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad, about: Squad) {
     if game.dead || game.play.hands.is_some() || game.play.set_piece.is_some() {
         return;
     }
-    dribble_motion::begin(game, near);
+    dribble_motion::begin(game, near, about);
     let ball = game.ball.pos;
     let flat = ball.truncate();
     let owner = game.on_ball().filter(|&id| plays_on(game, id));
@@ -108,7 +108,7 @@ fn plays_on(game: &Match, id: PlayerId) -> bool {
 }
 
 /// Whether a player would play the nearby ball.
-fn wants_ball(game: &Match, id: PlayerId) -> bool {
+pub(super) fn wants_ball(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     if (game.tick as i32) < player.body.ready_at {
         return false;

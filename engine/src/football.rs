@@ -60,4 +60,5 @@ mod swing;
 pub mod switching;
 pub mod tick;
 pub mod touch;
+mod trap;
 pub mod whistle;

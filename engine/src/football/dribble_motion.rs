@@ -9,7 +9,7 @@ use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
 use crate::football::foot::{self, STRIDE_TICKS};
 use crate::football::leg::{self, MotionTouch};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
-use crate::football::{awkward, contact, noise, possession, reach, touch};
+use crate::football::{awkward, contact, noise, possession, reach, touch, trap};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
@@ -31,8 +31,8 @@ pub(super) struct DribbleMotion {
     lasts: i32,
     /// Where it leads.
     out: MotionEnd,
-    /// How far ahead of the body the ball is that it is made for, metres.
-    ahead_m: f32,
+    /// Where the ball is that it is made for, metres from the body: ahead, aside, and up.
+    ball_m: [f32; 3],
     /// How fast the player is on average until the touch, and then, m/s: at least, and by share of
     /// the run.
     mean: [f32; 2],
@@ -43,7 +43,7 @@ pub(super) struct DribbleMotion {
 
 /// How a player comes out of a motion.
 #[derive(Clone, Copy)]
-enum MotionEnd {
+pub(super) enum MotionEnd {
     /// The way that they want, at this speed, m/s.
     Turned(f32),
     /// Along their old run, at this speed, m/s.
@@ -54,7 +54,7 @@ enum MotionEnd {
     Bent,
 }
 
-const fn motion(
+pub(super) const fn motion(
     from_mps: f32,
     to_degrees: f32,
     [ticks, lasts]: [i32; 2],
@@ -69,7 +69,7 @@ const fn motion(
         ticks,
         lasts,
         out,
-        ahead_m,
+        ball_m: [ahead_m, 0.0, GRASS_M],
         mean,
         end,
         changes_feet: true,
@@ -80,6 +80,12 @@ impl DribbleMotion {
     /// The same with an even number of steps.
     const fn even(mut self) -> DribbleMotion {
         self.changes_feet = false;
+        self
+    }
+
+    /// The same at a ball beside the body and in the air.
+    pub(super) const fn at(mut self, aside_m: f32, high_m: f32) -> DribbleMotion {
+        (self.ball_m[1], self.ball_m[2]) = (aside_m, high_m);
         self
     }
 }
@@ -140,6 +146,10 @@ const WAITS_M: f32 = 0.4;
 const ASIDE_M: f32 = 0.2;
 /// How fast a ball rises that springs off the foot as high as it can, m/s. (GRF's.)
 const SPRINGS_MPS: f32 = 4.0;
+/// The height of a ball on the grass, metres, and how much higher one is that these motions still
+/// play. (GRF's.)
+const GRASS_M: f32 = 0.11;
+const LOW_M: f32 = 0.15;
 /// A ball that meets a player faster than this can't be taken along, m/s. (GRF's.)
 const TAKES_MPS: f32 = 15.0;
 /// How near the ball must still be at the touch, metres.
@@ -169,13 +179,15 @@ const BENT_MPS: f32 = 6.7;
 /// who may be when a free ball has come.
 pub(super) fn begin(game: &mut Match, near: Squad, about: Squad) {
     let Some(id) = next(game, near, about) else { return };
-    let player = game.player(id);
-    let Some(motion) = wanted(player) else { return };
-    let ball = reach::expected(game, id, motion.ticks as u32);
-    let run = run(player);
-    if ball.z >= touch::FOOT_HIGH_M || !fits(game, id, motion) {
+    let along = wanted(game.player(id)).filter(|motion| {
+        (game.on_ball() == Some(id) || is_slow(game, id)) && motion.fits(game, id, 0.0)
+    });
+    let free = || game.on_ball().is_none();
+    let Some(motion) = along.or_else(|| free().then(|| trap::find(game, id)).flatten()) else {
         return;
-    }
+    };
+    let player = game.player(id);
+    let run = run(player);
     let wish = wish(player, run, motion);
     let (mps, brakes) = match motion.out {
         MotionEnd::Turned(mps) => (mps, false),
@@ -235,18 +247,26 @@ fn on_mps(player: &Player, wanted: f32) -> f32 {
     }
 }
 
-/// Whether the motion meets the ball.
-fn fits(game: &Match, id: PlayerId, motion: &DribbleMotion) -> bool {
-    let player = game.player(id);
-    let (touch, ball) = motion.touch(game, id);
-    let kicks = player.body.kick.is_some_and(|plan| !plan.held);
-    let reach = if kicks { leg::BEFORE_A_KICK } else { leg::DRIBBLE };
-    leg::meets(&touch, ball, reach, leg::freshness(game, id, motion.ticks))
-}
-
 impl DribbleMotion {
-    /// The touch of this motion, and where the ball will be then, in the frame of the run.
-    fn touch(&self, game: &Match, id: PlayerId) -> (MotionTouch, Vec2) {
+    /// Whether the motion to a side (1, -1, or 0 for neither) meets the ball.
+    pub(super) fn fits(&self, game: &Match, id: PlayerId, side: f32) -> bool {
+        let ball_m = reach::expected(game, id, self.ticks as u32).z;
+        if !leg::is_high_enough(ball_m, self.ball_m[2], LOW_M) {
+            return false;
+        }
+        let (touch, ball) = self.touch(game, id, side);
+        let kicks = game.player(id).body.kick.is_some_and(|plan| !plan.held);
+        let reach = if kicks { leg::BEFORE_A_KICK } else { leg::DRIBBLE };
+        leg::meets(&touch, ball, reach, leg::freshness(game, id, self.ticks))
+    }
+
+    /// The lowest speed for this motion, m/s.
+    pub(super) fn from_mps(&self) -> f32 {
+        self.from_mps
+    }
+
+    /// The touch of this motion to a side, and where the ball will be then, in the frame of the run.
+    fn touch(&self, game: &Match, id: PlayerId, side: f32) -> (MotionTouch, Vec2) {
         let player = game.player(id);
         let (pace, run) = (player.vel.length(), run(player));
         let out_mps = match self.out {
@@ -259,7 +279,7 @@ impl DribbleMotion {
         let place = ball - player.pos - run * way_m;
         let touch = MotionTouch {
             ticks: self.ticks,
-            made_for: Vec2::new(self.ahead_m, 0.0),
+            made_for: Vec2::new(self.ball_m[0], side * self.ball_m[1]),
             pace,
             at_mps: self.end[0] + self.end[1] * pace,
             out_mps,
@@ -277,7 +297,9 @@ fn next(game: &Match, near: Squad, about: Squad) -> Option<PlayerId> {
         None if lies() => first(game, near)?,
         None => {
             let id = reach::first(game)?;
-            return (about.has(id) && touch::wants_ball(game, id) && meets(game, id)).then_some(id);
+            let player = game.player(id);
+            let free = player.is_up() && player.body.lunge.is_none() && !player.body.swings();
+            return (free && about.has(id) && touch::wants_ball(game, id)).then_some(id);
         }
     };
     let player = game.player(id);
@@ -290,13 +312,10 @@ fn next(game: &Match, near: Squad, about: Squad) -> Option<PlayerId> {
     (near.has(id) && player.is_up() && free && plays && !player.body.swings()).then_some(id)
 }
 
-/// Whether a free ball comes slowly enough to take it along. (GRF's.)
-fn meets(game: &Match, id: PlayerId) -> bool {
+/// Whether a ball comes slowly enough to take it along. (GRF's.)
+fn is_slow(game: &Match, id: PlayerId) -> bool {
     let (player, ball) = (game.player(id), game.ball.vel);
-    player.is_up()
-        && player.body.lunge.is_none()
-        && !player.body.swings()
-        && ball.z.abs() < TAKES_MPS
+    ball.z.abs() < TAKES_MPS
         && (ball.truncate() - player.vel).length_squared() < TAKES_MPS * TAKES_MPS
 }
 
@@ -344,7 +363,7 @@ fn first(game: &Match, near: Squad) -> Option<PlayerId> {
 }
 
 /// The direction of a player's run, or where they face if they stand.
-fn run(player: &Player) -> Vec2 {
+pub(super) fn run(player: &Player) -> Vec2 {
     if player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS {
         player.body.facing
     } else {
@@ -381,7 +400,7 @@ pub(super) fn turns(player: &Player) -> bool {
 /// Whether the ball is ahead of a player, so that their motion will meet it.
 pub(super) fn waits(game: &Match, id: PlayerId) -> bool {
     let Some(motion) = wanted(game.player(id)) else { return false };
-    let (touch, ball) = motion.touch(game, id);
+    let (touch, ball) = motion.touch(game, id, 0.0);
     ball.x > touch.made_for.x - WAITS_M && ball.y.abs() < ASIDE_M
 }
 

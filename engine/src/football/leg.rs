@@ -40,6 +40,13 @@ const SHARE: f32 = 0.5;
 const PULLED: f32 = 0.6;
 const SLACK_M: f32 = 0.02;
 
+/// How far above or below its place a motion meets the ball, metres, and what the heights of both
+/// take off that, per metre and at most. (GRF's.)
+const UP_M: f32 = 0.22;
+const HIGHER: [[f32; 2]; 2] = [[0.3, 0.2], [0.4, 0.3]];
+/// The height of a ball on the grass, and up to which a ball counts as low, metres. (GRF's.)
+const GRASS_M: f32 = 0.11;
+const LOW_M: f32 = 0.5;
 /// How far off its place the ball may be when the foot arrives, metres. (GRF's.)
 const MISSED_M: f32 = 0.4;
 
@@ -112,6 +119,16 @@ pub(super) fn meets(touch: &MotionTouch, ball: Vec2, reach: Reach, fresh: f32) -
 fn in_time_m(ticks: i32) -> f32 {
     let time = math::pow(ticks as f32 / MEAN_TICKS, SOONER);
     REACH_M * if time > 1.0 { 1.0 + (time - 1.0) * LATE } else { time }
+}
+
+/// Whether a ball at this height is met by a motion at another, metres. `low_m`: how much further
+/// off a low ball may be.
+pub(super) fn is_high_enough(ball_m: f32, motion_m: f32, low_m: f32) -> bool {
+    let eased =
+        |height: f32, [per_m, most]: [f32; 2]| 1.0 - ((height - GRASS_M) * per_m).clamp(0.0, most);
+    let apart = (ball_m - motion_m).abs() * eased(motion_m, HIGHER[0]) * eased(ball_m, HIGHER[1]);
+    let low_m = if ball_m < LOW_M { low_m } else { 0.0 };
+    apart - low_m < UP_M
 }
 
 /// How much of its own way a ball keeps that has come off the place where a foot arrives now, 0..1.

@@ -207,13 +207,6 @@ const RIGHT: f32 = 1.0;
 const LEFT: f32 = -1.0;
 /// In which order a player at a gait tries the swings of the others.
 const ORDER: [&[usize]; 4] = [&[0], &[1, 2, 3], &[2, 1, 3], &[3, 2, 1]];
-/// How far above or below its place a swing meets the ball, metres, and what the heights of both
-/// take off that, per metre and at most. (GRF's.)
-const UP_M: f32 = 0.22;
-const HIGHER: [[f32; 2]; 2] = [[0.3, 0.2], [0.4, 0.3]];
-/// The height of a ball on the grass, metres.
-const GRASS_M: f32 = 0.11;
-
 /// The swings of a kind.
 fn of(kind: KickKind) -> &'static ByGait {
     match kind {
@@ -300,7 +293,7 @@ pub(super) fn find(game: &Match, id: PlayerId, kind: KickKind, way: Vec2) -> Opt
         let ball = ball_at(swing);
         let place = ball.truncate() - player.pos - run * swing.way_m(pace);
         let place = Vec2::new(place.dot(run), run.perp_dot(place));
-        is_high_enough(ball.z, swing.ball_m[2])
+        leg::is_high_enough(ball.z, swing.ball_m[2], 0.0)
             && leg::meets(
                 &swing.touch(pace, side),
                 place,
@@ -341,12 +334,4 @@ impl SwingMotion {
             out_mps: self.out_mps,
         }
     }
-}
-
-/// Whether a ball at this height is met by a swing at another.
-fn is_high_enough(ball_m: f32, swing_m: f32) -> bool {
-    let eased =
-        |height: f32, [per_m, most]: [f32; 2]| 1.0 - ((height - GRASS_M) * per_m).clamp(0.0, most);
-    let apart = (ball_m - swing_m).abs() * eased(swing_m, HIGHER[0]) * eased(ball_m, HIGHER[1]);
-    apart < UP_M
 }

@@ -112,7 +112,8 @@ fn chance(game: &Match, id: PlayerId, rival: PlayerId) -> f32 {
 /// Goes for a ball that is the team's to have.
 pub fn fetch(game: &mut Match, view: &TeamView, id: PlayerId) {
     let player = *game.player(id);
-    let way = away(game, view, id)
+    let free = game.on_ball().is_none() && player.body.meet_s < SOON_S;
+    let way = if free { Some(dribbling::way(game, view, id, 1.0)) } else { away(game, view, id) }
         .unwrap_or_else(|| (player.body.meet - player.pos).clamp_length_max(2.0));
     let body = &mut game.players[id.index()].body;
     body.intent = Intent::Ball(SPRINT_MPS);

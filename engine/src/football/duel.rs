@@ -237,7 +237,7 @@ fn meet(game: &mut Match, events: &mut Events, id: PlayerId, lunge: Lunge) {
             return;
         }
     };
-    let Some(missed) = leg::missed_share(game, place) else { return };
+    let Some(missed) = leg::missed_share(game, place.extend(ball.z)) else { return };
     let rival = game.on_ball().filter(|rival| rival.team() != id.team());
     let before = game.ball.vel;
     let taken = first_touch::contested(game, id);

@@ -1,20 +1,16 @@
-//! The first touch of a free ball: a player takes it, loses it, or heads it.
+//! The first touch of a free ball that no motion leads to: a player takes it, or loses it.
 
-use crate::football::{carry, contact, dribble, forecast, noise};
-use crate::math;
+use crate::football::{carry, contact, dribble, noise};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
-use crate::state::player::KickKind;
 use crate::state::{Match, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;
 
-/// A higher ball is headed, or left to come down, metres.
+/// A higher ball is left to come down, metres.
 pub(super) const CHEST_M: f32 = 1.25;
 /// How near a player must be to take a free ball, metres.
 const TRAP_M: f32 = 0.75;
-/// Whoever is this far in the own half heads the ball away, metres on the usual pitch; chosen.
-const OWN_THIRD_M: f64 = 20.0;
 /// How fast a trapped ball is drawn to the foot of a standing player, per second, and its top
 /// speed, m/s; fitted.
 const SETTLES_PER_S: f32 = 4.0;
@@ -55,10 +51,6 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
             game.players[id.index()].body.ready_at = game.tick as i32 + 40;
             return;
         }
-    }
-    if ball.pos.z > CHEST_M {
-        header(game, events, id);
-        return;
     }
     let control = player.skill(Stat::BallControl);
     let wildness = noise::roll(game);
@@ -142,47 +134,4 @@ fn surprise(game: &Match, reaction: f32) -> f32 {
         .map_or(i32::MAX, |last| ticks_since(game.tick, game.player(last).body.touched_at));
     let window = 100.0 - 50.0 * reaction;
     libm::powf((1.0 - since as f32 / window).clamp(0.0, 1.0), 0.6)
-}
-
-/// Heads a high ball: towards what the player intends, or down in front of them.
-fn header(game: &mut Match, events: &mut Events, id: PlayerId) {
-    let player = *game.player(id);
-    let side = id.team().side() as f32;
-    let skill = player.skill(Stat::Header);
-    let goal = game.goal() * side;
-    let own_third = player.pos.x * side < -game.pitch.along(OWN_THIRD_M) as f32;
-    let plan = player.body.kick;
-    let aimed = match plan.map(|plan| plan.kind) {
-        Some(KickKind::Shot) => Some((goal, 15.0)),
-        Some(_) => plan.and_then(|plan| plan.dir).map(|dir| (player.pos + dir * 15.0, 12.0)),
-        None if own_third => Some((
-            player.pos + Vec2::new(side * 20.0, math::sign_or(player.pos.y, side) * 8.0),
-            13.0,
-        )),
-        None => None,
-    };
-    let (target, speed) = aimed.unwrap_or((player.pos + player.body.facing * 3.0, 3.5));
-    let way = (target - player.pos).normalize_or_zero();
-    let aside = noise::bell(game) * 0.25 * (1.3 - skill);
-    let flat = (way + Vec2::new(-way.y, way.x) * aside) * speed;
-    let rise = if speed > 10.0 { 1.5 + noise::bell(game) } else { -1.0 };
-    let shot = plan.is_some_and(|plan| plan.kind == KickKind::Shot);
-    let from = game.ball.pos;
-    if !contact::touched(game, events, id, true) {
-        return;
-    }
-    // Players who jumped with the winner have lost this ball.
-    let landing = game.tick as i32 + 40;
-    game.each(game.squad, |other| {
-        if other.pos.distance_squared(player.pos) < 1.5 * 1.5 {
-            other.body.ready_at = landing;
-        }
-    });
-    game.players[id.index()].body.kick = None;
-    game.ball.vel = Vec3::new(flat.x, flat.y, if shot { -0.5 } else { rise });
-    game.ball.spin = Vec3::ZERO;
-    if shot {
-        contact::shot_struck(game, events, id, from.truncate());
-    }
-    forecast::renew(game);
 }

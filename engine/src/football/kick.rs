@@ -13,7 +13,7 @@ use crate::physics::constants::BALL_RADIUS;
 use crate::state::event::Events;
 use crate::state::player::{KickKind, KickPlan, NEVER, Swing};
 use crate::state::{Match, PlayerId, Squad};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{EventKind, GameMode, Qualifier};
 
 /// Ticks that a kick waits for the ball after its key is released. (GRF's.)
@@ -48,8 +48,6 @@ const CLEARED: [Clearance; 3] = [
 ];
 /// Ticks until a player whose swing has missed the ball can begin another; chosen.
 const MISSED_TICKS: i32 = 20;
-/// The highest ball that can be volleyed, metres.
-const VOLLEY_M: f32 = 1.2;
 
 /// A kick that a bot decides on now; its swing begins as soon as one meets the ball.
 pub fn planned(kind: KickKind, tick: u32) -> KickPlan {
@@ -78,7 +76,7 @@ fn begun(kind: KickKind, ready_at: i32) -> Swing {
         kind,
         ready_at,
         way: None,
-        place: Vec2::ZERO,
+        place: Vec3::ZERO,
         mate: None,
         end_dmps: Swing::RUN,
         left_m: 0.0,
@@ -281,9 +279,6 @@ fn missed_share(game: &Match, id: PlayerId, swing: &Swing) -> Option<f32> {
     }
     if let Some((keeper, _)) = game.play.hands {
         return (keeper == id).then_some(0.0);
-    }
-    if game.ball.pos.z > VOLLEY_M {
-        return None;
     }
     leg::missed_share(game, swing.place)
 }

@@ -9,7 +9,7 @@ use crate::football::pace::SPRINT_MPS;
 use crate::math;
 use crate::state::play::ticks_since;
 use crate::state::{Match, PlayerId};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::Stat;
 
 /// The reach of a motion of [`MEAN_TICKS`], metres, and the power by which it grows with the time
@@ -133,8 +133,8 @@ pub(super) fn is_high_enough(ball_m: f32, motion_m: f32, low_m: f32) -> bool {
 
 /// How much of its own way a ball keeps that has come off the place where a foot arrives now, 0..1.
 /// None if the foot misses it. (GRF's.)
-pub(super) fn missed_share(game: &Match, place: Vec2) -> Option<f32> {
-    let off = game.ball.pos.truncate().distance(place) / MISSED_M;
+pub(super) fn missed_share(game: &Match, place: Vec3) -> Option<f32> {
+    let off = game.ball.pos.distance(place) / MISSED_M;
     (off < 1.0).then(|| math::smooth(math::smooth(off)))
 }
 

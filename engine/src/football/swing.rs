@@ -9,7 +9,7 @@ use crate::football::{foot, reach};
 use crate::math;
 use crate::state::player::{KickKind, Stroke};
 use crate::state::{Match, Player, PlayerId};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 /// A swing.
 pub(super) struct SwingMotion {
@@ -74,6 +74,18 @@ const fn swing(
     }
 }
 
+/// A header.
+const fn head(
+    to: [f32; 2],
+    ticks: i32,
+    [ahead_m, aside_m, high_m]: [f32; 3],
+    mean: [f32; 2],
+    end_mps: f32,
+    out_mps: f32,
+) -> SwingMotion {
+    swing(to, ticks, [ahead_m, aside_m], mean, [end_mps, 0.0], out_mps).at_height(high_m)
+}
+
 impl SwingMotion {
     /// The same at a ball in the air.
     const fn at_height(mut self, high_m: f32) -> SwingMotion {
@@ -124,6 +136,9 @@ const SHOTS: ByGait = [
             .crossed()
             .limited(0.7, 0.0)
             .moving(1.72, 0.0),
+        head([22.0, 45.0], 33, [0.52, 0.3, 1.64], [1.0, 0.8], 4.83, 3.5)
+            .limited(0.2, 0.0)
+            .moving(4.83, 0.0),
     ],
     &[
         swing([11.0, 45.0], 15, [0.22, -0.28], [2.25, 0.69], [4.36, 0.23], 3.4).moving(6.0, 0.0),
@@ -133,6 +148,9 @@ const SHOTS: ByGait = [
             .moving(4.54, 16.2),
         swing([25.0, 45.0], 17, [0.54, -0.14], [2.48, 0.65], [4.1, 0.27], 3.4).moving(4.46, 13.4),
         swing([80.0, 45.0], 29, [0.77, 0.0], [1.46, 0.77], [2.35, 0.19], 1.3).moving(2.77, -29.0),
+        head([0.0, 45.0], 32, [0.98, 0.0, 1.05], [4.5, 0.6], 7.8, 0.5)
+            .limited(0.3, 0.0)
+            .moving(7.81, 0.0),
     ],
 ];
 const PASSES: ByGait = [
@@ -142,6 +160,12 @@ const PASSES: ByGait = [
         swing([90.0, 45.0], 30, [0.69, 0.05], [0.0, 0.0], [0.5, 0.0], 0.4)
             .at_height(0.36)
             .limited(0.7, 0.3),
+        head([0.0, 45.0], 25, [0.44, 0.0, 1.65], [-0.2, 0.0], 0.0, 0.3).limited(0.4, 0.2),
+        head([90.0, 45.0], 21, [0.19, 0.26, 1.65], [0.0, 0.0], 0.0, 0.3).limited(0.4, 0.2),
+        head([0.0, 45.0], 37, [0.44, 0.03, 1.87], [-0.5, 0.0], -1.0, 0.3).limited(0.4, 0.3),
+        head([11.0, 45.0], 43, [0.64, 0.07, 1.8], [1.3, 0.0], 1.4, 0.3).limited(0.5, 0.4),
+        head([68.0, 45.0], 49, [0.28, 0.19, 1.88], [-0.3, 0.0], -1.0, 0.3).limited(0.4, 0.3),
+        head([135.0, 45.0], 37, [-0.04, 0.26, 1.89], [-0.5, 0.0], -0.8, 0.3).limited(0.3, 0.5),
         swing([180.0, 45.0], 39, [0.0, 0.05], [0.72, 0.0], [1.3, 0.0], 0.8).limited(0.4, 0.4),
     ],
     &[
@@ -166,6 +190,8 @@ const PASSES: ByGait = [
         swing([135.0, 23.0], 36, [0.05, 0.0], [2.7, 0.3], [3.0, 0.0], 2.0)
             .crossed()
             .limited(0.6, 0.4),
+        head([0.0, 45.0], 13, [0.44, 0.19, 1.58], [0.8, 0.84], 3.7, 3.4).limited(0.5, 0.4),
+        head([90.0, 45.0], 21, [0.05, 0.33, 1.74], [1.0, 0.75], 3.7, 3.4).limited(0.3, 0.7),
     ],
     &[
         swing([22.0, 23.0], 27, [0.32, -0.16], [3.28, 0.47], [4.61, 0.08], 5.0),
@@ -175,6 +201,7 @@ const PASSES: ByGait = [
             .limited(0.7, 0.1),
         swing([90.0, 23.0], 35, [0.3, 0.04], [2.82, 0.47], [4.4, 0.0], 3.4).limited(0.7, 0.2),
         swing([180.0, 45.0], 36, [-0.08, 0.03], [2.92, 0.55], [5.13, 0.08], 3.2).limited(0.3, 0.7),
+        head([11.0, 45.0], 25, [0.51, 0.1, 1.78], [1.5, 0.7], 3.8, 3.0).limited(0.5, 0.4),
     ],
 ];
 const LOFTS: ByGait = [
@@ -220,7 +247,7 @@ fn of(kind: KickKind) -> &'static ByGait {
 pub(super) struct ChosenSwing {
     pub(super) motion: &'static SwingMotion,
     /// Where it meets the ball, world metres.
-    pub(super) place: Vec2,
+    pub(super) place: Vec3,
     pub(super) stroke: Stroke,
 }
 
@@ -314,7 +341,7 @@ pub(super) fn find(game: &Match, id: PlayerId, kind: KickKind, way: Vec2) -> Opt
                         && suits(motion, side) == first
                         && meets(motion, side)
                 })?;
-                let place = ball_at(motion).truncate();
+                let place = ball_at(motion);
                 Some(ChosenSwing { motion, place, stroke: stance.stroke(motion, side) })
             })
         };

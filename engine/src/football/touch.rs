@@ -63,11 +63,8 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad, about: Squa
         let distance = player.pos.distance_squared(flat);
         if distance > 1.1 * 1.1
             || !(player.is_up() || keeps(game, id, distance))
-            || ball.z > player.body.height_m + 0.35
+            || ball.z > first_touch::CHEST_M
         {
-            continue;
-        }
-        if ball.z > first_touch::CHEST_M && !heads(game, id) {
             continue;
         }
         if owner == Some(id) {
@@ -142,18 +139,6 @@ fn keeps(game: &Match, id: PlayerId, distance_squared: f32) -> bool {
         && game.last_touch == Some(id)
         && distance_squared < KEPT_M * KEPT_M
         && ticks_since(game.tick, player.body.touched_at) >= KEPT_TICKS
-}
-
-/// Whether a player heads a high ball rather than let it come down: in a duel, to clear, or as
-/// their kick.
-fn heads(game: &Match, id: PlayerId) -> bool {
-    let player = game.player(id);
-    let deep = player.pos.x * id.team().side() as f32 <= -25.0;
-    let rival = || {
-        game.team(id.team().other())
-            .any(|(_, rival)| rival.pos.distance_squared(player.pos) < 2.2 * 2.2)
-    };
-    player.body.kick.is_some() || deep || rival()
 }
 
 /// Whether a keeper may use their hands: not if lazy, and not if driven by an agent under

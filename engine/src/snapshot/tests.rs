@@ -43,7 +43,7 @@ fn busy() -> Match {
         kind: KickKind::Shot,
         ready_at: 0,
         way: Some(spot),
-        place: spot,
+        place: spot.extend(0.0),
         mate: Some(id),
         end_dmps: 0,
         left_m: 0.0,

@@ -1,7 +1,7 @@
 //! A player: the public state, and the internal [`Body`] with statistics, intents and what the body
 //! does.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;
 use setpiece_scenario::pitch::{PLAYERS_MAX, TEAM_MAX};
 use setpiece_scenario::vocabulary::{Action, Role, Stat, Team};
@@ -221,8 +221,8 @@ pub struct Swing {
     pub ready_at: i32,
     /// The way from the ball to the target, world metres; none at a set piece that a bot takes.
     pub way: Option<Vec2>,
-    /// Where the foot is to meet the ball, world metres.
-    pub place: Vec2,
+    /// Where the foot or head is to meet the ball, world metres.
+    pub place: Vec3,
     /// The receiver when it began.
     pub mate: Option<PlayerId>,
     /// How fast the player is at its end, 0.1 m/s; [`Swing::RUN`] leaves their run to them.

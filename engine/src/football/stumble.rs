@@ -86,7 +86,8 @@ fn outcome(
     let from = (player.pos - other.pos).normalize_or_zero();
     let turned = 0.5 - 0.5 * player.body.facing.dot(from);
     let ball = game.play.forecast.at(game.tick + 1).truncate();
-    let has_ball = game.controller() == Some(id) || game.owner == Some(id);
+    let had_ball = game.controller() == Some(id) || game.owner == Some(id);
+    let has_ball = had_ball && game.last_touch == Some(id);
     let rival = game.play.chaser[id.team().other().index()];
     let ahead = rival.is_none_or(|rival| game.player(rival).body.meet_s > player.body.meet_s);
     let counts = turned

@@ -50,8 +50,6 @@ const PANIC_M: std::ops::Range<f32> = 2.0..16.0;
 const KEEPER_CALM: f32 = 3.0;
 /// A player decides what to do with the ball this many seconds before it arrives.
 const AHEAD_S: f32 = 1.0;
-/// A rival must be at least this far off in time for a clearance to succeed, seconds; chosen.
-const SWING_S: f32 = 0.1;
 /// Ticks after which a kick that did not come off is thought over; chosen.
 const MIND_TICKS: i32 = 80;
 
@@ -180,8 +178,7 @@ fn must_clear(game: &Match, view: &TeamView, id: PlayerId, pass: f32) -> bool {
     }
     let close =
         1.0 - share((player.pos * view.side).distance(-game.goal()), PANIC_M.start, PANIC_M.end);
-    // With a rival at the ball there is no time to swing.
-    rival_s > SWING_S && (pass == 0.0 || pass < close) && ahead < 0.9 + 0.8 * close
+    (pass == 0.0 || pass < close) && ahead < 0.9 + 0.8 * close
 }
 
 /// Where to shoot at, own frame. None from places where nobody would shoot.

@@ -4,8 +4,8 @@
 //! count against balance; if they outweigh it, a runner stumbles or falls. (GRF's rule; its motions
 //! are measured.)
 
-use crate::football::foul;
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
+use crate::football::{foul, possession};
 use crate::math;
 use crate::state::event::Events;
 use crate::state::player::{Aim, Pose};
@@ -86,13 +86,12 @@ fn outcome(
     let from = (player.pos - other.pos).normalize_or_zero();
     let turned = 0.5 - 0.5 * player.body.facing.dot(from);
     let ball = game.play.forecast.at(game.tick + 1).truncate();
-    let had_ball = game.controller() == Some(id) || game.owner == Some(id);
-    let has_ball = had_ball && game.last_touch == Some(id);
-    let rival = game.play.chaser[id.team().other().index()];
-    let ahead = rival.is_none_or(|rival| game.player(rival).body.meet_s > player.body.meet_s);
+    let rivals = game.team(id.team().other());
+    let soonest = rivals.fold(f32::MAX, |least, (_, rival)| least.min(rival.body.meet_s));
+    let has_ball = possession::has_ball(game, id) && soonest > player.body.meet_s;
     let counts = turned
         + pace(player.vel.length())
-        + f32::from(u8::from(has_ball && ahead))
+        + f32::from(u8::from(has_ball))
         + BALANCE * (1.0 - player.skill(Stat::Balance))
         + (player.body.push_m * 10.0).min(1.0)
         + depth

@@ -159,10 +159,13 @@ fn tackles(player: &Player, now: i32) -> f32 {
     }
 }
 
-/// Moves a player by this much over two ticks, metres; their own velocity takes over a part of it.
+/// Moves a player by this much over two ticks, metres. Their own velocity takes over a part of it,
+/// except in a stumble, which runs its course. (GRF's.)
 fn displace(game: &mut Match, id: PlayerId, by: Vec2) {
     let player = &mut game.players[id.index()];
     player.pos += by;
-    player.vel += by * (TAKEN_OVER / (2.0 * DT));
+    if !matches!(player.body.pose, Pose::Stumbling { .. }) {
+        player.vel += by * (TAKEN_OVER / (2.0 * DT));
+    }
     player.body.push_m = (player.body.push_m + by.length()).min(SHOVE_MAX_M);
 }

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 from os import PathLike
 from typing import TYPE_CHECKING
 
+from setpiece._env_options import EvaluateArguments
 from setpiece._errors import CompileError, ParameterError
 from setpiece._levels import is_plan
 from setpiece._native import Scenario
 from setpiece._opponents import Opponent
 from setpiece._options import ParamValue
 from setpiece._source import Source, level_of, load
-from setpiece._suite import EvaluateArguments, Suite, SuiteTable, suite, suites
+from setpiece._suite import Suite, SuiteTable, suite, suites
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from io import StringIO
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any
 
 import numpy as np
 
@@ -114,17 +114,6 @@ class SuiteTable:
         Raises `MissingPackageError` without pandas.
         """
         return need("pandas", "pandas", "`to_pandas`").DataFrame(self.to_dicts())
-
-
-class EvaluateArguments(TypedDict, total=False):
-    """The arguments of `Suite.evaluate` beside the policy."""
-
-    threads: int | None
-    observation: str
-    stack: int
-    size: tuple[int, int]
-    scale: bool
-    rewards: Rewards
 
 
 @dataclass(frozen=True)

@@ -89,16 +89,14 @@ def summary(found: dict[str, Any]) -> str:
 
 
 def command(
-    about: str | None,
-    chosen: type[Settings],
-    learner: type[Training],
-    argv: list[str] | None = None,
+    about: str | None, learner: type[Training], argv: list[str] | None = None
 ) -> dict[str, Any]:
-    """Reads the command line of a learner and trains; `chosen` are its settings."""
+    """Reads the command line of a learner and trains."""
+    known = fields(learner.options)
     parser = argparse.ArgumentParser(
         description=about, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    for one in fields(chosen):
+    for one in known:
         said = f"{one.metadata['about']} (default: {one.default})"
         if isinstance(one.default, bool):
             parser.add_argument(
@@ -122,7 +120,7 @@ def command(
     parser.add_argument("--out", type=Path, default=Path("runs/baseline"), help="a folder")
     args = parser.parse_args(argv)
     try:
-        settings = chosen(**{one.name: getattr(args, one.name) for one in fields(chosen)})
+        settings = learner.options(**{one.name: getattr(args, one.name) for one in known})
         watch = Watch(
             settings,
             args.out,

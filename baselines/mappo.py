@@ -20,18 +20,18 @@ from torch import Tensor, nn
 import ppo
 from command import command
 from networks import body, layer
-from settings import Settings, setting
+from settings import setting
 
 
 @dataclass(frozen=True)
-class TeamSettings(Settings):
+class Settings(ppo.Settings):
     """The settings whose values differ from those of PPO."""
 
     scenario: str = setting("multi_pass_and_shoot_with_keeper", "a name of the library or a file")
     players: int = setting(0, "of the left team that the policy plays; 0: those of the scenario")
 
 
-class TeamPolicy(ppo.Policy):
+class Policy(ppo.Policy):
     """A policy whose returns are predicted from what all players of a match see."""
 
     def valuer(self, inputs: int, width: int, agents: int) -> nn.Module:
@@ -44,15 +44,15 @@ class TeamPolicy(ppo.Policy):
         return foreseen
 
 
-class TeamTraining(ppo.Training):
+class Training(ppo.Training):
     """A run of MAPPO."""
 
-    network = TeamPolicy
+    network, options = Policy, Settings
 
 
 def main(argv: list[str] | None = None) -> dict[str, Any]:
     """Reads the command line and trains."""
-    return command(__doc__, TeamSettings, TeamTraining, argv)
+    return command(__doc__, Training, argv)
 
 
 if __name__ == "__main__":

@@ -112,6 +112,7 @@ class Training:
     """A run: the policy, its optimizer, the environments, and what was measured so far."""
 
     network: type[Policy] = Policy
+    options: type[Settings] = Settings
 
     def __init__(self, settings: Settings, *, threads: int = 1, device: str = "cpu") -> None:
         self.settings, self.threads, self.device = settings, threads, torch.device(device)
@@ -335,7 +336,7 @@ class Training:
 
 def main(argv: list[str] | None = None) -> dict[str, Any]:
     """Reads the command line and trains."""
-    return command(__doc__, Settings, Training, argv)
+    return command(__doc__, Training, argv)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ import statistics
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,7 @@ class Run:
     name: str
     table: str
     seed: int
+    learner: str
     settings: dict[str, Any]
 
     @property
@@ -52,7 +54,10 @@ class Run:
 def ledger() -> list[Run]:
     """Returns all runs: the first seed of every entry, then the second, and so on."""
     runs = [
-        (place, Run(entry.name, entry.table, seed, {**entry.settings, "seed": seed}))
+        (
+            place,
+            Run(entry.name, entry.table, seed, entry.learner, {**entry.settings, "seed": seed}),
+        )
         for entry in ENTRIES
         for place, seed in enumerate(entry.seeds)
     ]
@@ -164,13 +169,14 @@ def play(run: Run, threads: int) -> None:
     """Trains a run, or continues it, and keeps its result."""
     sys.path.insert(0, str(HERE))
     os.chdir(HERE.parent)
-    import ppo
+    from command import summary, train
 
     print(f"{run.name}, seed {run.seed}", flush=True)
-    found = ppo.train(ppo.Settings(**run.settings), run.out, threads=threads)
+    learner = import_module(run.learner).Training
+    found = train(learner, learner.options(**run.settings), run.out, threads=threads)
     RESULTS.mkdir(exist_ok=True)
     run.result.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-    print(ppo.summary(found), flush=True)
+    print(summary(found), flush=True)
 
 
 def main(argv: list[str] | None = None) -> None:

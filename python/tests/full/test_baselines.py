@@ -68,8 +68,8 @@ def test_it_continues_bit_for_bit(ppo: Any, tmp_path: Path, settings: dict[str, 
 
 
 def test_a_team_continues_bit_for_bit(mappo: Any, tmp_path: Path) -> None:
-    chosen = mappo.TeamSettings(scenario=MULTI, steps=16 * 8 * 4 * 12, seed=3, **SMALL)
-    continues(mappo.TeamTraining, chosen, tmp_path)
+    chosen = mappo.Settings(scenario=MULTI, steps=16 * 8 * 4 * 12, seed=3, **SMALL)
+    continues(mappo.Training, chosen, tmp_path)
 
 
 def continues(learner: Any, chosen: Any, tmp_path: Path) -> None:
@@ -254,10 +254,8 @@ def test_a_checkpoint_of_other_settings_is_refused(
 
 def test_a_team_learns(mappo: Any) -> None:
     """Two players: the score of a policy that has learnt nothing is about 0.05."""
-    settings = mappo.TeamSettings(
-        scenario="multi_pass_and_shoot_with_keeper", steps=600_000, seed=100
-    )
-    training = mappo.TeamTraining(settings)
+    settings = mappo.Settings(scenario="multi_pass_and_shoot_with_keeper", steps=600_000, seed=100)
+    training = mappo.Training(settings)
     assert training.agents == 2
     before = training.evaluate(100, drawn=False).mean()
     training.run()
@@ -273,7 +271,7 @@ def test_the_value_of_a_player_depends_on_what_the_others_see(ppo: Any, mappo: A
         learner(chosen(scenario=MULTI, players=3, **SMALL)).policy
         for learner, chosen in (
             (ppo.Training, ppo.Settings),
-            (mappo.TeamTraining, mappo.TeamSettings),
+            (mappo.Training, mappo.Settings),
         )
     )
     for policy, depends in ((alone, False), (team, True)):

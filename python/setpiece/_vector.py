@@ -80,6 +80,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         "autoreset_mode": AutoresetMode.NEXT_STEP,
     }
 
+    closed = True
+    """Until it is made: what is refused has nothing to close."""
+
     def __init__(
         self,
         scenario: Source,
@@ -168,6 +171,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self._marks = np.ones(self.num_envs, bool)
         self._marks.flags.writeable = False
         self._terms = self._batch.terms
+        self.closed = False
 
     def reset(
         self,

@@ -40,7 +40,9 @@ def train(
     (out / "result.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
     torch.save(training.policy.state_dict(), out / "policy.pt")
     try:
-        training.policy.export(out / "policy.onnx", training.matches.rows[:, 0], settings.repeat)
+        matches = training.matches
+        masks = matches.masks[:, 0] if settings.masks else None
+        training.policy.export(out / "policy.onnx", matches.rows[:, 0], masks, settings.repeat)
     except ImportError as error:
         print(f"no policy.onnx: {error}")
     return found

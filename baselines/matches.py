@@ -35,9 +35,9 @@ def rows_of(envs: Any, observation: np.ndarray) -> np.ndarray:
 
 
 def masks_of(envs: Any, infos: dict[str, Any]) -> np.ndarray:
-    """Returns the masks of the actions, `(envs, agents, actions)`."""
+    """Returns the masks of the actions, int8 `(envs, agents, actions)`."""
     shown: np.ndarray = infos["action_mask"]
-    return shown.reshape(len(shown), len(envs.agents), -1).astype(bool)
+    return shown.reshape(len(shown), len(envs.agents), -1)
 
 
 @dataclass

@@ -87,25 +87,41 @@ class Policy(nn.Module):
         seen = prepared if isinstance(self.sight, Running) else self.sight(prepared)
         return self.actor(seen), self.foresee(seen)
 
-    def export(self, path: Path, observations: np.ndarray, repeat: int) -> None:
-        """Writes an ONNX file: from observations to the logits of the actions.
+    def export(self, path: Path, shown: np.ndarray, masks: np.ndarray | None, repeat: int) -> None:
+        """Writes an ONNX file: from observations, and masks if it needs them, to logits.
 
         Its metadata says how many steps a decision lasts.
         """
         import onnx
 
+        given = {"observation": torch.from_numpy(shown)}
+        if masks is not None:
+            given["mask"] = torch.from_numpy(masks.astype(bool))
         torch.onnx.export(
-            self.cpu().eval(),
-            (torch.from_numpy(observations),),
+            Masked(self.cpu().eval()),
+            tuple(given.values()),
             path,
-            input_names=["observation"],
+            input_names=[*given],
             output_names=["logits"],
-            dynamic_axes={"observation": {0: "batch"}, "logits": {0: "batch"}},
+            dynamic_axes={name: {0: "batch"} for name in [*given, "logits"]},
             dynamo=False,
         )
         model = onnx.load(path)
         onnx.helper.set_model_props(model, {"repeat": str(repeat)})
         onnx.save(model, path)
+
+
+class Masked(nn.Module):
+    """A policy that rates masked actions as impossible, for its file."""
+
+    def __init__(self, policy: Policy) -> None:
+        super().__init__()
+        self.policy = policy
+
+    def forward(self, observations: Tensor, masks: Tensor | None = None) -> Tensor:
+        """Returns the logits."""
+        logits = self.policy(observations)
+        return logits if masks is None else log_odds(logits, masks)
 
 
 class Training:
@@ -298,7 +314,12 @@ class Training:
         masks: np.ndarray | None = None,
         random: torch.Generator | None = None,
     ) -> np.ndarray:
-        """Returns the likeliest actions `(…,)` for observations `(…, *shape)`, or draws them."""
+        """Returns the likeliest actions `(…,)` for observations `(…, *shape)`, or draws them.
+
+        `masks` are `(…, actions)`, or more.
+        """
+        if masks is not None:
+            masks = masks[..., : self.actions].astype(bool)
         odds = log_odds(
             self.policy(torch.from_numpy(seen).to(self.device)),
             None if masks is None else torch.from_numpy(masks).to(self.device),

@@ -52,6 +52,6 @@ ENTRIES = (
     academy("counterattack_easy", 5_000_000),
     three("alone"),
     three("past_the_defender", levels="examples/waking_defender.pitch"),
-    team("pass_and_shoot_with_keeper", 5_000_000),
-    team("run_pass_and_shoot_with_keeper", 5_000_000),
+    team("pass_and_shoot_with_keeper", 3_000_000),
+    team("run_pass_and_shoot_with_keeper", 3_000_000),
 )

@@ -39,8 +39,6 @@ class Watch:
         for name, count, least in (("every", every, 1), ("video-every", video_every, 0)):
             if count < least:
                 raise ValueError(f"--{name} is {count}; expected at least {least}")
-        if suite and settings.masks:
-            raise ValueError("--evaluate shows a policy no masks, which it needs after --masks")
         self.settings, self.out = settings, out
         self.every, self.video_every = every, video_every
         self.suite = setpiece.suite(suite) if suite else None
@@ -56,7 +54,7 @@ class Watch:
     def evaluate(self, training: Training, writer: Any) -> None:
         """Plays the suite."""
         settings = self.settings
-        policy = setpiece.Policy(training.choose, repeat=settings.repeat)
+        policy = setpiece.Policy(training.choose, repeat=settings.repeat, masks=settings.masks)
         table = setpiece.evaluate(
             policy,
             self.suite,
@@ -88,7 +86,7 @@ def film(training: Training, path: Path) -> None:
     )
     observation, info = env.reset(seed=EVALUATION_SEED)
     while "outcome" not in info:
-        masks = info["action_mask"].reshape(training.agents, -1).astype(bool)
+        masks = info["action_mask"].reshape(training.agents, -1)
         pressed = training.choose(
             np.reshape(observation, (training.agents, *training.shape)),
             masks if settings.masks else None,

@@ -272,7 +272,9 @@ class Suite:
         with one_thread:
             batch.reset(arrays, [True] * n, none, none, False)
         while levels.n_unfinished:
-            actions = crowd.actions(nobody, arrays.observations, batch.look, batch.steps)
+            actions = crowd.actions(
+                nobody, arrays.observations, batch.look, arrays.masks, batch.steps
+            )
             with one_thread:
                 batch.step(arrays, actions)
         return self._native.row(at, name, levels)

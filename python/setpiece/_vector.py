@@ -330,8 +330,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _read(self, given: Any) -> NDArray[Any]:
         """Everyone's actions: the caller's and the opponents'; the batch reads the numbers."""
         if self._crowd is not None:
-            steps = self._batch.steps
-            return self._crowd.actions(given, self._arrays.observations, self._look, steps)
+            arrays, steps = self._arrays, self._batch.steps
+            return self._crowd.actions(given, arrays.observations, self._look, arrays.masks, steps)
         actions = array_of(given)
         if actions is None:
             raise ActionError(

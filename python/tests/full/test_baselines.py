@@ -206,7 +206,7 @@ def test_a_policy_of_pictures_is_exported_for_any_number_of_them(ppo: Any, tmp_p
     pytest.importorskip("onnxruntime")
     training = ppo.Training(ppo.Settings(observation="smm", stack=2, **SMALL))
     rows = training.matches.rows
-    training.policy.export(tmp_path / "policy.onnx", rows[:, 0], 4)
+    training.policy.export(tmp_path / "policy.onnx", rows[:, 0], None, 4)
     policy = setpiece.onnx_policy(tmp_path / "policy.onnx")
     assert policy.repeat == 4
     for number in (1, 7):
@@ -225,7 +225,6 @@ def test_a_policy_of_pictures_is_exported_for_any_number_of_them(ppo: Any, tmp_p
         (["--evaluate", "academi"], "did you mean `academy`?"),
         (["--evaluate", "academy", "--every", "0"], "every"),
         (["--video-every", "-2"], "video-every"),
-        (["--masks", "--evaluate", "academy"], "masks"),
     ],
 )
 def test_a_mistake_is_explained(
@@ -267,8 +266,9 @@ def test_the_value_of_a_player_depends_on_what_the_others_see(ppo: Any, mappo: A
     seen = torch.rand(5, 3, 115)
     other = seen.clone()
     other[:, 2] = torch.rand(5, 115)
+    plain = {"observation": "simple115v2", "masks": False, **SMALL}
     alone, team = (
-        learner(chosen(scenario=MULTI, players=3, **SMALL)).policy
+        learner(chosen(scenario=MULTI, players=3, **plain)).policy
         for learner, chosen in (
             (ppo.Training, ppo.Settings),
             (mappo.Training, mappo.Settings),
@@ -322,13 +322,19 @@ def test_what_is_watched_changes_nothing(ppo: Any, baseline: Any, tmp_path: Path
         assert (recorded.seed, recorded.index) == (baseline("measure").EVALUATION_SEED, 0)
 
 
-def test_a_suite_is_played_as_its_policy_s_file_plays_it(mappo: Any, tmp_path: Path) -> None:
+@pytest.mark.parametrize("masks", ["--masks", "--no-masks"])
+def test_a_suite_is_played_as_its_policy_s_file_plays_it(
+    mappo: Any, tmp_path: Path, masks: str
+) -> None:
     pytest.importorskip("onnx")
     pytest.importorskip("onnxruntime")
     suite = f"suite three {{ {MULTI} for 20 episodes }}"
     options = f"--scenario {MULTI} --steps 4096 --envs 16 --decisions 8 --episodes 10".split()
-    mappo.main([*options, "--evaluate", suite, "--every", "3", "--out", str(tmp_path)])
-    table = setpiece.evaluate(tmp_path / "policy.onnx", suite)
+    watched = ["--evaluate", suite, "--every", "3", "--video-every", "8"]
+    mappo.main([*options, masks, *watched, "--out", str(tmp_path)])
+    assert (tmp_path / "videos" / "000004096.mp4").is_file()
+    table = setpiece.evaluate(tmp_path / "policy.onnx", suite, observation="simple115v2+sticky")
+    assert setpiece.onnx_policy(tmp_path / "policy.onnx").masks is (masks == "--masks")
     with (tmp_path / "suites.csv").open(encoding="utf-8") as lines:
         last = [*csv.DictReader(lines)][-1]
     assert last["digest"] == table.rows[0].digest

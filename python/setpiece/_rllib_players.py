@@ -29,7 +29,7 @@ class Players(VectorEnv[Any, Any, Any]):
         arguments = {"threads": 1, **config}
         arguments.pop("num_envs", None)
         self.envs = FootballVectorEnv(num_envs=matches, autoreset_mode="same_step", **arguments)
-        self.players = len(self.envs.agents)
+        self.matches, self.players = matches, len(self.envs.agents)
         self.num_envs = matches * self.players
         self.single_observation_space = alone(self.envs.single_observation_space, self.players)
         self.single_action_space = alone(self.envs.single_action_space, self.players)

@@ -116,6 +116,9 @@ class FootballEnvRunner(SingleAgentEnvRunner):
     def _begin(self) -> None:
         """Begins an episode of every player."""
         seed = self._seed if self._needs_initial_reset else None
+        if seed is not None:
+            # RLlib's seeds of the runners follow each other, and so do those of a runner's matches.
+            seed += (self.worker_index or 0) * (self.env.matches - 1)
         self._shown, _ = self._try_env_reset(seed=seed)
         self._ids = [uuid4().hex for _ in range(self.num_envs)]
         self._played[:] = 0

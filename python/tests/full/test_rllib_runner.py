@@ -126,6 +126,16 @@ def rows_of(sample: list[Any], rows: int) -> list[int]:
     return found
 
 
+def test_runners_play_different_matches() -> None:
+    chosen = config({"scenario": THREE}, envs=4, steps=1)
+    levels = []
+    for index in (1, 2, 3):
+        runner = FootballEnvRunner(config=chosen, worker_index=index)
+        runner.sample()
+        levels += runner.env.envs.levels
+    assert len({*levels}) == len(levels) == 12
+
+
 def test_it_says_how_likely_an_action_was() -> None:
     runner = FootballEnvRunner(config=config({"scenario": THREE}))
     for one in runner.sample():

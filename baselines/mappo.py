@@ -31,7 +31,6 @@ class Settings(ppo.Settings):
     players: int = setting(0, "of the left team that the policy plays; 0: those of the scenario")
     observation: str = setting("simple115v2+sticky", "numbers or pictures that the policy sees")
     masks: bool = setting(True, "draw only actions that can change something")
-    entropy: float = setting(0.01, "weight of the entropy; it falls to 0")
 
 
 class Policy(ppo.Policy):

@@ -62,6 +62,10 @@ class FootballEnvRunner(SingleAgentEnvRunner):
         self.env = Players(config, self.config.num_envs_per_env_runner)
         self.num_envs = self.env.num_envs
         self._needs_initial_reset = True
+        self._next_seed = self._seed
+        if self._next_seed is not None:
+            # RLlib's seeds of the runners follow each other, and so do those of a runner's matches.
+            self._next_seed += (self.worker_index or 0) * (self.env.matches - 1)
         self._ids = [uuid4().hex for _ in range(self.num_envs)]
         self._played = np.zeros(self.num_envs, np.int64)
         self._returns = np.zeros(self.num_envs)
@@ -115,10 +119,8 @@ class FootballEnvRunner(SingleAgentEnvRunner):
 
     def _begin(self) -> None:
         """Begins an episode of every player."""
-        seed = self._seed if self._needs_initial_reset else None
-        if seed is not None:
-            # RLlib's seeds of the runners follow each other, and so do those of a runner's matches.
-            seed += (self.worker_index or 0) * (self.env.matches - 1)
+        # Later ones go on counting the episodes of the first.
+        seed, self._next_seed = self._next_seed, None
         self._shown, _ = self._try_env_reset(seed=seed)
         self._ids = [uuid4().hex for _ in range(self.num_envs)]
         self._played[:] = 0

@@ -136,6 +136,15 @@ def test_runners_play_different_matches() -> None:
     assert len({*levels}) == len(levels) == 12
 
 
+def test_whole_episodes_go_on_with_other_starts() -> None:
+    runner = FootballEnvRunner(config=config({"scenario": THREE}, envs=2))
+    levels = []
+    for _ in range(3):
+        runner.sample(num_episodes=2)
+        levels += runner.env.envs.levels
+    assert len({*levels}) == len(levels) == 6
+
+
 def test_it_says_how_likely_an_action_was() -> None:
     runner = FootballEnvRunner(config=config({"scenario": THREE}))
     for one in runner.sample():

@@ -17,6 +17,7 @@ import statistics
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,7 @@ class Run:
     name: str
     table: str
     seed: int
+    learner: str
     settings: dict[str, Any]
 
     @property
@@ -52,7 +54,10 @@ class Run:
 def ledger() -> list[Run]:
     """Returns all runs: the first seed of every entry, then the second, and so on."""
     runs = [
-        (place, Run(entry.name, entry.table, seed, {**entry.settings, "seed": seed}))
+        (
+            place,
+            Run(entry.name, entry.table, seed, entry.learner, {**entry.settings, "seed": seed}),
+        )
         for entry in ENTRIES
         for place, seed in enumerate(entry.seeds)
     ]
@@ -125,26 +130,56 @@ HEAD = (
 def tables(runs: list[Run]) -> dict[str, str]:
     """Returns the tables in Markdown, by name.
 
-    They have a row for each entry that has a result. `tried` has one for each run of `tried`.
+    They have a row for each entry that has a result. Those of what was tried have one for each run.
     """
     found, lines = results(runs), {run.table: [HEAD, ("---",) * len(HEAD)] for run in runs}
     for name, table in {run.name: run.table for run in runs}.items():
         if found[name]:
             lines[table].append(tuple(row(found[name])))
-    return {**{name: markdown(rows) for name, rows in lines.items()}, "tried": tried()}
+    shown = {name: markdown(rows) for name, rows in lines.items()}
+    team = [found[name] for name in {run.name: 0 for run in runs if run.table == "team"}]
+    shown["team_course"] = course([one for one in team if one])
+    return {**shown, **{name: tried(name) for name in ("tried", "tried_team")}}
 
 
-def tried() -> str:
+def course(entries: list[list[dict[str, Any]]]) -> str:
+    """Returns the table of how runs went: the training score after parts of the steps, and time."""
+    parts = [part / 6 for part in range(1, 7)]
+    head = ("scenario", *(f"{part:.0%} of the steps" for part in parts), "where the time went")
+    rows = [head, ("---",) * len(head)]
+    for found in entries:
+        seconds = {
+            what: sum(one["seconds"][what] for one in found)
+            for what in ("acting", "environment", "learning")
+        }
+        cpu = sum(seconds.values())
+        rows.append(
+            (
+                f"`{found[0]['settings']['scenario']}`",
+                *(spread([after(one, part) for one in found]) for part in parts),
+                ", ".join(f"{what} {spent / cpu:.0%}" for what, spent in seconds.items()),
+            )
+        )
+    return markdown(rows)
+
+
+def after(found: dict[str, Any], part: float) -> float:
+    """Returns the training score once a part of the steps was done."""
+    point = min(found["curve"], key=lambda point: abs(point["steps"] - part * found["steps"]))
+    return point["score"] or 0.0
+
+
+def tried(folder: str) -> str:
     """Returns the table of the runs that settings were chosen by, in their order."""
     head = ("scenario", "seed", "steps", "what was different", "drawn actions", "likeliest actions")
     rows = [head, ("---",) * len(head)]
-    for path in sorted((RESULTS / "tried").glob("*.json")):
+    for path in sorted((RESULTS / folder).glob("*.json")):
         found = json.loads(path.read_text(encoding="utf-8"))
         settings = found["settings"]
         changed = [f"`{name}` {str(value).lower()}" for name, value in found["changed"].items()]
         rows.append(
             (
-                f"`{settings['scenario'].removeprefix('academy_')}`",
+                f"`{settings['scenario'].removeprefix('academy_').removeprefix('multi_')}`",
                 str(settings["seed"]),
                 f"{found['steps'] / 1e6:.1f} M",
                 "; ".join([*changed, *found["program"]]) or "nothing",
@@ -164,13 +199,14 @@ def play(run: Run, threads: int) -> None:
     """Trains a run, or continues it, and keeps its result."""
     sys.path.insert(0, str(HERE))
     os.chdir(HERE.parent)
-    import ppo
+    from command import summary, train
 
     print(f"{run.name}, seed {run.seed}", flush=True)
-    found = ppo.train(ppo.Settings(**run.settings), run.out, threads=threads)
+    learner = import_module(run.learner).Training
+    found = train(learner, learner.options(**run.settings), run.out, threads=threads)
     RESULTS.mkdir(exist_ok=True)
     run.result.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-    print(ppo.summary(found), flush=True)
+    print(summary(found), flush=True)
 
 
 def main(argv: list[str] | None = None) -> None:

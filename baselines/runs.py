@@ -1,6 +1,6 @@
 """The ledger: which scenarios are trained on, with which seeds and for how many steps.
 
-Everything else has the values of `ppo.Settings`, unless an entry names another one.
+Everything else has the values of the learner's settings, unless an entry names another one.
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ class Entry:
     table: str
     settings: dict[str, Any] = field(default_factory=dict)
     seeds: tuple[int, ...] = SEEDS
+    learner: str = "ppo"
+    """The file that trains: `ppo` or `mappo`."""
 
 
 def academy(name: str, steps: int, **settings: Any) -> Entry:
@@ -33,6 +35,12 @@ def three(name: str, **settings: Any) -> Entry:
     return Entry(name, "curriculum", {"scenario": "academy_3_vs_1_with_keeper", **chosen})
 
 
+def team(name: str, steps: int, **settings: Any) -> Entry:
+    """A scenario of the Academy with an agent for every outfield player, played by MAPPO."""
+    chosen = {"scenario": f"multi_{name}", "steps": steps, **settings}
+    return Entry(f"multi_{name}", "team", chosen, learner="mappo")
+
+
 ENTRIES = (
     academy("3_vs_1_with_keeper", 5_000_000),
     academy("run_to_score_with_keeper", 2_500_000),
@@ -44,4 +52,6 @@ ENTRIES = (
     academy("counterattack_easy", 5_000_000),
     three("alone"),
     three("past_the_defender", levels="examples/waking_defender.pitch"),
+    team("pass_and_shoot_with_keeper", 3_000_000),
+    team("run_pass_and_shoot_with_keeper", 3_000_000),
 )

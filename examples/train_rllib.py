@@ -2,9 +2,10 @@
 
     python examples/train_rllib.py --scenario academy_empty_goal_close --steps 300000 --out runs/rllib
 
-The processes may be on this machine or all over a cluster. It needs `setpiece[rllib]` and
-`tensorboard`, and starts its own Ray; `--address` uses that of a cluster. The log in `--out` has
-the same curves as that of `train_cleanrl.py`: score, return and every reward term.
+A runner plays its matches as one native batch (`setpiece.rllib.FootballEnvRunner`). The processes
+may be on this machine or all over a cluster. It needs `setpiece[rllib]` and `tensorboard`, and
+starts its own Ray; `--address` uses that of a cluster. The log in `--out` has the same curves as
+that of `train_cleanrl.py`: score, return and every reward term.
 """
 
 from __future__ import annotations
@@ -19,42 +20,13 @@ import ray
 import setpiece.rllib
 import torch
 from ray.rllib.algorithms.impala import IMPALAConfig
-from ray.rllib.callbacks.callbacks import RLlibCallback
 from ray.rllib.core.rl_module.default_model_config import DefaultModelConfig
 from torch.utils.tensorboard import SummaryWriter
-
-CURVES = "curves"
-
-
-class Terms(RLlibCallback):
-    """Logs score, return and reward terms of every episode."""
-
-    def on_episode_end(self, *, episode: Any, metrics_logger: Any, **_: Any) -> None:
-        """Reads the last infos; those of the only agent are enough."""
-        infos = {
-            agent: infos for agent, infos in episode.get_infos(-1).items() if "setpiece" in infos
-        }
-        for info in infos.values():
-            paid = info["setpiece"]["return"]
-            values = {
-                "episode/score": info["score"][0] - info["score"][1],
-                "episode/length": info["setpiece"]["length"],
-                "episode/return": sum(paid.values()),
-                **{f"terms/{name}": value for name, value in paid.items()},
-            }
-            for name, value in values.items():
-                # A metric's name is a path, so `/` would add a level.
-                metrics_logger.log_value(
-                    (CURVES, name.replace("/", ":")), value, reduce="mean", window=100
-                )
 
 
 def evaluate(module: Any, args: argparse.Namespace, episodes: int = 100) -> float:
     """Returns the mean score of the likeliest actions; every environment plays one episode."""
-    # As in `parallel_env`, an agent keeps its player.
-    envs = setpiece.make_vec(
-        args.scenario, episodes, autoreset_mode="same_step", left=1, switching="fixed"
-    )
+    envs = setpiece.make_vec(args.scenario, episodes, autoreset_mode="same_step", left=1)
     observation, _ = envs.reset(seed=1_000_000)
     score, playing = np.zeros(episodes), np.ones(episodes, bool)
     while playing.any():
@@ -82,7 +54,7 @@ def main(argv: list[str] | None = None) -> float:
         "--rewards", help="rewards instead of the scenario's own: scoring,checkpoints"
     )
     parser.add_argument("--steps", type=int, default=1_000_000)
-    parser.add_argument("--envs", type=int, default=32, help="of all runners together")
+    parser.add_argument("--envs", type=int, default=64, help="of all runners together")
     parser.add_argument("--threads", type=int, default=2, help="how many runners play")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--lr", type=float, default=1e-3)
@@ -100,12 +72,12 @@ def main(argv: list[str] | None = None) -> float:
             "setpiece", env_config={"scenario": args.scenario, "left": 1, "rewards": args.rewards}
         )
         .env_runners(
+            env_runner_cls=setpiece.rllib.FootballEnvRunner,
             num_env_runners=args.threads,
             num_envs_per_env_runner=max(1, args.envs // args.threads),
             rollout_fragment_length=64,
         )
         .learners(num_learners=0)
-        .multi_agent(policies={"p0"}, policy_mapping_fn=lambda *_, **__: "p0")
         .rl_module(
             model_config=DefaultModelConfig(fcnet_hiddens=[128, 128], fcnet_activation="tanh")
         )
@@ -116,10 +88,9 @@ def main(argv: list[str] | None = None) -> float:
             vf_loss_coeff=0.5,
             grad_clip=0.5,
             grad_clip_by="global_norm",
-            train_batch_size_per_learner=512,
+            train_batch_size_per_learner=64 * args.envs,
         )
         .reporting(min_time_s_per_iteration=1)
-        .callbacks(Terms)
         .debugging(seed=args.seed, log_level="ERROR")
     )
     algorithm = config.build_algo()
@@ -127,14 +98,16 @@ def main(argv: list[str] | None = None) -> float:
     while step < args.steps:
         played = algorithm.train()["env_runners"]
         step = int(played.get("num_env_steps_sampled_lifetime", 0))
-        for name, value in played.get(CURVES, {}).items():
+        curves = {"return": played.get("episode_return_mean", np.nan), **played.get("football", {})}
+        for name, value in curves.items():
             if not np.isnan(value):  # no episode has ended since the last entry
-                writer.add_scalar(name.replace(":", "/"), float(value), step)
+                name = name.replace(":", "/") if ":" in name else f"episode/{name}"
+                writer.add_scalar(name, float(value), step)
         writer.add_scalar("time/steps_per_second", step / (time.monotonic() - began), step)
     print(f"{step} steps in {time.monotonic() - began:.0f} s")
     writer.close()
     algorithm.save_to_path(str((args.out / "policy").resolve()))
-    score = evaluate(algorithm.get_module("p0"), args)
+    score = evaluate(algorithm.get_module(), args)
     print(f"mean score of 100 episodes: {score:.2f}")
     algorithm.stop()
     ray.shutdown()

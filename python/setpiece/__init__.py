@@ -38,6 +38,7 @@ from setpiece._errors import (
     UnavailableError,
     UnknownScenarioError,
 )
+from setpiece._evaluate import evaluate
 from setpiece._groups import FootballGroups, make_groups
 from setpiece._level import Level
 from setpiece._levels import Curriculum, LevelResult, curriculum
@@ -107,6 +108,7 @@ __all__ = [
     "__version__",
     "compile",
     "curriculum",
+    "evaluate",
     "list",
     "load",
     "make",

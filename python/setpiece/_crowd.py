@@ -28,12 +28,13 @@ class Crowd:
         given: Any,
         observations: NDArray[Any],
         look: Callable[[str, bool], list[Any]],
+        masks: NDArray[np.int8],
         steps: Sequence[int],
     ) -> NDArray[np.int64]:
         """Returns everyone's actions, int64 `(num_envs, agents)`: the caller's and the opponents'.
 
-        `observations` has a row for every match and agent; `look` observes each match in another
-        kind of observation; `steps` are those that each episode has played. Raises `ActionError`
+        `observations` and `masks` have a row for every match and agent; `look` observes each match
+        in another kind of observation; `steps` are those that each episode has played. Raises `ActionError`
         for the caller's actions, `OpponentError` if an opponent fails.
         """
         table = self._table
@@ -47,7 +48,8 @@ class Crowd:
                 # The only agent of a match has no axis of its own.
                 looks[kind] = seen if table.n_agents > 1 else [_alone(one) for one in seen]
             played = [step for step in steps for _ in seat.at]
-            acts = ask(seat, _rows(looks[kind], seat.at), played)
+            shown = _rows(masks, seat.at) if seat.masked else None
+            acts = ask(seat, _rows(looks[kind], seat.at), played, shown)
             actions[:, seat.at] = np.reshape(acts, (self._num_envs, len(seat.at)))
         return actions
 

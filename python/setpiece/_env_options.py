@@ -76,6 +76,17 @@ class EnvArguments(SharedArguments, total=False):
     bot_action: bool
 
 
+class EvaluateArguments(TypedDict, total=False):
+    """The arguments of `Suite.evaluate` beside the policy."""
+
+    threads: int | None
+    observation: str
+    stack: int
+    size: tuple[int, int]
+    scale: bool
+    rewards: Rewards
+
+
 @dataclass(frozen=True)
 class EnvOptions:
     """Validated arguments of an environment or a vector; the native module reads its attributes.

@@ -234,7 +234,8 @@ class FootballEnv(gymnasium.Env[Any, Any]):
                     )
                 match, table, given = self._match, self._match.table, action
                 if table is not None:
-                    action = table.actions(action, self.look, match.native.steps)
+                    native = match.native
+                    action = table.actions(action, self.look, native.action_mask, native.steps)
                 with one_thread:
                     observation, reward, terminated, truncated, info = match.native.step(action)
                 observation, info = match.shown(observation, info)

@@ -9,13 +9,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from setpiece._errors import FileError, FormatError
+from setpiece._errors import FileError, FormatError, ParameterError
 from setpiece._optional import need
 from setpiece._options import check_path
 
-TYPES = {"tensor(float)": np.float32, "tensor(double)": np.float64, "tensor(uint8)": np.uint8}
+TYPES = {
+    "tensor(float)": np.float32,
+    "tensor(double)": np.float64,
+    "tensor(uint8)": np.uint8,
+    "tensor(bool)": np.bool_,
+}
 ACTION_COUNTS = (19, 20)
 
+
+MASK = "mask"
+"""The name of a model's input for masks."""
 
 REPEAT = "repeat"
 """The key of a model's metadata that says how many steps a decision lasts."""
@@ -31,13 +39,41 @@ class OnnxPolicy:
     """The input of the model."""
     repeat: int
     """How many steps a decision lasts."""
+    mask: Any = None
+    """The input for masks, if the model has one."""
 
-    def __call__(self, observation: NDArray[Any]) -> NDArray[np.int64]:
-        """Returns the actions of greatest logit, int64 `(n,)`, for observations `(n, …)`."""
-        name, dtype = self.given.name, TYPES[self.given.type]
-        batches = observation[:, None] if self.given.shape[:1] == [1] else [observation]
+    @property
+    def masks(self) -> bool:
+        """Whether the model takes masks."""
+        return self.mask is not None
+
+    def __call__(
+        self, observation: NDArray[Any], masks: NDArray[Any] | None = None
+    ) -> NDArray[np.int64]:
+        """Returns the actions of greatest logit, int64 `(n,)`, for observations `(n, …)`.
+
+        A model with masks takes those of the actions too, `(n, 19)` or more.
+        """
+        if self.masks and masks is None:
+            raise ParameterError(f"`{self.path}` takes masks of the actions too", name="masks")
+        given = {self.given: observation}
+        if self.mask is not None and masks is not None:
+            given[self.mask] = masks[:, : self.mask.shape[1]]
+        n = len(observation)
+        parts = (
+            [slice(at, at + 1) for at in range(n)] if self.given.shape[:1] == [1] else [slice(n)]
+        )
         logits = np.concatenate(
-            [self.session.run(None, {name: np.asarray(one, dtype)})[0] for one in batches]
+            [
+                self.session.run(
+                    None,
+                    {
+                        one.name: np.asarray(rows[part], TYPES[one.type])
+                        for one, rows in given.items()
+                    },
+                )[0]
+                for part in parts
+            ]
         )
         if logits.ndim != 2 or logits.shape[1] not in ACTION_COUNTS:
             raise FormatError(
@@ -52,8 +88,9 @@ def onnx_policy(path: str | PathLike[str]) -> OnnxPolicy:
 
     Actions are int64 `(n,)`. The model has one input, the observation with a batch axis in front
     (`(batch, 115)` for `simple115v2`, `(batch, 72, 96, 4)` for `smm`; the batch free, or 1), as
-    float, double or uint8. Its first output is the logits `(batch, 19)` or `(batch, 20)`. Of equal
-    logits the first wins. It runs on the CPU in one thread, so results are always the same.
+    float, double or uint8. A second input called `mask` gets the masks of the actions, `(batch, 19)`
+    or `(batch, 20)`, also as bool. The first output is the logits `(batch, 19)` or `(batch, 20)`. Of
+    equal logits the first wins. It runs on the CPU in one thread, so results are always the same.
 
     If the model's metadata has the key `repeat`, a whole number, a decision lasts so many steps:
     whoever plays the policy presses its action in all of them. The policy has the attribute
@@ -75,14 +112,17 @@ def onnx_policy(path: str | PathLike[str]) -> OnnxPolicy:
     except Exception as error:
         raise FormatError(f"`{fspath(path)}` is no ONNX model that can be run: {error}") from error
     inputs = session.get_inputs()
-    if len(inputs) != 1 or inputs[0].type not in TYPES:
+    masks = [one for one in inputs if one.name == MASK and one.shape[1:] in ([19], [20])]
+    shown = [one for one in inputs if one not in masks]
+    if len(shown) != 1 or any(one.type not in TYPES for one in inputs):
         found = ", ".join(f"{one.name}: {one.type}" for one in inputs)
         raise FormatError(
-            f"`{fspath(path)}` has the inputs {found}; expected one: {', '.join(TYPES)}"
+            f"`{fspath(path)}` has the inputs {found}; expected one, and perhaps a `{MASK}`: "
+            f"{', '.join(TYPES)}"
         )
     said = session.get_modelmeta().custom_metadata_map.get(REPEAT, "1")
     if not (said.isdecimal() and int(said) >= 1):
         raise FormatError(
             f"`{fspath(path)}` has the `{REPEAT}` {said!r}; expected a count of steps"
         )
-    return OnnxPolicy(fspath(path), session, inputs[0], int(said))
+    return OnnxPolicy(fspath(path), session, shown[0], int(said), masks[0] if masks else None)

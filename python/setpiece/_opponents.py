@@ -42,16 +42,20 @@ class Policy:
       `observation`, the caller's scale applies.
     - `repeat`: how many steps a decision lasts: its action is pressed in all of them. None: what
       the `.onnx` file says, otherwise 1.
+    - `masks`: whether `play` also gets masks, as its second argument: int8 `(n, 20)`, or `(20,)` if
+      it isn't `batched`; 1 for the actions that can have an effect. None: whether the `.onnx` file
+      takes them, otherwise False.
 
     Every agent sees itself attacking towards +x. Actions are integers 0..19; 19 hands the step over
     to the bot.
     """
 
-    play: Callable[[Any], Any] | str | PathLike[str] | Any
+    play: Callable[..., Any] | str | PathLike[str] | Any
     observation: str | None = None
     batched: bool = True
     scale: bool = False
     repeat: int | None = None
+    masks: bool | None = None
 
 
 Look = tuple[str, bool]
@@ -79,10 +83,12 @@ class Seat:
     at: list[int]
     pick: Picker
     policy: Policy
-    play: Callable[[Any], Any]
+    play: Callable[..., Any]
     held: Held
     side: Literal["left", "right"] | None
     what: str = "opponent"
+    masked: bool = False
+    """Whether the opponent also sees masks."""
 
     @property
     def look(self) -> Look | None:
@@ -128,7 +134,8 @@ class Table:
             side = SIDES[teams.pop()] if len(teams) == 1 else None
             play, held = player_of(policy)
             pick = Picker(self.n_agents, at)
-            self.seats.append(Seat(ids, at, pick, policy, play, held, side, what))
+            masked = sees_masks(policy, play)
+            self.seats.append(Seat(ids, at, pick, policy, play, held, side, what, masked))
         self.seen = None
 
     @property
@@ -164,12 +171,18 @@ class Table:
         for seat, actions in zip(self.seats, held, strict=True):
             seat.held.actions = [*actions]
 
-    def actions(self, action: Any, look: Callable[[str, bool], Any], step: int) -> list[int]:
+    def actions(
+        self,
+        action: Any,
+        look: Callable[[str, bool], Any],
+        mask: Callable[[], NDArray[np.int8]],
+        step: int,
+    ) -> list[int]:
         """Returns everyone's actions: the caller's, and the opponents' for the last observation.
 
         `step` steps of the episode have been played. `look` observes the match in another kind of
-        observation. Raises `ActionError` for the caller's action, `OpponentError` if an opponent
-        fails.
+        observation, `mask` returns the masks of all agents. Raises `ActionError` for the caller's
+        action, `OpponentError` if an opponent fails.
         """
         all_actions = [int(Action.BUILTIN_AI)] * self.n_agents
         for at, one in zip(self.mine, self._read_actions(action), strict=True):
@@ -179,7 +192,8 @@ class Table:
             kind = seat.look
             if kind is not None and kind not in looks:
                 looks[kind] = look(*kind)
-            acts = ask(seat, seat.pick(looks[kind]), [step] * len(seat.at))
+            masks = mask().reshape(self.n_agents, -1)[seat.at] if seat.masked else None
+            acts = ask(seat, seat.pick(looks[kind]), [step] * len(seat.at), masks)
             for at, one in zip(seat.at, acts, strict=True):
                 all_actions[at] = one
         return all_actions
@@ -195,12 +209,20 @@ class Table:
         return _listed(actions.ravel())
 
 
-def ask(seat: Seat, seen: Any, steps: Sequence[int]) -> list[int]:
+def ask(
+    seat: Seat, seen: Any, steps: Sequence[int], masks: NDArray[np.int8] | None = None
+) -> list[int]:
     """Returns an opponent's actions for what its agents see; raises `OpponentError`.
 
-    The episode of each agent has played so many `steps`.
+    The episode of each agent has played so many `steps`. `masks`, if it sees them, have a row for
+    each agent.
     """
-    return seat.held.after(steps, lambda rows: _decided(seat, some_rows(seen, rows), rows))
+
+    def decide(rows: Sequence[int]) -> list[int]:
+        shown = None if masks is None else masks[[*rows], : ACTION_SETS["v2"]]
+        return _decided(seat, some_rows(seen, rows), shown, rows)
+
+    return seat.held.after(steps, decide)
 
 
 def some_rows(seen: Any, rows: Sequence[int]) -> Any:
@@ -210,18 +232,24 @@ def some_rows(seen: Any, rows: Sequence[int]) -> Any:
     return seen[[*rows]] if isinstance(seen, np.ndarray) else tuple(seen[at] for at in rows)
 
 
-def _decided(seat: Seat, seen: Any, rows: Sequence[int]) -> list[int]:
+def _decided(
+    seat: Seat, seen: Any, masks: NDArray[np.int8] | None, rows: Sequence[int]
+) -> list[int]:
     """Returns the actions of the agents of some rows; raises `OpponentError`."""
     n, n_actions = len(rows), ACTION_SETS["v2"]
     if seat.policy.batched:
-        given = _asked(seat, seat.agents, seen)
+        given = _asked(seat, seat.agents, seen, masks)
         actions = integers(given, (n,), n_actions)
         if actions is None:
             raise _no_action(seat, seat.agents, f"{n} actions, integers", given)
         return _listed(actions)
     # The agents of one match after those of another.
     agents = [seat.agents[at % len(seat.agents)] for at in rows]
-    given = [_asked(seat, (agent,), one) for agent, one in zip(agents, seen, strict=True)]
+    each = [None] * n if masks is None else masks
+    given = [
+        _asked(seat, (agent,), one, mask)
+        for agent, one, mask in zip(agents, seen, each, strict=True)
+    ]
     # All at once is faster than one by one.
     actions = integers(given, (n,), n_actions)
     if actions is not None:
@@ -237,10 +265,10 @@ def _one_action(seat: Seat, agent: str, given: Any) -> int:
     return int(action)
 
 
-def _asked(seat: Seat, agents: tuple[str, ...], seen: Any) -> Any:
+def _asked(seat: Seat, agents: tuple[str, ...], seen: Any, masks: NDArray[np.int8] | None) -> Any:
     """Calls an opponent for these of its agents."""
     try:
-        return seat.play(seen)
+        return seat.play(seen) if masks is None else seat.play(seen, masks)
     except Exception as error:
         why = f"failed: {type(error).__name__}: {error}"
         raise OpponentError(
@@ -314,6 +342,8 @@ def policy_of(who: str, opponent: Opponent, argument: str = "opponents") -> Poli
     if isinstance(opponent, Policy):
         if opponent.repeat is not None:
             check_count("repeat", opponent.repeat, REPEAT_MAX)
+        if opponent.masks is not None:
+            check_flag("masks", opponent.masks)
         if opponent.observation is not None:
             kind = check_observation(opponent.observation)
             return replace(opponent, observation=kind, scale=check_scale(opponent.scale, kind))
@@ -338,14 +368,21 @@ def policy_of(who: str, opponent: Opponent, argument: str = "opponents") -> Poli
     )
 
 
-def player_of(policy: Policy) -> tuple[Callable[[Any], Any], Held]:
+def sees_masks(policy: Policy, play: Callable[..., Any]) -> bool:
+    """Whether the function that plays a policy is called with masks too."""
+    if policy.masks is not None:
+        return bool(policy.masks)
+    return isinstance(play, OnnxPolicy) and play.masks
+
+
+def player_of(policy: Policy) -> tuple[Callable[..., Any], Held]:
     """Returns the function that is called with observations, and what keeps its actions pressed."""
     function = _function_of(policy)
     own = function.repeat if isinstance(function, OnnxPolicy) else 1
     return function, Held(own if policy.repeat is None else policy.repeat)
 
 
-def _function_of(policy: Policy) -> Callable[[Any], Any]:
+def _function_of(policy: Policy) -> Callable[..., Any]:
     if is_onnx(policy.play):
         return onnx_policy(policy.play)
     predict = getattr(policy.play, "predict", None)

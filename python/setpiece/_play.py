@@ -139,7 +139,7 @@ def _played(env: FootballEnv, table: Table, seed: int, clock: _Clock, on_error: 
     while "outcome" not in info and not errors:
         table.shown(observation, info)
         try:
-            actions.append(table.actions([], env.look, len(actions)))
+            actions.append(table.actions([], env.look, env.action_masks, len(actions)))
         except OpponentError as error:
             if on_error == "raise" or error.side is None:
                 raise

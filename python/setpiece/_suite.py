@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from io import StringIO
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -81,12 +83,8 @@ class SuiteTable:
         """Returns the table as text."""
         return self.text
 
-    def to_pandas(self) -> Any:
-        """Returns a `DataFrame` with a row per entry; the intervals are `…_low` and `…_high`.
-
-        Raises `MissingPackageError` without pandas.
-        """
-        pandas = need("pandas", "pandas", "`to_pandas`")
+    def to_dicts(self) -> list[dict[str, Any]]:
+        """Returns a dict per entry; the ends of the intervals are `…_low` and `…_high`."""
         rows = []
         for row in self.rows:
             line: dict[str, Any] = {
@@ -100,7 +98,22 @@ class SuiteTable:
                 line[name] = measured.value
                 line[f"{name}_low"], line[f"{name}_high"] = measured.low, measured.high
             rows.append({**line, "digest": row.digest})
-        return pandas.DataFrame(rows)
+        return rows
+
+    def to_csv(self) -> str:
+        """Returns the rows of `to_dicts` as CSV, under a line of their names."""
+        rows, text = self.to_dicts(), StringIO()
+        writer = csv.DictWriter(text, [*rows[0]] if rows else [], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+        return text.getvalue()
+
+    def to_pandas(self) -> Any:
+        """Returns the rows of `to_dicts` as a `DataFrame`.
+
+        Raises `MissingPackageError` without pandas.
+        """
+        return need("pandas", "pandas", "`to_pandas`").DataFrame(self.to_dicts())
 
 
 @dataclass(frozen=True)
@@ -259,7 +272,9 @@ class Suite:
         with one_thread:
             batch.reset(arrays, [True] * n, none, none, False)
         while levels.n_unfinished:
-            actions = crowd.actions(nobody, arrays.observations, batch.look, batch.steps)
+            actions = crowd.actions(
+                nobody, arrays.observations, batch.look, arrays.masks, batch.steps
+            )
             with one_thread:
                 batch.step(arrays, actions)
         return self._native.row(at, name, levels)

@@ -80,6 +80,9 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         "autoreset_mode": AutoresetMode.NEXT_STEP,
     }
 
+    closed = True
+    """Until it is made: what is refused has nothing to close."""
+
     def __init__(
         self,
         scenario: Source,
@@ -168,6 +171,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         self._marks = np.ones(self.num_envs, bool)
         self._marks.flags.writeable = False
         self._terms = self._batch.terms
+        self.closed = False
 
     def reset(
         self,
@@ -326,8 +330,8 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
     def _read(self, given: Any) -> NDArray[Any]:
         """Everyone's actions: the caller's and the opponents'; the batch reads the numbers."""
         if self._crowd is not None:
-            steps = self._batch.steps
-            return self._crowd.actions(given, self._arrays.observations, self._look, steps)
+            arrays, steps = self._arrays, self._batch.steps
+            return self._crowd.actions(given, arrays.observations, self._look, arrays.masks, steps)
         actions = array_of(given)
         if actions is None:
             raise ActionError(

@@ -58,14 +58,24 @@ def python(words: list[str], folder: Path) -> None:
     program, *rest = words
     is_ours = program.startswith(("examples/", "baselines/"))
     need(is_ours and (ROOT / program).exists(), program)
-    source = text(program)
+    known = options(program)
     for option, word in zip(["", *rest], rest, strict=False):
         if word.startswith("--"):
-            need(f'"{word}"' in source, word)
+            need(word in known, word)
         elif word.endswith(".pitch"):
             need((folder / word).exists() or (ROOT / word).exists(), word)
         elif option == "--scenario":
             need(word in setpiece.list(), word)
+
+
+def options(program: str) -> set[str]:
+    """Returns the options of a program; those of a learner are also its settings."""
+    if program.startswith("baselines/") and "from command import command" in text(program):
+        settings = re.findall(
+            r"^    (\w+): \w+ = setting\(", text("baselines/settings.py"), re.MULTILINE
+        )
+        return {f"--{name}" for name in settings} | options("baselines/command.py")
+    return {*re.findall(r'"(--[\w-]+)"', text(program))}
 
 
 def cargo(words: list[str], _folder: Path) -> None:

@@ -182,6 +182,8 @@ def test_a_console_may_leave_lines_out() -> None:
         ("console\n$ python examples/nobody.py\n", "`examples/nobody.py` isn't there"),
         ("console\n$ python examples/train_cleanrl.py \\\n    --much 1\n", "`--much` isn't there"),
         ("console\n$ python examples/train_cleanrl.py --scenario no\n", "`no` isn't there"),
+        ("console\n$ python baselines/mappo.py --repeat 2 --much 1\n", "`--much` isn't there"),
+        ("console\n$ python baselines/ppo.py --every 5 --scenario no\n", "`no` isn't there"),
         ("console\n$ tensorboard --folder runs\n", "`--folder` isn't there"),
         ("console\n$ code --install-extension target/no.vsix\n", "`target/no.vsix` isn't there"),
         ("console\n$ cp -r target/editors/emacs/. ~/.emacs.d/\n", "`target/editors/emacs/.`"),

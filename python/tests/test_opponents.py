@@ -589,3 +589,90 @@ def test_watched_files_say_who_plays(pitch_file: PitchFile) -> None:
     assert last(env)["setpiece"]["length"] == 3
     with pytest.raises(setpiece.ParameterError, match="a watched file says itself who plays"):
         setpiece.make(path, watch=True, opponents={"right": "lazy"})
+
+
+STICKY = "simple115v2+sticky"
+KEYS = [*range(1, 9), int(Action.SPRINT), int(Action.DRIBBLE)]
+"""The keys that can be held."""
+
+
+def keys_held(masks: np.ndarray) -> np.ndarray:
+    """How many keys are held: a held key can't be pressed."""
+    return (1 - masks[..., KEYS]).sum(-1)
+
+
+class Masked:
+    """A policy that draws what its mask allows, and keeps what it was shown and what it did."""
+
+    def __init__(self) -> None:
+        self.seen: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+        self.random = np.random.default_rng(1)
+
+    def __call__(self, seen: np.ndarray, masks: np.ndarray) -> np.ndarray:
+        # Not 19, which hands the step over to the bot.
+        allowed = masks[..., :19] * self.random.random((len(seen), 19))
+        actions = np.asarray(allowed.argmax(-1))
+        self.seen.append((seen.copy(), masks.copy(), actions))
+        return actions
+
+
+def test_a_policy_sees_the_masks_of_its_agents() -> None:
+    """Those that the caller would see in its place."""
+    kwargs: dict[str, Any] = {"left": 1, "right": 1, "action_set": "v2"}
+    player = Masked()
+    opposed = setpiece.make(
+        "1_vs_1_easy", **kwargs, opponents={"right": Policy(player, masks=True)}
+    )
+    both = setpiece.make("1_vs_1_easy", **kwargs)
+    opposed.reset(seed=2)
+    _, info = both.reset(seed=2)
+    differ = set()
+    for _ in range(40):
+        wanted = info["action_mask"][1]
+        opposed.step(Action.RIGHT)
+        _, masks, (did,) = player.seen[-1]
+        assert masks.dtype == np.int8
+        assert np.array_equal(masks, wanted[None])
+        differ.add(masks.tobytes())
+        _, _, terminated, truncated, info = both.step([Action.RIGHT, did])
+        if terminated or truncated:
+            break
+    assert len(differ) > 2
+
+
+def test_masks_in_a_vector_and_in_a_suite_fit_what_is_seen() -> None:
+    player = Masked()
+    envs = setpiece.make_vec(
+        "5_vs_5",
+        3,
+        left=1,
+        right="all",
+        observation=STICKY,
+        opponents={"right": Policy(player, masks=True)},
+    )
+    envs.reset(seed=1)
+    for _ in range(20):
+        envs.step(np.full(3, Action.RIGHT))
+    suite = "suite s { multi_3_vs_1_with_keeper for 4 episodes }"
+    setpiece.evaluate(Policy(player, masks=True, repeat=3), suite, observation=STICKY)
+    assert len({len(seen) for seen, *_ in player.seen}) > 1
+    for seen, masks, _ in player.seen:
+        assert masks.shape == (len(seen), 20)
+        assert np.array_equal(keys_held(masks), seen[:, 115:125].sum(-1))
+    assert any((keys_held(masks) > 1).any() for _, masks, _ in player.seen)
+
+
+def test_a_policy_asked_agent_by_agent_gets_its_mask() -> None:
+    shapes = set()
+
+    def act(seen: Any, mask: Any) -> int:
+        shapes.add((seen.shape, mask.shape))
+        return int(mask.argmax())
+
+    policy = Policy(act, batched=False, masks=True)
+    played = setpiece.play("1_vs_1_easy", policy, "bot", seed=1)
+    assert shapes == {((115,), (20,))}
+    assert played.length > 0
+    for wrong in (1, "yes"):
+        with pytest.raises(setpiece.ParameterError, match="expected True or False as `masks`"):
+            setpiece.make("1_vs_1_easy", right=1, opponents={"right": Policy(act, masks=wrong)})  # type: ignore[arg-type]

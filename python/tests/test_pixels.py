@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 from typing import Any
 
 import gymnasium
@@ -268,18 +267,3 @@ def test_the_drop_in_sees_the_same_after_set_state() -> None:
     expected = env.step(0)[0]
     env.set_state(state)
     assert np.array_equal(env.step(0)[0], expected)
-
-
-def test_a_video_is_recorded_by_gymnasium_s_wrapper(tmp_path: Path) -> None:
-    pytest.importorskip("moviepy")
-    env = gymnasium.wrappers.RecordVideo(
-        setpiece.make(THREE, render_mode="rgb_array", render_size=(160, 96)),
-        str(tmp_path / "videos"),
-    )
-    env.reset(seed=1)
-    done = False
-    while not done:
-        _, _, terminated, truncated, _ = env.step(Action.RIGHT)
-        done = terminated or truncated
-    env.close()
-    assert len([*tmp_path.glob("videos/*.mp4")]) == 1

@@ -237,6 +237,7 @@ def test_at_most_one_episode_is_shown_every_few_seconds() -> None:
         ({"policies": {"a": "bot"}}, "policies"),
         ({"policies": {"bot": lambda _: 5}}, "policies"),
         ({"policies": {"": lambda _: 5}}, "policies"),
+        ({"policies": {"a": setpiece.Policy(lambda *_: [5], masks=True)}}, "policies"),
         ({"every_s": -1}, "every_s"),
         ({"every_s": "x"}, "every_s"),
         ({"port": 70_000}, "port"),

@@ -17,6 +17,6 @@ def test_every_example_with_heavy_packages_runs() -> None:
     blocks = examples("python.md", heavy=True)
     for block in blocks:
         exec(compile(block, "python.md", "exec"), names)
-    assert len(blocks) == 3
+    assert len(blocks) == 4
     assert names["model"].num_timesteps == 512
     assert names["config"].env_config["scenario"] == "academy_corner"

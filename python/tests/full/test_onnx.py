@@ -102,6 +102,44 @@ def test_a_model_says_how_long_a_decision_lasts(tmp_path: Path) -> None:
             setpiece.onnx_policy(save(tmp_path / "wrong.onnx", repeat=wrong))
 
 
+@pytest.mark.parametrize("kind", [TensorProto.BOOL, TensorProto.FLOAT, TensorProto.UINT8])
+@pytest.mark.parametrize("n_actions", [19, 20])
+def test_a_model_takes_masks(tmp_path: Path, kind: int, n_actions: int) -> None:
+    """Its logits are the mask, so that it presses the first action that has an effect."""
+    graph = helper.make_graph(
+        [
+            helper.make_node("Cast", ["mask"], ["rated"], to=TensorProto.FLOAT),
+            helper.make_node("ReduceSum", ["observation", "axis"], ["sum"], keepdims=1),
+            helper.make_node("Mul", ["sum", "zero"], ["nothing"]),
+            helper.make_node("Add", ["rated", "nothing"], ["logits"]),
+        ],
+        "masked",
+        [
+            helper.make_tensor_value_info("observation", TensorProto.FLOAT, ["batch", 115]),
+            helper.make_tensor_value_info("mask", kind, ["batch", n_actions]),
+        ],
+        [helper.make_tensor_value_info("logits", TensorProto.FLOAT, ["batch", n_actions])],
+        [
+            numpy_helper.from_array(np.array([1]), "axis"),
+            numpy_helper.from_array(np.zeros(1, np.float32), "zero"),
+        ],
+    )
+    model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=9)
+    onnx.save(model, tmp_path / "masked.onnx")
+    policy = setpiece.onnx_policy(tmp_path / "masked.onnx")
+    assert policy.masks
+    masks = np.zeros((2, 20), np.int8)
+    masks[0, 3:6], masks[1, 18] = 1, 1
+    assert policy(np.zeros((2, 115), np.float32), masks).tolist() == [3, 18]
+    with pytest.raises(setpiece.ParameterError, match="takes masks"):
+        policy(np.zeros((2, 115), np.float32))
+    suite = "suite s { academy_3_vs_1_with_keeper for 5 episodes }"
+    first = Policy(lambda _, masks: masks.argmax(-1), masks=True)
+    played = setpiece.evaluate(tmp_path / "masked.onnx", suite).rows
+    assert played == setpiece.evaluate(first, suite).rows
+    assert not setpiece.onnx_policy(save(tmp_path / "policy.onnx")).masks
+
+
 def test_a_match_of_two_models(tmp_path: Path) -> None:
     model = save(tmp_path / "policy.onnx")
     played = setpiece.play(DUEL, str(model), "bot", seed=2)

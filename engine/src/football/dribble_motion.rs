@@ -23,7 +23,7 @@ use setpiece_scenario::Ai;
 /// Measured of GRF's motions with the keys of random turns: 1,100 touches of a player alone.
 pub(super) struct DribbleMotion {
     /// The lowest speed for this motion, m/s.
-    from_mps: f32,
+    pub(super) from_mps: f32,
     /// Up to which angle between the run and the way that the player wants, degrees.
     to_degrees: f32,
     /// Ticks until the touch, and until the player is free again.
@@ -258,11 +258,6 @@ impl DribbleMotion {
         let kicks = game.player(id).body.kick.is_some_and(|plan| !plan.held);
         let reach = if kicks { leg::BEFORE_A_KICK } else { leg::DRIBBLE };
         leg::meets(&touch, ball, reach, leg::freshness(game, id, self.ticks))
-    }
-
-    /// The lowest speed for this motion, m/s.
-    pub(super) fn from_mps(&self) -> f32 {
-        self.from_mps
     }
 
     /// The touch of this motion to a side, and where the ball will be then, in the frame of the run.

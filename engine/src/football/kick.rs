@@ -238,13 +238,11 @@ fn is_free(game: &Match, id: PlayerId) -> bool {
 /// What a kick aims at now: the way from the ball, world metres, and the teammate.
 fn meant(game: &Match, id: PlayerId, plan: &KickPlan) -> (Vec2, Option<PlayerId>) {
     let from = game.ball.pos.truncate();
-    match plan.kind {
-        KickKind::Shot => (shot::meant(game, id, plan) - from, None),
-        _ => {
-            let target = pass_target::choose(game, id, plan);
-            (target.point - from, target.mate)
-        }
+    if plan.kind == KickKind::Shot {
+        return (shot::meant(game, id, plan) - from, None);
     }
+    let target = pass_target::choose(game, id, plan);
+    (target.point - from, target.mate)
 }
 
 /// Whether the taker of a set piece stands for as long as the key is held. A lofted pass and a
@@ -313,26 +311,20 @@ fn launch(game: &mut Match, events: &mut Events, id: PlayerId, plan: KickPlan) {
     game.play.set_piece = None;
     let exempt = mode.is_some_and(offside::exempt);
     let mut receiver = None;
-    match plan.kind {
-        KickKind::Shot => {
-            let shot = if mode == Some(GameMode::FreeKick) {
-                shot::over_wall(game, id, &plan)
-            } else {
-                shot::struck(game, id, &plan)
-            };
-            send(game, id, shot);
+    let struck = if plan.kind != KickKind::Shot {
+        let (way, mate) = refined(game, id, &plan);
+        receiver = mate.filter(|_| !clears);
+        if mode == Some(GameMode::ThrowIn) {
+            pass::thrown(game, id, way)
+        } else {
+            pass::struck(game, id, &plan, way, from_hands)
         }
-        _ => {
-            let (way, mate) = refined(game, id, &plan);
-            receiver = mate.filter(|_| !clears);
-            let ball = if mode == Some(GameMode::ThrowIn) {
-                pass::thrown(game, id, way)
-            } else {
-                pass::struck(game, id, &plan, way, from_hands)
-            };
-            send(game, id, ball);
-        }
-    }
+    } else if mode == Some(GameMode::FreeKick) {
+        shot::over_wall(game, id, &plan)
+    } else {
+        shot::struck(game, id, &plan)
+    };
+    send(game, id, struck);
     contact::note(game, id, if exempt { contact::Touch::Exempt } else { contact::Touch::Played });
     // The kicker can't meet the same ball again at once.
     game.players[id.index()].body.ready_at = game.tick as i32 + 30;

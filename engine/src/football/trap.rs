@@ -249,6 +249,6 @@ pub(super) fn find(game: &Match, id: PlayerId) -> Option<&'static DribbleMotion>
 /// Whether a trap is of a player's gait. Sprinters may brake for those of a walk.
 fn suits(player: &Player, trap: &Trap) -> bool {
     let pace = player.vel.length();
-    let from = trap.motion.from_mps();
+    let from = trap.motion.from_mps;
     if pace < DRIBBLES_FROM_MPS { from == 0.0 } else { from > 0.0 && pace >= from }
 }

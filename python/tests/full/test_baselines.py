@@ -42,7 +42,7 @@ def mappo(baseline: Any) -> Any:
 
 
 def test_it_learns(ppo: Any) -> None:
-    training = ppo.Training(ppo.Settings(steps=200_000, envs=64))
+    training = ppo.Training(ppo.Settings(steps=300_000, envs=64))
     before = training.evaluate(100, drawn=True).mean()
     training.run()
     assert before < 0.6

@@ -260,7 +260,7 @@ impl DribbleMotion {
         leg::meets(&touch, ball, reach, leg::freshness(game, id, self.ticks))
     }
 
-    /// The touch of this motion to a side, and where the ball will be then, in the frame of the run.
+    /// The touch of this motion to a side, and where the ball will be then, in the run's frame.
     fn touch(&self, game: &Match, id: PlayerId, side: f32) -> (MotionTouch, Vec2) {
         let player = game.player(id);
         let (pace, run) = (player.vel.length(), run(player));

@@ -192,8 +192,9 @@ fn swung(game: &Match, id: PlayerId, plan: &KickPlan) -> Option<KickPlan> {
     let (way, mate) = meant(game, id, plan);
     let ChosenSwing { motion, place, stroke } = swing::find(game, id, plan.kind, way)?;
     let pace = game.player(id).vel.length();
+    let target = game.ball.pos.truncate() + way;
     let swing = Swing {
-        way: Some(way),
+        way: Some(target - place.truncate()),
         mate,
         end_dmps: dmps(motion.end_mps(pace)),
         left_m: motion.way_m(pace),

@@ -34,6 +34,8 @@ const LACKS_MPS: f32 = 10.0;
 const SKILLED: f32 = 0.5;
 const NATURAL: [f32; 4] = [0.15, 0.15, 0.3, 0.5];
 const NATURALLY: f32 = 1.5;
+/// A higher ball is headed, metres; chosen.
+const HEADED_M: f32 = 1.4;
 /// How hard a lofted pass is at least; chosen, so that skill at it has an effect.
 const LOFT_HARD: f32 = 0.04;
 /// What an awkward ball does to a pass: the share of its speed that a far one loses; how fast it
@@ -107,7 +109,11 @@ fn best(game: &mut Match, id: PlayerId, plan: &KickPlan, meant: Vec3) -> Vec3 {
         .and_then(|swing| swing.stroke)
         .unwrap_or_else(|| swing::stroke(&player, plan.kind, meant.truncate()));
     let lofted = plan.kind == KickKind::High;
-    let skill = player.skill(if lofted { Stat::HighPass } else { Stat::ShortPass });
+    let skill = player.skill(match lofted {
+        _ if game.ball.pos.z > HEADED_M => Stat::Header,
+        true => Stat::HighPass,
+        false => Stat::ShortPass,
+    });
     let most = MOST_MPS[usize::from(lofted)]
         * (ANY_SWING + (1.0 - ANY_SWING) * stroke.power)
         * (1.0 - (PUSHED_PER_M * player.body.push_m).min(PUSHED_MOST))

@@ -219,10 +219,11 @@ pub struct Swing {
     pub kind: KickKind,
     /// First tick at which the foot can meet the ball.
     pub ready_at: i32,
-    /// The way from the ball to the target, world metres; none at a set piece that a bot takes.
-    pub way: Option<Vec2>,
     /// Where the foot or head is to meet the ball, world metres.
     pub place: Vec3,
+    /// The way of the ball from there to the target, world metres; none at a set piece that a bot
+    /// takes.
+    pub way: Option<Vec2>,
     /// The receiver when it began.
     pub mate: Option<PlayerId>,
     /// How fast the player is at its end, 0.1 m/s; [`Swing::RUN`] leaves their run to them.

@@ -213,7 +213,7 @@ const TRAPS: [Trap; 24] = [
             .at(-0.04, 1.57),
     ),
 ];
-/// A slower ball isn't trapped, m/s. (GRF's.)
+/// A ball that is expected to be slower isn't trapped, m/s. (GRF's.)
 const ROLLS_MPS: f32 = 2.0;
 /// Between which ticks from now the ball's course is seen. (GRF's.)
 const COURSE_TICKS: [u32; 2] = [12, 18];
@@ -224,13 +224,13 @@ const SIDES: [f32; 2] = [1.0, -1.0];
 
 /// The first trap that meets the free ball.
 pub(super) fn find(game: &Match, id: PlayerId) -> Option<&'static DribbleMotion> {
-    if game.ball.vel.truncate().length_squared() < ROLLS_MPS * ROLLS_MPS {
-        return None;
-    }
     let player = game.player(id);
     let run = dribble_motion::run(player);
     let [from, to] = COURSE_TICKS.map(|ticks| reach::expected(game, id, ticks).truncate());
     let course = to - from;
+    if course.length() < ROLLS_MPS * 0.01 * (COURSE_TICKS[1] - COURSE_TICKS[0]) as f32 {
+        return None;
+    }
     let course = math::atan2(run.perp_dot(course), run.dot(course)).to_degrees();
     let wish = player.body.dribble;
     let runs = wish.length_squared() > WALKS_FROM_MPS * WALKS_FROM_MPS

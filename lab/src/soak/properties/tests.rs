@@ -69,11 +69,11 @@ fn steps(episode: u64) -> Vec<Taken> {
 
 /// A step of open play without events.
 fn open(steps: &[Taken]) -> Taken {
-    // The wrong value is the third player's: no agent may control that player, and they may not
+    // The wrong values are those of players 3 and 9: no agent may control player 3, and neither may
     // have the ball.
     let quiet = |step: &&Taken| {
         let free = step.after.agents.iter().all(|agent| agent.player != Some(PlayerId(3)))
-            && step.after.owner != Some(PlayerId(3));
+            && [3, 9].iter().all(|id| step.after.owner != Some(PlayerId(*id)));
         step.events.is_empty() && step.after.play.set_piece.is_none() && !step.judged.dead && free
     };
     steps.iter().filter(quiet).nth(40).unwrap().clone()

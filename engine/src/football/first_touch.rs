@@ -1,6 +1,6 @@
 //! The first touch of a free ball that no motion leads to: a player takes it, or loses it.
 
-use crate::football::{carry, contact, dribble, noise};
+use crate::football::{carry, contact, dribble, leg, noise};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
 use crate::state::{Match, PlayerId};
@@ -28,11 +28,14 @@ const HOPS_MPS: f32 = 8.0;
 const TAKING_TICKS: i32 = 33;
 
 /// How near a player must be to take the free ball, metres. If both are at rest, the reach is
-/// longer.
+/// longer; whoever is about to kick it reaches less far.
 pub(super) fn reach_m(game: &Match, id: PlayerId) -> f32 {
-    let rests = game.player(id).vel.length_squared() + game.ball.vel.length_squared()
+    let player = game.player(id);
+    let rests = player.vel.length_squared() + game.ball.vel.length_squared()
         < dribble::STOPS_MPS * dribble::STOPS_MPS;
-    if rests { dribble::SOLE_M } else { TRAP_M }
+    let kicks = player.body.kick.is_some_and(|plan| !plan.held);
+    let reach_m = if rests { dribble::SOLE_M } else { TRAP_M };
+    if kicks { reach_m * leg::BEFORE_A_KICK.factor } else { reach_m }
 }
 
 /// Takes a free ball; ball control decides how much of its speed stays.

@@ -72,9 +72,7 @@ pub fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
 
 /// Decides for the player who will have the ball soon.
 pub fn before_touch(game: &mut Match, view: &TeamView, id: PlayerId) {
-    let body = &game.player(id).body;
-    let rests = (game.tick as i32) < body.ready_at;
-    if game.play.led[view.team.index()] || body.meet_s > AHEAD_S || rests {
+    if game.play.led[view.team.index()] || game.player(id).body.meet_s > AHEAD_S {
         return;
     }
     match choose(game, view, id) {

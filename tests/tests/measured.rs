@@ -154,7 +154,7 @@ fn records_are_read_by_endings_rewards_and_other_records() {
     let mut environment = environment(&text);
     let mut scratch = Scratch::default();
     let mut kept = 0;
-    for index in 0..40 {
+    for index in 0..240 {
         environment.reset(Some(3), Some(index)).unwrap();
         let (mut passes, mut so_far, mut numbered) = (0.0, 0.0, 0.0);
         while environment.is_running() {

@@ -23,7 +23,7 @@ use setpiece_scenario::Ai;
 /// Measured of GRF's motions with the keys of random turns: 1,100 touches of a player alone.
 pub(super) struct DribbleMotion {
     /// The lowest speed for this motion, m/s.
-    pub(super) from_mps: f32,
+    from_mps: f32,
     /// Up to which angle between the run and the way that the player wants, degrees.
     to_degrees: f32,
     /// Ticks until the touch, and until the player is free again.
@@ -69,7 +69,7 @@ pub(super) const fn motion(
         ticks,
         lasts,
         out,
-        ball_m: [ahead_m, 0.0, GRASS_M],
+        ball_m: [ahead_m, 0.0, leg::GRASS_M],
         mean,
         end,
         changes_feet: true,
@@ -146,9 +146,7 @@ const WAITS_M: f32 = 0.4;
 const ASIDE_M: f32 = 0.2;
 /// How fast a ball rises that springs off the foot as high as it can, m/s. (GRF's.)
 const SPRINGS_MPS: f32 = 4.0;
-/// The height of a ball on the grass, metres, and how much higher one is that these motions still
-/// play. (GRF's.)
-const GRASS_M: f32 = 0.11;
+/// How much further off its place a low ball is that these motions still play, metres. (GRF's.)
 const LOW_M: f32 = 0.15;
 /// A ball that meets a player faster than this can't be taken along, m/s. (GRF's.)
 const TAKES_MPS: f32 = 15.0;
@@ -308,7 +306,7 @@ fn next(game: &Match, near: Squad, about: Squad) -> Option<PlayerId> {
 }
 
 /// Whether a ball comes slowly enough to take it along. (GRF's.)
-fn is_slow(game: &Match, id: PlayerId) -> bool {
+pub(super) fn is_slow(game: &Match, id: PlayerId) -> bool {
     let (player, ball) = (game.player(id), game.ball.vel);
     ball.z.abs() < TAKES_MPS
         && (ball.truncate() - player.vel).length_squared() < TAKES_MPS * TAKES_MPS

@@ -45,7 +45,7 @@ const SLACK_M: f32 = 0.02;
 const UP_M: f32 = 0.22;
 const HIGHER: [[f32; 2]; 2] = [[0.3, 0.2], [0.4, 0.3]];
 /// The height of a ball on the grass, and up to which a ball counts as low, metres. (GRF's.)
-const GRASS_M: f32 = 0.11;
+pub(super) const GRASS_M: f32 = 0.11;
 const LOW_M: f32 = 0.5;
 /// How far off its place the ball may be when the foot arrives, metres. (GRF's.)
 const MISSED_M: f32 = 0.4;
@@ -159,6 +159,14 @@ mod tests {
         assert!(meets(&SHOT, ball(1.77), KICK, 1.0));
         assert!(meets(&SHOT, ball(1.3), KICK, 1.0));
         assert!(!meets(&SHOT, ball(0.5), KICK, 1.0));
+    }
+
+    #[test]
+    fn a_motion_for_the_grass_meets_a_bouncing_ball_only_if_it_may_be_low() {
+        assert!(is_high_enough(0.3, GRASS_M, 0.0));
+        assert!(!is_high_enough(0.45, GRASS_M, 0.0) && is_high_enough(0.45, GRASS_M, 0.15));
+        assert!(!is_high_enough(0.6, GRASS_M, 0.15), "a ball at the knee isn't low");
+        assert!(is_high_enough(1.9, 1.65, 0.0), "a header allows for more");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::football::dribble_motion::{self, DribbleMotion, motion};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
 use crate::football::reach;
 use crate::math;
-use crate::state::{Match, Player, PlayerId};
+use crate::state::{Match, PlayerId};
 use TrapEnd::{Any, Runs, Stops};
 
 /// A motion for a ball that comes from one side. (GRF's motions.)

@@ -34,6 +34,8 @@ const BALL_M: f32 = 0.6;
 const TACKLES: [f32; 2] = [0.1, 0.4];
 const FIRST_PUSHED: f32 = 0.4;
 const FIRST_DRAGGED: f32 = 0.6;
+/// The share of a displacement that counts as a player's own run in a collision. (GRF's.)
+const FELT: f32 = 0.5;
 /// The share of a displacement in two ticks that a runner's own velocity takes over. Fitted to how
 /// dribblers are slowed.
 const TAKEN_OVER: f32 = 0.03;
@@ -142,7 +144,8 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
     displace(game, i, of_a);
     displace(game, j, of_b);
     if touching {
-        stumble::meet(game, events, [i, j], CONTACT_M);
+        let felt = [(i, of_a), (j, of_b)].map(|(id, by)| felt(game.player(id).vel, by));
+        stumble::meet(game, events, [i, j], felt, CONTACT_M);
     }
 }
 
@@ -157,6 +160,12 @@ fn tackles(player: &Player, now: i32) -> f32 {
     } else {
         0.0
     }
+}
+
+/// The velocity at which a player moves who is displaced by this much over two ticks, as far as it
+/// counts for their next motion.
+fn felt(vel: Vec2, by: Vec2) -> Vec2 {
+    vel + by * (FELT / (2.0 * DT))
 }
 
 /// Moves a player by this much over two ticks, metres. Their own velocity takes over a part of it,

@@ -10,6 +10,7 @@ use crate::math;
 use crate::state::event::Events;
 use crate::state::player::{Aim, Pose};
 use crate::state::{Match, Player, PlayerId};
+use glam::Vec2;
 use setpiece_scenario::vocabulary::Stat;
 
 /// Weights relative to 1: a lack of balance, and how deep two bodies overlap. (GRF's.)
@@ -43,7 +44,7 @@ const ON: f32 = 0.7;
 struct StumbleMotion(u8, f32);
 
 const STANDING: StumbleMotion = StumbleMotion(30, 0.7);
-const HELD_UP: StumbleMotion = StumbleMotion(25, 3.3);
+const HELD_UP: StumbleMotion = StumbleMotion(25, 3.75);
 const HELD_UP_SPRINTING: StumbleMotion = StumbleMotion(49, 3.4);
 const ASIDE: StumbleMotion = StumbleMotion(36, 4.2);
 const ASIDE_SPRINTING: StumbleMotion = StumbleMotion(91, 4.8);
@@ -60,18 +61,26 @@ enum MeetingOutcome {
 }
 
 /// Lets two bodies collide; both may lose their balance. `contact_m`: the distance at which bodies
-/// touch.
-pub fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], contact_m: f32) {
+/// touch. `vel`: how they move while they are pushed apart, m/s.
+pub fn meet(
+    game: &mut Match,
+    events: &mut Events,
+    [i, j]: [PlayerId; 2],
+    vel: [Vec2; 2],
+    contact_m: f32,
+) {
     if game.play.hands.is_some_and(|(keeper, _)| keeper == i || keeper == j) {
         return;
     }
-    let (a, b) = (*game.player(i), *game.player(j));
+    let [a, b] = [(i, vel[0]), (j, vel[1])].map(|(id, vel)| Player { vel, ..*game.player(id) });
     let apart = (b.pos - a.pos + (b.vel - a.vel) * AHEAD_S).length() / contact_m;
     let depth = DEPTH * math::pow((1.0 - apart).clamp(0.0, 1.0), DEPTH_POWER);
     let outcomes = [(i, &a, &b), (j, &b, &a)]
         .map(|(id, player, other)| outcome(game, id, player, other, depth));
-    for ((id, by), outcome) in [(i, j), (j, i)].into_iter().zip(outcomes) {
-        lose_balance(game, events, id, by, outcome);
+    for ([(id, player), (by, other)], outcome) in
+        [[(i, &a), (j, &b)], [(j, &b), (i, &a)]].into_iter().zip(outcomes)
+    {
+        lose_balance(game, events, (id, player), (by, other), outcome);
     }
 }
 
@@ -116,11 +125,10 @@ fn pace(mps: f32) -> f32 {
 fn lose_balance(
     game: &mut Match,
     events: &mut Events,
-    id: PlayerId,
-    by: PlayerId,
+    (id, player): (PlayerId, &Player),
+    (by, other): (PlayerId, &Player),
     outcome: MeetingOutcome,
 ) {
-    let (player, other) = (*game.player(id), *game.player(by));
     let worse = match player.body.pose {
         Pose::Up => outcome > MeetingOutcome::Stands,
         Pose::Stumbling { .. } => {
@@ -136,6 +144,7 @@ fn lose_balance(
     let cos = push.normalize_or_zero().dot(player.body.facing);
     let (speed, falls) = (player.vel.length(), outcome == MeetingOutcome::Falls);
     let tripped = &mut game.players[id.index()];
+    tripped.vel = player.vel;
     tripped.body.lunge = None;
     if let Some(kick) = &mut tripped.body.kick {
         kick.swing = None;

@@ -51,7 +51,7 @@ pub fn off_bodies(game: &mut Match, events: &mut Events, near: Squad) {
             && player
                 .body
                 .lunge
-                .is_none_or(|lunge| lunge.aim() == Some(Aim::Poke) && lunge.from() < touched)
+                .is_none_or(|lunge| lunge.aim != Aim::Carry && lunge.from() < touched)
     });
     let Some(id) = hit else { return };
     let player = *game.player(id);

@@ -7,15 +7,14 @@
 use crate::football::carry::{self, Carry};
 use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
 use crate::football::foot::{self, STRIDE_TICKS};
-use crate::football::leg::{self, MotionTouch};
+use crate::football::leg::{self, MotionTouch, Reach};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
-use crate::football::{awkward, contact, noise, possession, reach, touch, trap};
+use crate::football::{awkward, noise, possession, reach, touch, trap};
 use crate::math;
-use crate::state::event::Events;
 use crate::state::play::ticks_since;
-use crate::state::player::{Lunge, Motion};
+use crate::state::player::{Aim, Lunge};
 use crate::state::{Match, Player, PlayerId, Squad};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use setpiece_scenario::Ai;
 
 /// A touch of a dribble.
@@ -150,8 +149,11 @@ const SPRINGS_MPS: f32 = 4.0;
 const LOW_M: f32 = 0.15;
 /// A ball that meets a player faster than this can't be taken along, m/s. (GRF's.)
 const TAKES_MPS: f32 = 15.0;
-/// How near the ball must still be at the touch, metres.
-const REACH_M: f32 = 1.1;
+/// Between which ticks from now the ball's course is seen. A slower ball has none, m/s. (GRF's.)
+const COURSE_TICKS: [u32; 2] = [12, 18];
+const ROLLS_MPS: f32 = 2.0;
+/// The sides to which a motion is made.
+const SIDES: [f32; 2] = [1.0, -1.0];
 /// By how much a sprinter's touch strays, radians. Fitted to how far sprinters get off their line.
 const STRAY_RAD: f32 = 0.006;
 /// How far to one side a standing player begins a touch, metres, and by which angle every ball goes
@@ -178,34 +180,54 @@ const BENT_MPS: f32 = 6.7;
 pub(super) fn begin(game: &mut Match, near: Squad, about: Squad) {
     let Some(id) = next(game, near, about) else { return };
     let along = wanted(game.player(id)).filter(|motion| {
-        (game.on_ball() == Some(id) || is_slow(game, id)) && motion.fits(game, id, 0.0)
+        (game.on_ball() == Some(id) || is_slow(game, id)) && motion.fits(game, id, 0.0, reach(game, id))
     });
     let free = || game.on_ball().is_none();
     let Some(motion) = along.or_else(|| free().then(|| trap::find(game, id)).flatten()) else {
         return;
     };
+    start(game, id, motion, Aim::Carry);
+}
+
+/// Begins the motion in which a player takes along a ball that a rival has, if it meets the ball.
+pub(super) fn takes(game: &mut Match, id: PlayerId) -> bool {
+    let motion = wanted(game.player(id)).filter(|motion| motion.fits(game, id, 0.0, reach(game, id)));
+    motion.is_some_and(|motion| start(game, id, motion, Aim::Carry))
+}
+
+/// Begins a motion.
+pub(super) fn start(game: &mut Match, id: PlayerId, motion: &DribbleMotion, aim: Aim) -> bool {
     let player = game.player(id);
     let run = run(player);
-    let wish = wish(player, run, motion);
+    let wish = if aim == Aim::Carry { wish(player, run, motion) } else { run };
     let (mps, brakes) = match motion.out {
         MotionEnd::Turned(mps) => (mps, false),
         MotionEnd::Braked(mps) => (mps, true),
         MotionEnd::On => (on_mps(player, wish.length()), false),
         MotionEnd::Bent => (BENT_MPS, false),
     };
-    let at = game.tick as i32 + motion.ticks;
-    let (out, back) = (motion.ticks as u8, (motion.lasts - motion.ticks) as u8);
-    let changes_feet = motion.changes_feet;
-    let leads = left_leads(player, motion, run, game.tick as i32);
-    let motion = Motion::Dribble { brakes, out_dmps: (mps * 10.0).round() as u8, wish };
+    let now = game.tick as i32;
+    let lunge = Lunge {
+        at: now + motion.ticks,
+        out: motion.ticks as u8,
+        back: (motion.lasts - motion.ticks) as u8,
+        changes_feet: motion.changes_feet,
+        aim,
+        place: reach::expected(game, id, motion.ticks as u32),
+        brakes,
+        out_dmps: (mps * 10.0).round() as u8,
+        wish,
+    };
+    let leads = left_leads(player, motion, run, now);
     let stands = player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS;
+    let player = &mut game.players[id.index()];
     if stands {
-        game.players[id.index()].pos += run.perp() * OFF_ASIDE_M;
+        player.pos += run.perp() * OFF_ASIDE_M;
     }
-    let body = &mut game.players[id.index()].body;
-    body.left_leads = leads != changes_feet;
-    body.lunge = Some(Lunge { at, out, back, changes_feet, motion });
-    body.ready_at = at + i32::from(back);
+    player.body.left_leads = leads != lunge.changes_feet;
+    player.body.ready_at = lunge.until();
+    player.body.lunge = Some(lunge);
+    true
 }
 
 /// Whether the left foot leads in a motion: in a turn, that of its side.
@@ -216,9 +238,9 @@ fn left_leads(player: &Player, motion: &DribbleMotion, run: Vec2, now: i32) -> b
 }
 
 /// The velocity with which a player comes out of a motion.
-pub(super) fn out(player: &Player, wish: Vec2, out_dmps: u8, brakes: bool) -> Vec2 {
-    let way = if brakes { player.vel } else { wish };
-    way.normalize_or(player.body.facing) * (f32::from(out_dmps) * 0.1)
+pub(super) fn out(player: &Player, lunge: &Lunge) -> Vec2 {
+    let way = if lunge.brakes { player.vel } else { lunge.wish };
+    way.normalize_or(player.body.facing) * (f32::from(lunge.out_dmps) * 0.1)
 }
 
 /// The velocity that a motion is for: a sprinter's turn is cut into small ones.
@@ -246,15 +268,30 @@ fn on_mps(player: &Player, wanted: f32) -> f32 {
 }
 
 impl DribbleMotion {
+    /// Whether the motion to one of both sides meets a ball that comes this way. `course`: from the
+    /// player's run to the ball's; `made_for`: the same of the motion, and how far the ball's may be
+    /// off that; degrees.
+    pub(super) fn meets(
+        &self,
+        game: &Match,
+        id: PlayerId,
+        course: f32,
+        made_for: [f32; 2],
+        reach: Reach,
+    ) -> bool {
+        SIDES.into_iter().any(|side| {
+            let off = math::wrap((course - side * made_for[0]).to_radians()).to_degrees();
+            off.abs() <= made_for[1] && self.fits(game, id, side, reach)
+        })
+    }
+
     /// Whether the motion to a side (1, -1, or 0 for neither) meets the ball.
-    pub(super) fn fits(&self, game: &Match, id: PlayerId, side: f32) -> bool {
+    pub(super) fn fits(&self, game: &Match, id: PlayerId, side: f32, reach: Reach) -> bool {
         let ball_m = reach::expected(game, id, self.ticks as u32).z;
         if !leg::is_high_enough(ball_m, self.ball_m[2], LOW_M) {
             return false;
         }
         let (touch, ball) = self.touch(game, id, side);
-        let kicks = game.player(id).body.kick.is_some_and(|plan| !plan.held);
-        let reach = if kicks { leg::BEFORE_A_KICK } else { leg::DRIBBLE };
         leg::meets(&touch, ball, reach, leg::freshness(game, id, self.ticks))
     }
 
@@ -330,18 +367,20 @@ pub(super) fn is_within_stride(player: &Player, now: i32) -> bool {
 
 /// Whether a player who wants something else by now may begin the motion again. (GRF's.)
 fn begins_again(player: &Player, lunge: &Lunge, now: i32) -> bool {
-    let Motion::Dribble { wish, .. } = lunge.motion else { return false };
+    if lunge.aim != Aim::Carry {
+        return false;
+    }
     // A sprinter's turn is cut into small ones: what they want by now is cut too.
     let new = wanted(player).map_or(Vec2::ZERO, |motion| self::wish(player, run(player), motion));
     let stands = |wish: Vec2| wish.length_squared() < STOPS_MPS * STOPS_MPS;
     let changed =
-        stands(new) != stands(wish) || new.dot(wish) < CHANGED * new.length() * wish.length();
+        stands(new) != stands(lunge.wish) || new.dot(lunge.wish) < CHANGED * new.length() * lunge.wish.length();
     now <= lunge.from() + AGAIN_TICKS && changed
 }
 
 /// Whether a kick may take the place of a motion: its touch is yet to come. (GRF's.)
 pub(super) fn has_yet_to_touch(lunge: &Lunge, now: i32) -> bool {
-    matches!(lunge.motion, Motion::Dribble { .. }) && now < lunge.at
+    lunge.aim == Aim::Carry && now < lunge.at
 }
 
 /// The player nearest to a ball that lies, if they would play it.
@@ -353,6 +392,22 @@ fn first(game: &Match, near: Squad) -> Option<PlayerId> {
     let wish = game.player(nearest).body.dribble;
     (touch::contests(game, nearest) && wish.length_squared() >= STOPS_MPS * STOPS_MPS)
         .then_some(nearest)
+}
+
+/// How far a player reaches for a ball that they want to take along.
+pub(super) fn reach(game: &Match, id: PlayerId) -> Reach {
+    let kicks = game.player(id).body.kick.is_some_and(|plan| !plan.held);
+    if kicks { leg::BEFORE_A_KICK } else { leg::DRIBBLE }
+}
+
+/// The angle from a player's run to the course on which they see the ball, degrees. None if the
+/// ball is too slow.
+pub(super) fn course(game: &Match, id: PlayerId) -> Option<f32> {
+    let run = run(game.player(id));
+    let [from, to] = COURSE_TICKS.map(|ticks| reach::expected(game, id, ticks).truncate());
+    let course = to - from;
+    (course.length() >= ROLLS_MPS * 0.01 * (COURSE_TICKS[1] - COURSE_TICKS[0]) as f32)
+        .then(|| math::atan2(run.perp_dot(course), run.dot(course)).to_degrees())
 }
 
 /// The direction of a player's run, or where they face if they stand.
@@ -397,32 +452,28 @@ pub(super) fn waits(game: &Match, id: PlayerId) -> bool {
     ball.x > touch.made_for.x - WAITS_M && ball.y.abs() < ASIDE_M
 }
 
-/// The touch of a motion: sends the ball the way that its player wanted.
-pub(super) fn touch(game: &mut Match, events: &mut Events, id: PlayerId, carry: &Carry) {
+/// The velocity that a motion's touch gives the ball: the way that its player wanted, m/s.
+pub(super) fn touched(game: &mut Match, id: PlayerId, lunge: &Lunge) -> Vec3 {
     let player = *game.player(id);
     let to_ball = game.ball.pos.truncate() - player.pos;
-    // The foot misses a ball that somebody else has played since.
-    let since = player.body.lunge.map_or(0, |lunge| lunge.from());
-    let theirs = game
-        .last_touch
-        .is_some_and(|last| last != id && game.player(last).body.touched_at >= since);
-    if theirs || to_ball.length_squared() > REACH_M * REACH_M {
-        return;
-    }
     let owns = possession::has_ball(game, id);
-    let velocity = carry::touched(&player, to_ball, carry, owns, dribble::minds_lines(game, id));
+    let carry = Carry {
+        wish: lunge.wish,
+        to: out(&player, lunge),
+        rest: lunge.back,
+        first: game.last_touch != Some(id),
+    };
+    let velocity = carry::touched(&player, to_ball, &carry, owns, dribble::minds_lines(game, id));
     let velocity = carry::as_skilled(game, id, velocity, carry.wish.length());
     let sprints = carry.wish.length_squared() > SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;
     let stray = if sprints { noise::bell(game) * STRAY_RAD } else { ASIDE_RAD };
     let velocity = math::unit(stray).rotate(velocity);
     if owns {
-        contact::push(game, events, id, velocity, carry::hop_mps(velocity));
-        return;
+        return velocity.extend(carry::hop_mps(velocity));
     }
     let before = game.ball.vel;
     let awkward = awkward::to(game, id);
     let velocity = carry::longer(velocity, awkward.far);
     let up = carry::hop_mps(velocity) + (before.z + SPRINGS_MPS) * awkward.high;
-    let velocity = velocity.extend(up).lerp(before, awkward.kept);
-    contact::push(game, events, id, velocity.truncate(), velocity.z);
+    velocity.extend(up).lerp(before, awkward.kept)
 }

@@ -1,10 +1,10 @@
 //! The first touch of a free ball that no motion leads to: a player takes it, or loses it.
 
-use crate::football::{carry, contact, dribble, leg, noise};
+use crate::football::{contact, dribble, leg, noise};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
 use crate::state::{Match, PlayerId};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use setpiece_scenario::vocabulary::Stat;
 
 /// A higher ball is left to come down, metres.
@@ -97,28 +97,6 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     if hard {
         game.players[id.index()].body.ready_at = game.tick as i32 + TAKING_TICKS;
     }
-}
-
-/// The velocity with which a player takes along a ball that a rival has just played. It springs off
-/// further and keeps part of its own way. (GRF's.)
-pub(super) fn contested(game: &mut Match, id: PlayerId) -> Vec3 {
-    let player = *game.player(id);
-    let ball = game.ball;
-    let lately = surprise(game, player.skill(Stat::Reaction));
-    let skill = (1.0 - 0.5 * player.skill(Stat::BallControl)) * (0.5 + 0.5 * noise::roll(game));
-    let pushed = 2.0 * (player.body.push_m / 0.1).min(1.0);
-    let far = ((2.0 * pushed + 5.0 * lately) * skill).clamp(0.0, 1.0);
-    let high = ((0.5 * pushed + 5.0 * lately) * skill).clamp(0.0, 1.0);
-    let kept = (0.5 * lately * skill).clamp(0.0, 1.0);
-    let wish = player.body.dribble;
-    let speed = wish.length().max(player.vel.length());
-    let ahead = wish.normalize_or(player.vel.normalize_or(player.body.facing));
-    let to_ball = ball.pos.truncate() - player.pos;
-    let care = dribble::Care { lines: dribble::minds_lines(game, id), lies: false };
-    let on = dribble::ahead(&player, to_ball, ahead, speed.min(player.body.speed_top_mps), &care);
-    let on = carry::longer(on, far);
-    let up = ball.vel.z * high + 4.0 * high;
-    on.extend(0.5 + up).lerp(ball.vel, kept)
 }
 
 /// How fast a ball rises from the body that takes it, m/s, for the speed at which they meet.

@@ -9,10 +9,9 @@ use setpiece_scenario::PitchSize;
 use setpiece_scenario::vocabulary::{EventKind, GameMode, PitchMeasure, Role, Rule, Team};
 use std::ops::Range;
 
-/// Severity above which a foul earns a yellow card.
-const YELLOW: f32 = 1.5;
-/// Severity above which a foul earns a red card.
-const RED: f32 = 1.87;
+/// Severities above which a foul earns a yellow, and a red card. (GRF's.)
+const YELLOW: f32 = 1.4;
+const RED: f32 = 2.0;
 /// A free kick is taken at least this far inside the goal lines and the side lines, metres.
 const INSIDE_M: Vec2 = Vec2::new(3.0, 1.5);
 /// The ball meets a player's arms at these heights, metres.

@@ -73,6 +73,10 @@ pub(super) struct Reach {
 /// The reach of kicks.
 pub(super) const KICK: Reach = Reach { factor: 1.3, more_m: 0.15 };
 
+/// The reach of pokes, and of slides.
+pub(super) const POKE: Reach = Reach { factor: 1.4, more_m: 0.2 };
+pub(super) const SLIDE: Reach = Reach { factor: 0.2, more_m: 0.0 };
+
 /// The reach of the touches of a dribble, and what a player who is about to kick has of it.
 pub(super) const DRIBBLE: Reach = Reach { factor: 1.0, more_m: 0.0 };
 pub(super) const BEFORE_A_KICK: Reach = Reach { factor: 0.3, more_m: 0.0 };

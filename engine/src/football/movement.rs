@@ -10,7 +10,7 @@ use crate::football::pace::{
 };
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
-use crate::state::player::{Intent, Lunge, Motion, Pose, Swing};
+use crate::state::player::{Intent, Pose, Swing};
 use crate::state::{Match, Player, PlayerId, Squad};
 use arrayvec::ArrayVec;
 use glam::Vec2;
@@ -26,9 +26,6 @@ const STOPPING_M: f32 = 1.1;
 /// How a player who sets off in the motion of a touch speeds up to a dribbler's pace, m/s².
 /// Measured of GRF's.
 const SETS_OFF_MPS2: f32 = 25.0;
-
-/// How fast a player comes out of a motion for which they have stopped, m/s. Measured of GRF's.
-const STOPPED_MPS: f32 = 0.8;
 
 /// The players who do more in a tick than run.
 #[derive(Clone, Copy, Debug, Default)]
@@ -97,10 +94,6 @@ pub fn advance(game: &mut Match) -> Busy {
         let wish = if strides { run_on(player) } else { player.body.dribble };
         let (want, pace) = match player.body.intent {
             _ if frozen.is_some_and(|taker| taker != id) => (Vec2::ZERO, NO_POINT),
-            _ if let Some(lunge) = player.body.lunge.filter(Lunge::stops) => {
-                let most = if lunge.at < now { STOPPED_MPS } else { 0.0 };
-                (player.body.dribble.clamp_length_max(most), NO_POINT)
-            }
             // A dribbler finishes the stride. (GRF's.)
             _ if strides => {
                 let speed = wish.length().max(player.vel.length());
@@ -250,16 +243,14 @@ fn carry_ball(player: &mut Player, wish: Vec2, to: Vec2, ticks: i32) {
     player.body.lag_ticks = 0;
 }
 
-/// Moves the body of a player who is in the touch of a dribble or in the swing of a kick. False for
+/// Moves the body of a player whose leg is out for the ball, or swings at it. False for
 /// anybody else.
 fn commits(player: &mut Player, now: i32) -> bool {
-    if let Some(lunge) = player.body.lunge
-        && let Motion::Dribble { brakes, out_dmps, wish } = lunge.motion
-    {
-        let to = dribble_motion::out(player, wish, out_dmps, brakes);
-        carry_ball(player, wish, to, lunge.until() - now);
+    if let Some(lunge) = player.body.lunge {
+        let to = dribble_motion::out(player, &lunge);
+        carry_ball(player, lunge.wish, to, lunge.until() - now);
         let walks = player.vel.length_squared() > WALKS_FROM_MPS * WALKS_FROM_MPS;
-        if now < lunge.at && walks && !brakes {
+        if now < lunge.at && walks && !lunge.brakes {
             player.pos += player.vel.normalize_or_zero() * (REACHES_MPS * DT);
         }
         return true;

@@ -38,7 +38,7 @@ const FIRST_DRAGGED: f32 = 0.6;
 const FELT: f32 = 0.5;
 /// The share of a displacement in two ticks that a runner's own velocity takes over. Fitted to how
 /// dribblers are slowed.
-const TAKEN_OVER: f32 = 0.03;
+const TAKEN_OVER: f32 = 0.07;
 
 /// The most that pushes add up to, metres. (GRF's.)
 const SHOVE_MAX_M: f32 = 0.1;
@@ -152,7 +152,7 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
 /// How much better a player stands whose leg is out for the ball. (GRF's.)
 fn tackles(player: &Player, now: i32) -> f32 {
     let pokes =
-        player.body.lunge.is_some_and(|lunge| lunge.aim() == Some(Aim::Poke) && lunge.at > now);
+        player.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke && lunge.at > now);
     let stat =
         if player.body.pose == Pose::Sliding { Stat::SlidingTackle } else { Stat::StandingTackle };
     if pokes || stat == Stat::SlidingTackle {
@@ -173,6 +173,9 @@ fn felt(vel: Vec2, by: Vec2) -> Vec2 {
 fn displace(game: &mut Match, id: PlayerId, by: Vec2) {
     let player = &mut game.players[id.index()];
     player.pos += by;
+    if let Some(lunge) = &mut player.body.lunge {
+        lunge.place += by.extend(0.0);
+    }
     if !matches!(player.body.pose, Pose::Stumbling { .. }) {
         player.vel += by * (TAKEN_OVER / (2.0 * DT));
     }

@@ -156,7 +156,7 @@ fn lose_balance(
     };
     tripped.body.strike_pose(Pose::Stumbling { to_dmps: (mps * 10.0) as u8 }, ticks);
     // A foot on its way back brings a runner down, too. (GRF's.)
-    let lunges = other.body.lunge.is_some_and(|lunge| lunge.aim() == Some(Aim::Poke))
+    let lunges = other.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke)
         || other.body.pose == Pose::Sliding;
     let near = player.pos.distance_squared(game.ball.pos.truncate()) < FOUL_M * FOUL_M;
     if falls && lunges && near && by.team() != id.team() && game.possession == Some(id.team()) {

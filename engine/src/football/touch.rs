@@ -7,7 +7,7 @@
 use crate::football::{dribble, dribble_motion, first_touch};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
-use crate::state::player::{Intent, Pose};
+use crate::state::player::{Aim, Intent, Pose};
 use crate::state::{Match, PlayerId, Squad};
 use setpiece_scenario::Ai;
 use setpiece_scenario::vocabulary::Rule;
@@ -100,7 +100,7 @@ pub(super) fn contests(game: &Match, id: PlayerId) -> bool {
 /// after a poke at a rival's ball: then it is free.
 fn plays_on(game: &Match, id: PlayerId) -> bool {
     let body = &game.player(id).body;
-    let dribbles = body.lunge.is_some_and(|lunge| lunge.aim().is_none());
+    let dribbles = body.lunge.is_some_and(|lunge| lunge.aim == Aim::Carry);
     dribbles || game.tick as i32 >= body.ready_at
 }
 

@@ -4,8 +4,6 @@
 use crate::football::dribble_motion::MotionEnd::{self, Braked, On, Turned};
 use crate::football::dribble_motion::{self, DribbleMotion, motion};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
-use crate::football::reach;
-use crate::math;
 use crate::state::{Match, PlayerId};
 use TrapEnd::{Any, Runs, Stops};
 
@@ -85,37 +83,23 @@ const STANDING: [Trap; 7] = [
     trap([180.0, 90.0], Runs, [39, 67], Braked(0.0), [0.28, 0.01, 1.23], [-0.4, 0.0, 0.0, 0.0]),
     trap([180.0, 90.0], Runs, [51, 95], Braked(0.0), [0.21, -0.04, 1.57], [-0.4, 0.0, 0.0, 0.0]),
 ];
-/// A ball that is expected to be slower isn't trapped, m/s. (GRF's.)
-const ROLLS_MPS: f32 = 2.0;
-/// Between which ticks from now the ball's course is seen. (GRF's.)
-const COURSE_TICKS: [u32; 2] = [12, 18];
 /// Up to this cosine a player wants to run on.
 const ON_COS: f32 = 0.38;
-/// The sides to which a motion is made.
-const SIDES: [f32; 2] = [1.0, -1.0];
 
-/// The first trap that meets the free ball.
+/// The first trap that meets the ball.
 pub(super) fn find(game: &Match, id: PlayerId) -> Option<&'static DribbleMotion> {
     let player = game.player(id);
-    let run = dribble_motion::run(player);
-    let [from, to] = COURSE_TICKS.map(|ticks| reach::expected(game, id, ticks).truncate());
-    let course = to - from;
-    if course.length() < ROLLS_MPS * 0.01 * (COURSE_TICKS[1] - COURSE_TICKS[0]) as f32 {
-        return None;
-    }
-    let course = math::atan2(run.perp_dot(course), run.dot(course)).to_degrees();
-    let wish = player.body.dribble;
+    let course = dribble_motion::course(game, id)?;
+    let (run, wish) = (dribble_motion::run(player), player.body.dribble);
     let runs = wish.length_squared() > WALKS_FROM_MPS * WALKS_FROM_MPS
         && run.dot(wish) > ON_COS * wish.length();
     let other = if runs { Stops } else { Runs };
-    let traps = of_gait(player.vel.length()).into_iter().flatten();
-    traps.filter(|trap| trap.end != other).find_map(|trap| {
-        let comes = |side: f32| {
-            let off = math::wrap((course - side * trap.course_degrees).to_radians()).to_degrees();
-            off.abs() <= trap.within_degrees && trap.motion.fits(game, id, side)
-        };
-        SIDES.into_iter().any(comes).then_some(&trap.motion)
-    })
+    let reach = dribble_motion::reach(game, id);
+    let meets = |trap: &&Trap| {
+        let made_for = [trap.course_degrees, trap.within_degrees];
+        trap.end != other && trap.motion.meets(game, id, course, made_for, reach)
+    };
+    of_gait(player.vel.length()).into_iter().flatten().find(meets).map(|trap| &trap.motion)
 }
 
 /// The traps of a pace, in the order in which they are tried.

@@ -252,36 +252,15 @@ impl Swing {
     pub const RUN: u8 = u8::MAX;
 }
 
-/// What a foot does with a ball that it reaches for.
+/// What a leg does with a ball that it meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Aim {
-    /// Pokes it away.
-    Poke,
     /// Takes it along.
-    Take,
-}
-
-/// What a leg is out for.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub enum Motion {
-    /// A ball that somebody else may have.
-    Reach {
-        /// What the foot does there.
-        aim: Aim,
-        /// Whether the player stops for it.
-        stops: bool,
-        /// Where the ball will be then, world metres.
-        place: Vec2,
-    },
-    /// The next touch of the player's own ball.
-    Dribble {
-        /// Whether they come out of it along their old run.
-        brakes: bool,
-        /// How fast they come out of it, 0.1 m/s.
-        out_dmps: u8,
-        /// The velocity that they wanted when it began, world m/s.
-        wish: Vec2,
-    },
+    Carry,
+    /// Pokes it away from a rival.
+    Poke,
+    /// Slides into it.
+    Slide,
 }
 
 /// A leg on its way to the ball, and back.
@@ -296,23 +275,19 @@ pub struct Lunge {
     /// Whether the other foot leads afterwards.
     pub changes_feet: bool,
     /// What for.
-    pub motion: Motion,
+    pub aim: Aim,
+    /// Where the ball was expected when it began, world metres. The place moves with a body that is
+    /// pushed.
+    pub place: Vec3,
+    /// Whether the player comes out of it along their old run.
+    pub brakes: bool,
+    /// How fast they come out of it, 0.1 m/s.
+    pub out_dmps: u8,
+    /// The velocity that they wanted when it began, world m/s.
+    pub wish: Vec2,
 }
 
 impl Lunge {
-    /// What the foot does with a ball that it reaches for.
-    pub fn aim(&self) -> Option<Aim> {
-        match self.motion {
-            Motion::Reach { aim, .. } => Some(aim),
-            Motion::Dribble { .. } => None,
-        }
-    }
-
-    /// Whether the player stops for it.
-    pub fn stops(&self) -> bool {
-        matches!(self.motion, Motion::Reach { stops: true, .. })
-    }
-
     /// The tick in which the leg went out.
     pub fn from(&self) -> i32 {
         self.at - i32::from(self.out)

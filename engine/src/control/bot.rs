@@ -109,11 +109,9 @@ fn decide(game: &mut Match, view: &TeamView, id: PlayerId) {
         }
         return;
     }
-    if press::is_met(game, view, id) {
-        return press::meet(game, view, id);
-    }
     match press::pursuit(game, view, id) {
         press::Pursuit::Fetch => return press::fetch(game, view, id),
+        _ if press::is_met(game, view, id) => return press::meet(game, view, id),
         press::Pursuit::Hunt(rival) => return press::hunt(game, view, id, rival),
         press::Pursuit::None => {}
     }

@@ -73,6 +73,7 @@ fn may(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
     player.is_up()
         && player.body.lunge.is_none()
+        && !player.body.swings()
         && game.tick as i32 >= player.body.ready_at
         && touch::contests(game, id)
 }

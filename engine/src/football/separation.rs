@@ -176,6 +176,9 @@ fn displace(game: &mut Match, id: PlayerId, by: Vec2) {
     if let Some(lunge) = &mut player.body.lunge {
         lunge.place += by.extend(0.0);
     }
+    if let Some(swing) = player.body.kick.as_mut().and_then(|plan| plan.swing.as_mut()) {
+        swing.place += by.extend(0.0);
+    }
     if !matches!(player.body.pose, Pose::Stumbling { .. }) {
         player.vel += by * (TAKEN_OVER / (2.0 * DT));
     }

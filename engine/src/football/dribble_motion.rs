@@ -9,7 +9,7 @@ use crate::football::dribble::{self, LIES_MPS, STOPS_MPS};
 use crate::football::foot::{self, STRIDE_TICKS};
 use crate::football::leg::{self, MotionTouch, Reach};
 use crate::football::pace::{DRIBBLES_FROM_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS};
-use crate::football::{awkward, noise, possession, reach, touch, trap};
+use crate::football::{awkward, kick, noise, possession, reach, touch, trap};
 use crate::math;
 use crate::state::play::ticks_since;
 use crate::state::player::{Aim, Lunge};
@@ -149,6 +149,8 @@ const SPRINGS_MPS: f32 = 4.0;
 const LOW_M: f32 = 0.15;
 /// A ball that meets a player faster than this can't be taken along, m/s. (GRF's.)
 const TAKES_MPS: f32 = 15.0;
+/// What is left of the pace of a player who is to kick. (GRF's.)
+const BRAKED: f32 = 0.9;
 /// Between which ticks from now the ball's course is seen. A slower ball has none, m/s. (GRF's.)
 const COURSE_TICKS: [u32; 2] = [12, 18];
 const ROLLS_MPS: f32 = 2.0;
@@ -179,7 +181,11 @@ const BENT_MPS: f32 = 6.7;
 /// who may be when a free ball has come.
 pub(super) fn begin(game: &mut Match, near: Squad, about: Squad) {
     let Some(id) = next(game, near, about) else { return };
-    let along = wanted(game.player(id)).filter(|motion| {
+    if game.player(id).body.kick.is_some() && !kick::looks(game, id) {
+        // A kick comes first.
+        return;
+    }
+    let along = wanted(game.player(id), asks(game, id)).filter(|motion| {
         (game.on_ball() == Some(id) || is_slow(game, id)) && motion.fits(game, id, 0.0, reach(game, id))
     });
     let free = || game.on_ball().is_none();
@@ -191,7 +197,8 @@ pub(super) fn begin(game: &mut Match, near: Squad, about: Squad) {
 
 /// Begins the motion in which a player takes along a ball that a rival has, if it meets the ball.
 pub(super) fn takes(game: &mut Match, id: PlayerId) -> bool {
-    let motion = wanted(game.player(id)).filter(|motion| motion.fits(game, id, 0.0, reach(game, id)));
+    let motion = wanted(game.player(id), asks(game, id))
+        .filter(|motion| motion.fits(game, id, 0.0, reach(game, id)));
     motion.is_some_and(|motion| start(game, id, motion, Aim::Carry))
 }
 
@@ -199,7 +206,7 @@ pub(super) fn takes(game: &mut Match, id: PlayerId) -> bool {
 pub(super) fn start(game: &mut Match, id: PlayerId, motion: &DribbleMotion, aim: Aim) -> bool {
     let player = game.player(id);
     let run = run(player);
-    let wish = if aim == Aim::Carry { wish(player, run, motion) } else { run };
+    let wish = if aim == Aim::Carry { wish(asks(game, id), run, motion) } else { run };
     let (mps, brakes) = match motion.out {
         MotionEnd::Turned(mps) => (mps, false),
         MotionEnd::Braked(mps) => (mps, true),
@@ -218,7 +225,7 @@ pub(super) fn start(game: &mut Match, id: PlayerId, motion: &DribbleMotion, aim:
         out_dmps: (mps * 10.0).round() as u8,
         wish,
     };
-    let leads = left_leads(player, motion, run, now);
+    let leads = left_leads(player, asks(game, id), motion, run, now);
     let stands = player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS;
     let player = &mut game.players[id.index()];
     if stands {
@@ -231,8 +238,7 @@ pub(super) fn start(game: &mut Match, id: PlayerId, motion: &DribbleMotion, aim:
 }
 
 /// Whether the left foot leads in a motion: in a turn, that of its side.
-fn left_leads(player: &Player, motion: &DribbleMotion, run: Vec2, now: i32) -> bool {
-    let wish = player.body.dribble;
+fn left_leads(player: &Player, wish: Vec2, motion: &DribbleMotion, run: Vec2, now: i32) -> bool {
     let turns = motion.to_degrees > ON_DEG && wish.length_squared() > STOPS_MPS * STOPS_MPS;
     if turns { run.perp_dot(wish) < 0.0 } else { foot::left_leads(player, now) }
 }
@@ -244,8 +250,7 @@ pub(super) fn out(player: &Player, lunge: &Lunge) -> Vec2 {
 }
 
 /// The velocity that a motion is for: a sprinter's turn is cut into small ones.
-fn wish(player: &Player, run: Vec2, motion: &DribbleMotion) -> Vec2 {
-    let wish = player.body.dribble;
+fn wish(wish: Vec2, run: Vec2, motion: &DribbleMotion) -> Vec2 {
     if !matches!(motion.out, MotionEnd::Bent) {
         return wish;
     }
@@ -301,7 +306,7 @@ impl DribbleMotion {
         let (pace, run) = (player.vel.length(), run(player));
         let out_mps = match self.out {
             MotionEnd::Turned(mps) | MotionEnd::Braked(mps) => mps,
-            MotionEnd::On => on_mps(player, player.body.dribble.length()),
+            MotionEnd::On => on_mps(player, asks(game, id).length()),
             MotionEnd::Bent => BENT_MPS,
         };
         let ball = reach::expected(game, id, self.ticks as u32).truncate();
@@ -371,7 +376,9 @@ fn begins_again(player: &Player, lunge: &Lunge, now: i32) -> bool {
         return false;
     }
     // A sprinter's turn is cut into small ones: what they want by now is cut too.
-    let new = wanted(player).map_or(Vec2::ZERO, |motion| self::wish(player, run(player), motion));
+    let asked = player.body.dribble;
+    let new =
+        wanted(player, asked).map_or(Vec2::ZERO, |motion| self::wish(asked, run(player), motion));
     let stands = |wish: Vec2| wish.length_squared() < STOPS_MPS * STOPS_MPS;
     let changed =
         stands(new) != stands(lunge.wish) || new.dot(lunge.wish) < CHANGED * new.length() * lunge.wish.length();
@@ -419,9 +426,28 @@ pub(super) fn run(player: &Player) -> Vec2 {
     }
 }
 
+/// The velocity that a player wants with the ball. Whoever an agent wants to kick it keeps their
+/// line and brakes, most if another direction is held. (GRF's.)
+pub(super) fn asks(game: &Match, id: PlayerId) -> Vec2 {
+    let player = game.player(id);
+    let kicks = player.body.kick.is_some() && game.play.set_piece.is_none();
+    if kicks && game.is_driven(id) && game.on_ball() != Some(id) {
+        braked(player, player.body.dribble)
+    } else {
+        player.body.dribble
+    }
+}
+
+/// The velocity of a player who is to kick, and holds a direction at a gait.
+fn braked(player: &Player, held: Vec2) -> Vec2 {
+    let ahead = player.vel.normalize_or(player.body.facing);
+    let along = held.try_normalize().map_or(1.0, |held| 0.5 + 0.5 * ahead.dot(held));
+    ahead * (player.vel.length() * BRAKED * (0.2 + 0.8 * libm::powf(along.clamp(0.0, 1.0), 1.5)))
+}
+
 /// The motion that a player wants. None for one who stands and wants to.
-fn wanted(player: &Player) -> Option<&'static DribbleMotion> {
-    let (wish, pace) = (player.body.dribble, player.vel.length());
+fn wanted(player: &Player, wish: Vec2) -> Option<&'static DribbleMotion> {
+    let pace = player.vel.length();
     if wish.length_squared() < STOPS_MPS * STOPS_MPS {
         return STOPPING.iter().find(|motion| pace >= motion.from_mps);
     }
@@ -442,12 +468,12 @@ fn wanted(player: &Player) -> Option<&'static DribbleMotion> {
 
 /// Whether a player who has the ball will turn with it: until then they stay behind it.
 pub(super) fn turns(player: &Player) -> bool {
-    wanted(player).is_some_and(|motion| motion.to_degrees > ON_DEG)
+    wanted(player, player.body.dribble).is_some_and(|motion| motion.to_degrees > ON_DEG)
 }
 
 /// Whether the ball is ahead of a player, so that their motion will meet it.
 pub(super) fn waits(game: &Match, id: PlayerId) -> bool {
-    let Some(motion) = wanted(game.player(id)) else { return false };
+    let Some(motion) = wanted(game.player(id), asks(game, id)) else { return false };
     let (touch, ball) = motion.touch(game, id, 0.0);
     ball.x > touch.made_for.x - WAITS_M && ball.y.abs() < ASIDE_M
 }

@@ -221,7 +221,7 @@ fn clearances(game: &Match, id: PlayerId, plan: &KickPlan) -> [KickPlan; 3] {
 
 /// Whether a player looks now whether a swing meets the ball: every other tick, the teams by turns.
 /// (GRF's.)
-fn looks(game: &Match, id: PlayerId) -> bool {
+pub(super) fn looks(game: &Match, id: PlayerId) -> bool {
     (game.tick + u32::from(id.team() != game.play.early)).is_multiple_of(2)
 }
 

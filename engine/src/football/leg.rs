@@ -136,9 +136,10 @@ pub(super) fn is_high_enough(ball_m: f32, motion_m: f32, low_m: f32) -> bool {
 }
 
 /// How much of its own way a ball keeps that has come off the place where a foot arrives now, 0..1.
-/// None if the foot misses it. (GRF's.)
+/// None if the foot misses it. (GRF's.) The height doesn't count: forecasts of bounces are too
+/// coarse.
 pub(super) fn missed_share(game: &Match, place: Vec3) -> Option<f32> {
-    let off = game.ball.pos.distance(place) / MISSED_M;
+    let off = game.ball.pos.truncate().distance(place.truncate()) / MISSED_M;
     (off < 1.0).then(|| math::smooth(math::smooth(off)))
 }
 

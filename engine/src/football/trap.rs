@@ -78,11 +78,16 @@ const STANDING: [Trap; 7] = [
     trap([180.0, 45.0], Stops, [20, 42], Braked(0.0), [0.2, -0.12, 0.11], [0.0, 0.0, 0.0, 0.0]),
     trap([180.0, 45.0], Runs, [12, 32], Turned(3.5), [0.08, -0.13, 0.11], [0.0, 0.0, 0.5, 0.0]),
     trap([180.0, 45.0], Runs, [14, 42], Turned(3.1), [0.08, -0.24, 0.11], [0.0, 0.0, 0.5, 0.0]),
-    trap([180.0, 90.0], Any, [11, 33], On, [0.48, -0.13, 0.78], [0.8, 0.0, 1.5, 0.0]),
-    trap([180.0, 90.0], Any, [15, 34], Braked(0.0), [0.21, 0.0, 0.89], [-0.1, 0.0, 0.0, 0.0]),
-    trap([180.0, 90.0], Any, [39, 67], Braked(0.0), [0.28, 0.01, 1.23], [-0.4, 0.0, 0.0, 0.0]),
-    trap([180.0, 90.0], Any, [51, 95], Braked(0.0), [0.21, -0.04, 1.57], [-0.4, 0.0, 0.0, 0.0]),
+    trap([180.0, 90.0], Runs, [11, 33], On, [0.48, -0.13, 0.78], [0.8, 0.0, 1.5, 0.0]),
+    trap([180.0, 90.0], Runs, [15, 34], Braked(0.0), [0.21, 0.0, 0.89], [-0.1, 0.0, 0.0, 0.0]),
+    trap([180.0, 90.0], Runs, [39, 67], Braked(0.0), [0.28, 0.01, 1.23], [-0.4, 0.0, 0.0, 0.0]),
+    trap([180.0, 90.0], Runs, [51, 95], Braked(0.0), [0.21, -0.04, 1.57], [-0.4, 0.0, 0.0, 0.0]),
 ];
+/// A ball counts as bouncy that is so high, metres, now or in `SOON_TICKS`, or rises or falls so
+/// fast, m/s. (GRF's.)
+const HIGH_M: f32 = 0.3;
+const SOON_TICKS: u32 = 8;
+const BOUNCES_MPS: f32 = 1.0;
 /// Up to this cosine a player wants to run on.
 const ON_COS: f32 = 0.38;
 
@@ -90,16 +95,23 @@ const ON_COS: f32 = 0.38;
 pub(super) fn find(game: &Match, id: PlayerId) -> Option<&'static DribbleMotion> {
     let player = game.player(id);
     let course = dribble_motion::course(game, id)?;
-    let (run, wish) = (dribble_motion::run(player), player.body.dribble);
+    let (run, wish) = (dribble_motion::run(player), dribble_motion::asks(game, id));
     let runs = wish.length_squared() > WALKS_FROM_MPS * WALKS_FROM_MPS
         && run.dot(wish) > ON_COS * wish.length();
     let other = if runs { Stops } else { Runs };
+    let any = is_bouncy(game);
     let reach = dribble_motion::reach(game, id);
     let meets = |trap: &&Trap| {
         let made_for = [trap.course_degrees, trap.within_degrees];
-        trap.end != other && trap.motion.meets(game, id, course, made_for, reach)
+        (any || trap.end != other) && trap.motion.meets(game, id, course, made_for, reach)
     };
     of_gait(player.vel.length()).into_iter().flatten().find(meets).map(|trap| &trap.motion)
+}
+
+/// Whether the ball is so high, or bounces so much, that players take it as they can. (GRF's.)
+fn is_bouncy(game: &Match) -> bool {
+    let high = |ticks| game.play.forecast.at(game.tick + ticks).z > HIGH_M;
+    high(1) || high(SOON_TICKS) || game.ball.vel.z.abs() > BOUNCES_MPS
 }
 
 /// The traps of a pace, in the order in which they are tried.

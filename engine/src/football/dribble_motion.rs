@@ -223,6 +223,8 @@ pub(super) fn start(game: &mut Match, id: PlayerId, motion: &DribbleMotion, aim:
         place: reach::expected(game, id, motion.ticks as u32),
         brakes,
         out_dmps: (mps * 10.0).round() as u8,
+        at_dmps: matches!(motion.out, MotionEnd::On)
+            .then(|| (motion.at_mps(player.vel.length()) * 10.0).round() as u8),
         wish,
     };
     let leads = left_leads(player, asks(game, id), motion, run, now);
@@ -300,6 +302,11 @@ impl DribbleMotion {
         leg::meets(&touch, ball, reach, leg::freshness(game, id, self.ticks))
     }
 
+    /// How fast the player is at the touch, m/s, for their pace now.
+    fn at_mps(&self, pace: f32) -> f32 {
+        self.end[0] + self.end[1] * pace
+    }
+
     /// The touch of this motion to a side, and where the ball will be then, in the run's frame.
     fn touch(&self, game: &Match, id: PlayerId, side: f32) -> (MotionTouch, Vec2) {
         let player = game.player(id);
@@ -316,7 +323,7 @@ impl DribbleMotion {
             ticks: self.ticks,
             made_for: Vec2::new(self.ball_m[0], side * self.ball_m[1]),
             pace,
-            at_mps: self.end[0] + self.end[1] * pace,
+            at_mps: self.at_mps(pace),
             out_mps,
         };
         (touch, Vec2::new(place.dot(run), run.perp_dot(place)))

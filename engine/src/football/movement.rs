@@ -248,7 +248,13 @@ fn carry_ball(player: &mut Player, wish: Vec2, to: Vec2, ticks: i32) {
 fn commits(player: &mut Player, now: i32) -> bool {
     if let Some(lunge) = player.body.lunge {
         let to = dribble_motion::out(player, &lunge);
-        carry_ball(player, lunge.wish, to, lunge.until() - now);
+        match lunge.at_dmps {
+            Some(at_dmps) if now < lunge.at => {
+                let at = player.vel.normalize_or(player.body.facing) * (f32::from(at_dmps) * 0.1);
+                carry_ball(player, lunge.wish, at, lunge.at - now);
+            }
+            _ => carry_ball(player, lunge.wish, to, lunge.until() - now),
+        }
         let walks = player.vel.length_squared() > WALKS_FROM_MPS * WALKS_FROM_MPS;
         if now < lunge.at && walks && !lunge.brakes {
             player.pos += player.vel.normalize_or_zero() * (REACHES_MPS * DT);

@@ -13,7 +13,7 @@ use std::ops::Range;
 use wide::f32x4;
 
 /// The highest ball that a player can play without hands, metres.
-pub const PLAYABLE_M: f32 = 1.25;
+pub const PLAYABLE_M: f32 = 1.5;
 /// A generous bound on the rounding error of sums of distances, metres.
 const ROUNDING_M: f32 = 0.01;
 /// Seconds between two points of a forecast.
@@ -176,6 +176,7 @@ pub fn refresh(game: &mut Match) {
 /// Updates the meetings of some players. A player who hasn't seen the last touch keeps the old one.
 fn renew(game: &mut Match, whose: impl Fn(&Player) -> bool) {
     let (since, toucher) = last_touch(game);
+    let now = game.tick as i32;
     let way = Way::of(&game.play.forecast, game.tick);
     for id in game.squad.ids() {
         let driven = game.is_driven(id);
@@ -189,8 +190,16 @@ fn renew(game: &mut Match, whose: impl Fn(&Player) -> bool) {
         }
         let (meet, meet_s) = meeting(player, &way);
         player.body.meet = meet;
-        player.body.meet_s = meet_s;
+        player.body.meet_s = meet_s.min(touch_s(player, now));
     }
+}
+
+/// Seconds until the touch of a leg that is out for the ball, or swings at it. (GRF's.)
+fn touch_s(player: &Player, now: i32) -> f32 {
+    let lunge = player.body.lunge.map(|lunge| lunge.at);
+    let swing = player.body.kick.and_then(|plan| plan.swing).map(|swing| swing.ready_at);
+    let touches = [lunge, swing].into_iter().flatten().filter(|&at| at > now);
+    touches.min().map_or(f32::MAX, |at| (at - now) as f32 * 0.01)
 }
 
 /// The player who will reach a free ball first. None if two players of both teams arrive together.

@@ -283,6 +283,8 @@ pub struct Lunge {
     pub brakes: bool,
     /// How fast they come out of it, 0.1 m/s.
     pub out_dmps: u8,
+    /// How fast they are at the touch, 0.1 m/s, if they run straight on until then.
+    pub at_dmps: Option<u8>,
     /// The velocity that they wanted when it began, world m/s.
     pub wish: Vec2,
 }

@@ -7,7 +7,7 @@ pub const RUN_MPS: f32 = 5.0;
 /// The speed that a sprinting player asks for, m/s: above everyone's top speed.
 pub const SPRINT_MPS: f32 = 8.0;
 /// Speed with the dribble key and the ball, m/s. Measured.
-pub const DRIBBLE_WITH_BALL_MPS: f32 = 4.1;
+pub const DRIBBLE_WITH_BALL_MPS: f32 = 3.7;
 /// Speed without sprint with the ball, m/s. Measured.
 pub const RUN_WITH_BALL_MPS: f32 = 5.0;
 

@@ -127,7 +127,7 @@ impl Suite {
         };
         let options = EnvironmentOptions { rewards, ..EnvironmentOptions::default() };
         let row = interruptible(py, move || {
-            suite::row(&entry, &options, &[(agent.name(), agent)], threads, || ())
+            suite::row(&entry, &options, &[agent.into()], threads, || ())
         })?;
         Ok(SuiteRow { row: row.map_err(|error| errors::from_facade(py, &error))? })
     }

@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 fine, 1 the input has errors, 2 the command line has.
 
+mod agent;
 mod bench;
 mod check;
 mod common;

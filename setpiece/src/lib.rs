@@ -5,6 +5,7 @@
 //! an episode as scenes, which [`mod@render`] draws. [`watch`] recompiles a scenario when its files
 //! change, and [`probe`] finds problems that only a dry run shows.
 
+pub mod agent;
 pub mod bench;
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -28,6 +29,7 @@ pub mod load;
 #[cfg(feature = "editor")]
 pub mod lsp;
 pub mod measure;
+pub mod onnx;
 pub mod picture;
 pub mod pixels;
 pub mod plans;

@@ -12,6 +12,7 @@ mod check;
 mod files;
 mod list;
 mod lsp;
+mod policy;
 mod rewards;
 mod run;
 mod snapshot;

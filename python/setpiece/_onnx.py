@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from setpiece._errors import FileError, FormatError, ParameterError
 from setpiece._optional import need
 from setpiece._options import check_path
+from setpiece._spaces import OBSERVATIONS
 
 TYPES = {
     "tensor(float)": np.float32,
@@ -28,6 +29,9 @@ MASK = "mask"
 REPEAT = "repeat"
 """The key of a model's metadata that says how many steps a decision lasts."""
 
+OBSERVATION, SCALE, STACK = "observation", "scale", "stack"
+"""The keys that say what a model sees: the name, whether it is scaled, how many at once."""
+
 
 @dataclass(frozen=True)
 class OnnxPolicy:
@@ -41,6 +45,10 @@ class OnnxPolicy:
     """How many steps a decision lasts."""
     mask: Any = None
     """The input for masks, if the model has one."""
+    observation: str | None = None
+    """The observation that the model names; None also for a stack, which the caller provides."""
+    scale: bool = False
+    """Whether that observation is scaled."""
 
     @property
     def masks(self) -> bool:
@@ -94,7 +102,9 @@ def onnx_policy(path: str | PathLike[str]) -> OnnxPolicy:
 
     If the model's metadata has the key `repeat`, a whole number, a decision lasts so many steps:
     whoever plays the policy presses its action in all of them. The policy has the attribute
-    `repeat`, 1 without that key.
+    `repeat`, 1 without that key. `observation` is the name of what the policy sees, and with `scale`
+    as `true` it is scaled. Opponents and evaluated policies then see that, whatever the caller sees;
+    not if the key `stack` says that several are seen at once.
 
     Raises `FileError`, `FormatError`, `MissingPackageError`, and `ParameterError` if `path` isn't a
     path.
@@ -120,9 +130,25 @@ def onnx_policy(path: str | PathLike[str]) -> OnnxPolicy:
             f"`{fspath(path)}` has the inputs {found}; expected one, and perhaps a `{MASK}`: "
             f"{', '.join(TYPES)}"
         )
-    said = session.get_modelmeta().custom_metadata_map.get(REPEAT, "1")
+    metadata = session.get_modelmeta().custom_metadata_map
+    said = metadata.get(REPEAT, "1")
     if not (said.isdecimal() and int(said) >= 1):
         raise FormatError(
             f"`{fspath(path)}` has the `{REPEAT}` {said!r}; expected a count of steps"
         )
-    return OnnxPolicy(fspath(path), session, shown[0], int(said), masks[0] if masks else None)
+    name = metadata.get(OBSERVATION)
+    if name is not None and name not in OBSERVATIONS:
+        raise FormatError(
+            f"`{fspath(path)}` has the `{OBSERVATION}` {name!r}; expected {', '.join(OBSERVATIONS)}"
+        )
+    if metadata.get(STACK, "1") != "1":
+        name = None
+    return OnnxPolicy(
+        fspath(path),
+        session,
+        shown[0],
+        int(said),
+        masks[0] if masks else None,
+        name,
+        name is not None and metadata.get(SCALE) == "true",
+    )

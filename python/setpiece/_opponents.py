@@ -33,8 +33,8 @@ class Policy:
 
     - `play`: a function of observations that returns actions, the path of an `.onnx` file, or an
       object with the `predict` of Stable-Baselines3.
-    - `observation`: what it sees, as in `setpiece.make` without a stack; None: what the caller
-      sees, including the stack.
+    - `observation`: what it sees, as in `setpiece.make` without a stack; None: what the `.onnx`
+      file says, otherwise what the caller sees, including the stack.
     - `batched`: True: it gets the observations of all its n agents at once, an array with a leading
       axis n (a tuple of n dicts for `"raw"`), and returns n actions. False: it gets one agent's and
       returns one, agent by agent.
@@ -128,11 +128,12 @@ class Table:
             at = [slot for slot, key in owner.items() if key == who]
             if not at or is_word(opponent):
                 continue
-            policy = policy_of(who, opponent)
+            given = policy_of(who, opponent)
             ids = tuple(agents[slot].id for slot in at)
             teams = {agents[slot].team for slot in at}
             side = SIDES[teams.pop()] if len(teams) == 1 else None
-            play, held = player_of(policy)
+            play, held = player_of(given)
+            policy = sighted(given, play)
             pick = Picker(self.n_agents, at)
             masked = sees_masks(policy, play)
             self.seats.append(Seat(ids, at, pick, policy, play, held, side, what, masked))
@@ -373,6 +374,16 @@ def sees_masks(policy: Policy, play: Callable[..., Any]) -> bool:
     if policy.masks is not None:
         return bool(policy.masks)
     return isinstance(play, OnnxPolicy) and play.masks
+
+
+def sighted(policy: Policy, play: Callable[..., Any]) -> Policy:
+    """Returns a policy with the observation that its file names, if it names none itself."""
+    if policy.observation is not None or not isinstance(play, OnnxPolicy):
+        return policy
+    if play.observation is None:
+        return policy
+    scale = check_scale(play.scale, play.observation)
+    return replace(policy, observation=play.observation, scale=scale)
 
 
 def player_of(policy: Policy) -> tuple[Callable[..., Any], Held]:

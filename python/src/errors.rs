@@ -83,6 +83,7 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
         Error::Snapshot(_) => "SnapshotError",
         Error::Replay(_) => "ReplayError",
         Error::Policy { .. } => "FormatError",
+        Error::NoBaseline { .. } => "ParameterError",
         Error::Environment(why) => {
             if let EnvironmentError::Param(why) = why {
                 fields.set_item("name", param_name(why))?;

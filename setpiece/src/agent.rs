@@ -1,4 +1,5 @@
-//! Who plays the agents: a ready-made agent, or a policy from an ONNX file.
+//! Who plays the agents: a ready-made agent, the policy that a scenario comes with, or one from an
+//! ONNX file.
 
 mod acting;
 mod policy;
@@ -7,6 +8,7 @@ mod sight;
 pub use acting::{ActingAgent, FittedAgent};
 pub use policy::{NetworkPolicy, POLICY_MAX_BYTES};
 
+use crate::baseline::{BASELINE, baseline};
 use crate::error::Error;
 use setpiece_engine::batch::ReadyMade;
 use setpiece_engine::control::agents::Agent;
@@ -20,6 +22,8 @@ use std::sync::Arc;
 pub enum ChosenAgent {
     /// A ready-made agent.
     ReadyMade(Agent),
+    /// The policy that the scenario comes with.
+    Baseline,
     /// A policy from a file.
     Policy(Arc<NetworkPolicy>),
 }
@@ -44,10 +48,17 @@ impl ChosenAgent {
         Ok(ChosenAgent::Policy(Arc::new(NetworkPolicy::from_file(path)?)))
     }
 
+    /// Finds an agent by its name: a ready-made one, or `baseline`.
+    pub fn from_name(name: &str) -> Option<ChosenAgent> {
+        let ready_made = || Agent::from_name(name).map(ChosenAgent::from);
+        if name == BASELINE { Some(ChosenAgent::Baseline) } else { ready_made() }
+    }
+
     /// How it is called: its name, else the path of its file.
     pub fn name(&self) -> &str {
         match self {
             ChosenAgent::ReadyMade(agent) => agent.name(),
+            ChosenAgent::Baseline => BASELINE,
             ChosenAgent::Policy(policy) => policy.name(),
         }
     }
@@ -55,15 +66,18 @@ impl ChosenAgent {
     /// Prepares it for a scenario.
     ///
     /// # Errors
-    /// [`Error::Policy`] for a policy that sees or presses something else.
+    /// [`Error::Policy`] for a policy that sees or presses something else, [`Error::NoBaseline`] for
+    /// a scenario without a policy.
     pub fn fit(&self, environment: &Environment) -> Result<FittedAgent, Error> {
-        Ok(match self {
-            ChosenAgent::ReadyMade(agent) => FittedAgent::ReadyMade(ReadyMade::new(*agent)),
-            ChosenAgent::Policy(policy) => {
-                let sight = Sight::of(policy, environment)?;
-                policy.try_out(&sight)?;
-                FittedAgent::Policy(policy.clone(), sight)
+        let policy = match self {
+            ChosenAgent::ReadyMade(agent) => {
+                return Ok(FittedAgent::ReadyMade(ReadyMade::new(*agent)));
             }
-        })
+            ChosenAgent::Baseline => baseline(&environment.scenario().name)?,
+            ChosenAgent::Policy(policy) => policy.clone(),
+        };
+        let sight = Sight::of(&policy, environment)?;
+        policy.try_out(&sight)?;
+        Ok(FittedAgent::Policy(policy, sight))
     }
 }

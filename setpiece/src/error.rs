@@ -46,6 +46,13 @@ pub enum Error {
     Snapshot(SnapshotError),
     /// A replay can't be read or played.
     Replay(ReplayError),
+    /// A scenario has no policy in the box.
+    NoBaseline {
+        /// The scenario's name.
+        scenario: String,
+        /// The scenarios that have one.
+        known: Vec<String>,
+    },
     /// A policy from a file can't be played.
     Policy {
         /// The file.
@@ -290,6 +297,7 @@ impl Error {
             Error::Snapshot(_) => Code::BadSnapshot,
             Error::Replay(_) => Code::BadReplay,
             Error::Policy { .. } => Code::BadPolicy,
+            Error::NoBaseline { .. } => Code::NoBaseline,
             Error::Episode(why) => match **why {
                 EpisodeError::Draw(_) => Code::DrawFailed,
                 EpisodeError::Environment(_) => Code::BadParameter,
@@ -341,6 +349,9 @@ impl Error {
                 "give the scenario's name or the path of its `.pitch` file, or write `ai: …` in the text".to_owned(),
             ),
             Error::Policy { why, .. } => policy_help(why),
+            Error::NoBaseline { known, .. } => {
+                Some(format!("these have one: `{}`", known.join("`, `")))
+            }
             Error::NoStep { length, .. } => Some(format!("its last moment is `--step {length}`")),
             Error::Snapshot(why)
             | Error::Environment(EnvironmentError::Snapshot(why)) => snapshot_help(why),
@@ -451,6 +462,9 @@ impl std::fmt::Display for Error {
             Error::Param { why, .. } => why.fmt(f),
             Error::Snapshot(why) => why.fmt(f),
             Error::Replay(why) => why.fmt(f),
+            Error::NoBaseline { scenario, .. } => {
+                write!(f, "the scenario `{scenario}` has no baseline")
+            }
             Error::Policy { path, why } => {
                 write!(f, "the policy `{}` can't be played: {why}", path.display())
             }

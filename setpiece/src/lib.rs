@@ -6,6 +6,7 @@
 //! change, and [`probe`] finds problems that only a dry run shows.
 
 pub mod agent;
+pub mod baseline;
 pub mod bench;
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::agent::ChosenAgent;
+use crate::baseline::BASELINE;
 use crate::engine::control::agents::Agent;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, Command};
@@ -22,7 +23,10 @@ const ABOUT: [(Agent, &str); 4] = [
 
 fn values() -> impl Iterator<Item = PossibleValue> {
     let named = ABOUT.iter().map(|(agent, about)| PossibleValue::new(agent.name()).help(*about));
-    named.chain([PossibleValue::new("FILE.onnx").help("A policy from an ONNX file")])
+    named.chain([
+        PossibleValue::new(BASELINE).help("The policy that the scenario comes with"),
+        PossibleValue::new("FILE.onnx").help("A policy from an ONNX file"),
+    ])
 }
 
 fn read(path: &str) -> Result<ChosenAgent, Error> {
@@ -43,7 +47,7 @@ impl TypedValueParser for AgentParser {
             return read.parse_ref(command, arg, value);
         }
         let name = PossibleValuesParser::new(values()).parse_ref(command, arg, value)?;
-        Ok(Agent::from_name(&name).unwrap_or(Agent::Bot).into())
+        Ok(ChosenAgent::from_name(&name).unwrap_or(Agent::Bot.into()))
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {

@@ -159,8 +159,8 @@ fn free_name(path: &Path, check: &Check, taken: &mut BTreeSet<String>) -> String
 /// - `name`: what its replays are called.
 fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<PlayedCheck, Error> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let named = Agent::from_name(&check.agent).unwrap_or(Agent::Bot);
-    let agent = args.agent.clone().unwrap_or_else(|| named.into());
+    let named = ChosenAgent::from_name(&check.agent).unwrap_or(Agent::Bot.into());
+    let agent = args.agent.clone().unwrap_or(named);
     let begin = Instant::now();
     let bar =
         super::common::bar(check.episodes.count, "{msg} {bar:40} {pos}/{len} episodes  {eta} left");

@@ -9,6 +9,7 @@ use super::stage::{STEPS_MAX, StudioStage, episode_of};
 use super::summary::RunningSummary;
 use super::tell::{said, said_episode, send_all, step, tell};
 use crate::agent::ChosenAgent;
+use crate::baseline::baseline_file;
 use crate::drag::rewritten;
 use crate::dsl::report::{Diagnostic, diagnostics};
 use crate::engine::control::agents::Agent;
@@ -352,9 +353,10 @@ impl Session {
     /// The ready-made agents, and those that the studio was opened with.
     fn agents(&self) -> impl Iterator<Item = ChosenAgent> {
         let ready_made = Agent::NAMED.iter().map(|(_, agent)| ChosenAgent::from(*agent));
-        let given =
-            self.options.agents.iter().filter(|agent| Agent::from_name(agent.name()).is_none());
-        ready_made.chain(given.cloned())
+        let baseline = baseline_file(&self.loaded.scenario.name).map(|_| ChosenAgent::Baseline);
+        let given = self.options.agents.iter();
+        let given = given.filter(|agent| ChosenAgent::from_name(agent.name()).is_none());
+        ready_made.chain(baseline).chain(given.cloned())
     }
 
     fn guests(&self) -> Vec<String> {

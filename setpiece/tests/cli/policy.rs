@@ -1,4 +1,4 @@
-//! `--agent FILE.onnx`: policies from files, and files that are none.
+//! `--agent FILE.onnx` and `--agent baseline`: policies from files, and files that are none.
 
 use super::{fails, folder, json, setpiece, text, write};
 use std::path::Path;
@@ -185,4 +185,51 @@ fn files_that_are_no_policies_are_reported() {
     std::fs::create_dir(&directory).unwrap();
     fails(&["run", DRILL, "--agent", &directory.to_string_lossy()], 1, &["SP0006"]);
     fails(&["run", DRILL, "--agent", "bott"], 2, &["FILE.onnx", "'bot'"]);
+}
+
+/// The folder of the policies in the box.
+fn folder_of_policies() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../baselines/policies")
+}
+
+#[test]
+fn every_policy_in_the_box_is_small_and_plays_as_its_card_says() {
+    let names: Vec<&str> = setpiece::baseline::baselines().collect();
+    assert!(names.contains(&"academy_empty_goal_close"), "{names:?}");
+    for name in names {
+        let path = folder_of_policies().join(format!("{name}.onnx"));
+        assert!(std::fs::metadata(&path).unwrap().len() <= 200_000, "{name}");
+        let card = std::fs::read(path.with_extension("json")).unwrap();
+        let card: serde_json::Value = serde_json::from_slice(&card).unwrap();
+        assert_eq!(card["scenario"], name);
+        let run = |agent: &str| {
+            json(&["run", name, "--agent", agent, "-n", "100", "--seed", "7", "--format", "json"])
+        };
+        let (boxed, file) = (run("baseline"), run(&path.to_string_lossy()));
+        assert_eq!(boxed["digest"], file["digest"], "{name}");
+        // Half of it, so that not every change of the game needs new policies.
+        let score =
+            boxed["score"]["left"].as_f64().unwrap() - boxed["score"]["right"].as_f64().unwrap();
+        let said = card["score"]["mean"].as_f64().unwrap();
+        assert!(score > 0.5 * said, "{name}: {score}, its card says {said}");
+    }
+}
+
+#[test]
+fn a_scenario_without_a_baseline_says_which_have_one() {
+    let words =
+        ["SP0024", "`11_vs_11_easy_stochastic` has no baseline", "`academy_empty_goal_close`"];
+    fails(&["run", "11_vs_11_easy_stochastic", "--agent", "baseline"], 1, &words);
+}
+
+#[test]
+fn a_check_is_played_with_the_baseline() {
+    let folder = folder();
+    let check = "check \"it can be scored\" {
+        play academy_empty_goal_close with baseline for 20 episodes
+        expect success_rate > 90%
+    }";
+    let check = write(folder.path(), "checks.pitch", check);
+    let shown = json(&["test", &check, "--format", "json"]);
+    assert_eq!((&shown["agent"], &shown["holds"]), (&"baseline".into(), &true.into()), "{shown}");
 }

@@ -9,6 +9,7 @@ mod common;
 mod doc;
 mod explain;
 mod fmt;
+mod leaderboard;
 mod live;
 mod log;
 mod lsp;
@@ -126,6 +127,16 @@ enum Command {
 
 The worst episode of a failed check is written to `failed-checks/`.")]
     Test(test::TestArgs),
+    /// Let agents play all against all on both sides, and rate them
+    #[command(after_help = "Examples:
+  setpiece leaderboard bot random idle
+  setpiece leaderboard old.onnx new.onnx bot --matches 50
+  setpiece leaderboard old.onnx new.onnx --scenario 5_vs_5 --format json
+
+A rating is that of Bradley and Terry on Elo's scale: an agent with 400 points more wins ten times as
+often as it loses. A draw is half a win, and each pair counts one more. Intervals have 95 %: between
+percentiles of ratings for results drawn from their posterior distribution (Jeffreys' prior).")]
+    Leaderboard(leaderboard::LeaderboardArgs),
     /// Draw an episode: a video, a sheet of frames seen from above, or one moment
     #[cfg(feature = "render")]
     #[command(after_help = "Examples:
@@ -240,6 +251,7 @@ fn run(args: Args) -> u8 {
         Command::Doc(args) => doc::doc(&args, &out),
         Command::Run(args) => play::run_command(&args, &out),
         Command::Test(args) => test::test(&args, &out),
+        Command::Leaderboard(args) => leaderboard::leaderboard_command(&args, &out),
         #[cfg(feature = "render")]
         Command::Render(args) => render::render(&args, &out),
         #[cfg(not(feature = "render"))]

@@ -23,6 +23,7 @@ pub mod explain;
 pub mod files;
 pub mod film;
 pub mod grf;
+pub mod leaderboard;
 pub mod level;
 pub mod levels;
 pub mod live;

@@ -10,6 +10,7 @@ mod bench;
 mod build;
 mod check;
 mod files;
+mod leaderboard;
 mod list;
 mod lsp;
 mod policy;

@@ -10,6 +10,7 @@ from conftest import play, same
 
 import setpiece
 from setpiece import Action, Policy, parallel_env
+from setpiece._native import BASELINES, baseline_file
 
 pytest.importorskip("onnxruntime")
 onnx = pytest.importorskip("onnx")
@@ -180,6 +181,36 @@ def test_the_command_plays_the_episodes_of_python(
     assert played["digest"] == row.digest
     # It does something.
     assert row.digest != setpiece.evaluate("idle", scenario, episodes=40).rows[0].digest
+
+
+@pytest.mark.parametrize("name", BASELINES)
+def test_a_policy_in_the_box_plays_the_same_everywhere(tmp_path: Path, name: str) -> None:
+    file = tmp_path / "policy.onnx"
+    file.write_bytes(baseline_file(name) or b"")
+    boxed, opened = (
+        setpiece.evaluate(policy, name, episodes=50, observation="egocentric").rows[0].digest
+        for policy in ("baseline", file)
+    )
+    assert boxed == opened
+    env, same_env = (
+        setpiece.make(name, right=1, opponents={"left": policy}) for policy in ("baseline", file)
+    )
+    assert same(play(env, 1), play(same_env, 1))
+    envs = setpiece.make_vec(name, 3, right=1, opponents={"left": "baseline"})
+    envs.reset(seed=1)
+    envs.step(np.zeros(3, int))
+
+
+def test_a_scenario_without_a_baseline_says_which_have_one() -> None:
+    for play_with in (
+        lambda: setpiece.make(DUEL, right=1, opponents={"right": "baseline"}),
+        lambda: setpiece.evaluate("baseline", DUEL),
+        lambda: setpiece.play(DUEL, "baseline", "bot"),
+    ):
+        with pytest.raises(setpiece.ParameterError, match="has no baseline") as caught:
+            play_with()
+        assert caught.value.code == "SP0024"
+        assert "`academy_empty_goal_close`" in str(caught.value.help)
 
 
 @pytest.mark.parametrize("kind", [TensorProto.BOOL, TensorProto.FLOAT, TensorProto.UINT8])

@@ -152,9 +152,7 @@ def _policy(path: str, model: str | bytes) -> OnnxPolicy:
     metadata = session.get_modelmeta().custom_metadata_map
     said = metadata.get(REPEAT, "1")
     if not (said.isdecimal() and int(said) >= 1):
-        raise FormatError(
-            f"`{path}` has the `{REPEAT}` {said!r}; expected a count of steps"
-        )
+        raise FormatError(f"`{path}` has the `{REPEAT}` {said!r}; expected a count of steps")
     name = metadata.get(OBSERVATION)
     if name is not None and name not in OBSERVATIONS:
         raise FormatError(

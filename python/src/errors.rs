@@ -82,7 +82,6 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
         }
         Error::Snapshot(_) => "SnapshotError",
         Error::Replay(_) => "ReplayError",
-        Error::Policy { .. } => "FormatError",
         Error::NoBaseline { .. } => "ParameterError",
         Error::Environment(why) => {
             if let EnvironmentError::Param(why) = why {
@@ -121,7 +120,7 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
         }
         Error::Level { .. } => "LevelError",
         Error::Threads(_) | Error::NoStep { .. } => "SetpieceError",
-        Error::Format { .. } | Error::Compile(_) => "FormatError",
+        Error::Format { .. } | Error::Policy { .. } | Error::Compile(_) => "FormatError",
     };
     Ok((class, error.to_string(), fields))
 }

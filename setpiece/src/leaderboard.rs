@@ -117,7 +117,9 @@ impl Policy for Opponents<'_> {
         let player = |side: usize| self.fitted.get(side).map(FittedAgent::player);
         let both = fixture.and_then(|it| Some([player(it.sides[0])?, player(it.sides[1])?]));
         self.playing = both.map(|mut both| {
-            both.iter_mut().for_each(|agent| agent.begin(environment));
+            for agent in &mut both {
+                agent.begin(environment);
+            }
             both
         });
     }

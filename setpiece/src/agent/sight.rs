@@ -128,13 +128,10 @@ fn picture(
     let pixels = |gray| SightKind::Picture(Pixels { height, width, gray });
     let (kind, planes) = match (named, channels) {
         (Some("smm"), _) => (map, PLANES),
-        (Some("pixels"), _) => (pixels(false), 3),
-        (Some("pixels_gray"), _) => (pixels(true), 1),
-        (Some(_), _) => return None,
         (None, Some(n)) if n.is_multiple_of(PLANES) => (map, PLANES),
-        (None, Some(3)) => (pixels(false), 3),
-        (None, Some(1)) => (pixels(true), 1),
-        (None, _) => return None,
+        (Some("pixels"), _) | (None, Some(3)) => (pixels(false), 3),
+        (Some("pixels_gray"), _) | (None, Some(1)) => (pixels(true), 1),
+        _ => return None,
     };
     let channels = channels.unwrap_or(planes);
     let stack = channels / planes;

@@ -115,7 +115,9 @@ fn ratings(agents: usize, pairs: &[Shares]) -> Vec<f64> {
         // Only ratios matter: their logarithms have the mean 0.
         let mean = next.iter().map(|it| libm::log(*it)).sum::<f64>() / agents.max(1) as f64;
         let unit = libm::exp(mean);
-        next.iter_mut().for_each(|it| *it /= unit);
+        for strength in &mut next {
+            *strength /= unit;
+        }
         let change = next.iter().zip(&strengths).map(|(new, old)| (new / old - 1.0).abs());
         let change = change.fold(0.0, f64::max);
         strengths = next;

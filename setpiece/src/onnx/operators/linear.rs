@@ -61,7 +61,9 @@ pub(super) fn gemm(given: &Given<'_>) -> Result<Tensor, String> {
         None => vec![0.0; rows * columns],
     };
     if beta != 1.0 {
-        out.iter_mut().for_each(|it| *it *= beta);
+        for it in &mut out {
+            *it *= beta;
+        }
     }
     let scaled: Vec<f32> = first.as_floats()?.iter().map(|it| alpha * it).collect();
     add_product(&mut out, &scaled, second.as_floats()?, inner, columns);

@@ -14,7 +14,7 @@ use setpiece_engine::batch::ReadyMade;
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::environment::Environment;
 use sight::Sight;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Who plays the agents, before it is known what.
@@ -24,8 +24,13 @@ pub enum ChosenAgent {
     ReadyMade(Agent),
     /// The policy that the scenario comes with.
     Baseline,
-    /// A policy from a file.
-    Policy(Arc<NetworkPolicy>),
+    /// A policy from a file, which is read when it is needed.
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The path as text.
+        name: String,
+    },
 }
 
 impl From<Agent> for ChosenAgent {
@@ -40,12 +45,20 @@ impl ChosenAgent {
         Path::new(text).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("onnx"))
     }
 
-    /// Reads the policy of a file.
+    /// The policy of a file.
+    pub fn of_file(path: &Path) -> ChosenAgent {
+        ChosenAgent::File { path: path.to_owned(), name: path.display().to_string() }
+    }
+
+    /// Reads the file of a policy, to report what is wrong with it before anything is played.
     ///
     /// # Errors
     /// [`Error::File`] if it can't be read, [`Error::Policy`] if it is no policy.
-    pub fn from_file(path: &Path) -> Result<ChosenAgent, Error> {
-        Ok(ChosenAgent::Policy(Arc::new(NetworkPolicy::from_file(path)?)))
+    pub fn check(&self) -> Result<(), Error> {
+        match self {
+            ChosenAgent::File { path, .. } => NetworkPolicy::from_file(path).map(|_| ()),
+            ChosenAgent::ReadyMade(_) | ChosenAgent::Baseline => Ok(()),
+        }
     }
 
     /// Finds an agent by its name: a ready-made one, or `baseline`.
@@ -59,14 +72,15 @@ impl ChosenAgent {
         match self {
             ChosenAgent::ReadyMade(agent) => agent.name(),
             ChosenAgent::Baseline => BASELINE,
-            ChosenAgent::Policy(policy) => policy.name(),
+            ChosenAgent::File { name, .. } => name,
         }
     }
 
     /// Prepares it for a scenario.
     ///
     /// # Errors
-    /// [`Error::Policy`] for a policy that sees or presses something else, [`Error::NoBaseline`] for
+    /// [`Error::File`] or [`Error::Policy`] for a policy that can't be read, or that sees or presses
+    /// something else, [`Error::NoBaseline`] for
     /// a scenario without a policy.
     pub fn fit(&self, environment: &Environment) -> Result<FittedAgent, Error> {
         let policy = match self {
@@ -74,7 +88,7 @@ impl ChosenAgent {
                 return Ok(FittedAgent::ReadyMade(ReadyMade::new(*agent)));
             }
             ChosenAgent::Baseline => baseline(&environment.scenario().name)?,
-            ChosenAgent::Policy(policy) => policy.clone(),
+            ChosenAgent::File { path, .. } => Arc::new(NetworkPolicy::from_file(path)?),
         };
         let sight = Sight::of(&policy, environment)?;
         policy.try_out(&sight)?;

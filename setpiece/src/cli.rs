@@ -16,6 +16,7 @@ mod lsp;
 mod out;
 mod play;
 mod playing;
+mod profile;
 mod reference;
 #[cfg(feature = "render")]
 mod render;
@@ -137,6 +138,13 @@ A rating is that of Bradley and Terry on Elo's scale: an agent with 400 points m
 often as it loses. A draw is half a win, and each pair counts one more. Intervals have 95 %: between
 percentiles of ratings for results drawn from their posterior distribution (Jeffreys' prior).")]
     Leaderboard(leaderboard::LeaderboardArgs),
+    /// Show what an agent does in a scenario: touches, passes, shots, actions, ends and rewards
+    #[command(after_help = "Examples:
+  setpiece profile policy.onnx academy_3_vs_1_with_keeper -o report.html
+  setpiece profile baseline academy_run_to_score -o report.html --episodes 500
+
+The page has its pictures inside and needs no network.")]
+    Profile(profile::ProfileArgs),
     /// Draw an episode: a video, a sheet of frames seen from above, or one moment
     #[cfg(feature = "render")]
     #[command(after_help = "Examples:
@@ -251,6 +259,7 @@ fn run(args: Args) -> u8 {
         Command::Doc(args) => doc::doc(&args, &out),
         Command::Run(args) => play::run_command(&args, &out),
         Command::Test(args) => test::test(&args, &out),
+        Command::Profile(args) => profile::profile_command(&args, &out),
         Command::Leaderboard(args) => leaderboard::leaderboard_command(&args, &out),
         #[cfg(feature = "render")]
         Command::Render(args) => render::render(&args, &out),

@@ -38,6 +38,7 @@ pub mod plans;
 #[cfg(feature = "render")]
 pub mod plot;
 pub mod probe;
+pub mod profile;
 pub mod replay;
 pub mod run;
 pub mod scene;

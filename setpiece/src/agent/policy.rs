@@ -20,7 +20,6 @@ const REPEAT_MAX: u32 = 1_000;
 #[derive(Debug)]
 pub struct NetworkPolicy {
     path: PathBuf,
-    name: String,
     network: Network,
     /// Which input sees the observation.
     observation: usize,
@@ -57,13 +56,7 @@ impl NetworkPolicy {
         let repeat = said.parse().ok().filter(|repeat| (1..=REPEAT_MAX).contains(repeat));
         let repeat = repeat.ok_or_else(|| fault(PolicyFault::Repeat { said: said.to_owned() }))?;
         let masks = masks.first().and_then(|&at| inputs.get(at)).and_then(masks_of);
-        let name = path.display().to_string();
-        Ok(NetworkPolicy { path: path.to_owned(), name, network, observation, masks, repeat })
-    }
-
-    /// The path of its file.
-    pub fn name(&self) -> &str {
-        &self.name
+        Ok(NetworkPolicy { path: path.to_owned(), network, observation, masks, repeat })
     }
 
     /// How many steps a decision lasts.

@@ -1,6 +1,5 @@
 //! The agent that an option names: a ready-made one, or the file of a policy.
 
-use crate::Error;
 use crate::agent::ChosenAgent;
 use crate::baseline::BASELINE;
 use crate::engine::control::agents::Agent;
@@ -29,10 +28,6 @@ fn values() -> impl Iterator<Item = PossibleValue> {
     ])
 }
 
-fn read(path: &str) -> Result<ChosenAgent, Error> {
-    ChosenAgent::from_file(Path::new(path))
-}
-
 impl TypedValueParser for AgentParser {
     type Value = ChosenAgent;
 
@@ -43,8 +38,7 @@ impl TypedValueParser for AgentParser {
         value: &OsStr,
     ) -> Result<ChosenAgent, clap::Error> {
         if ChosenAgent::is_path(&value.to_string_lossy()) {
-            // As a function, whose error keeps its code.
-            return read.parse_ref(command, arg, value);
+            return Ok(ChosenAgent::of_file(Path::new(value)));
         }
         let name = PossibleValuesParser::new(values()).parse_ref(command, arg, value)?;
         Ok(ChosenAgent::from_name(&name).unwrap_or(Agent::Bot.into()))

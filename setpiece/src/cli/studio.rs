@@ -33,6 +33,9 @@ pub(crate) struct StudioArgs {
 
 /// Serves the page until Ctrl-C.
 pub(crate) fn studio(args: &StudioArgs, out: &Out) -> Result<u8, Error> {
+    for agent in &args.agents {
+        agent.check()?;
+    }
     let options = OpenOptions {
         allow_outside: out.allow_outside,
         agents: args.agents.clone(),

@@ -91,6 +91,9 @@ struct Worst {
 
 /// Runs the command.
 pub(crate) fn test(args: &TestArgs, out: &Out) -> Result<u8, Error> {
+    if let Some(agent) = &args.agent {
+        agent.check()?;
+    }
     let (mut played, mut broken) = (Vec::new(), false);
     let mut taken = BTreeSet::new();
     for path in texts(&args.files)? {

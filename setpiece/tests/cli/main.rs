@@ -14,6 +14,7 @@ mod leaderboard;
 mod list;
 mod lsp;
 mod policy;
+mod profile;
 mod rewards;
 mod run;
 mod snapshot;

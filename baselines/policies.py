@@ -6,7 +6,7 @@
 
 `policies/SCENARIO.onnx` is the policy that `--agent baseline` plays in a scenario, and
 `policies/SCENARIO.json` its card. An interrupted run continues from its checkpoint in
-`target/baselines/policies`; `--again` begins anew.
+`target/baselines/policies`; `--again` removes it first.
 
 It needs `torch`, `onnx` and `onnxruntime`.
 """

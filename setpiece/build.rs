@@ -1,5 +1,5 @@
-//! Embeds every file of the standard library, every page of the error codes, every policy in the box
-//! and the studio's page: adding one is adding a file.
+//! Embeds every file of the standard library, every page of the error codes, every policy in the
+//! box and the studio's page: adding one is adding a file.
 //!
 //! They lie outside of this crate in the repository, and inside of it in a published package: cargo
 //! follows the links in `embedded/` when it packs. A system without links has files there.

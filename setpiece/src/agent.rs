@@ -13,7 +13,7 @@ use crate::error::Error;
 use setpiece_engine::batch::ReadyMade;
 use setpiece_engine::control::agents::Agent;
 use setpiece_engine::environment::Environment;
-use sight::Sight;
+use sight::PolicySight;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -79,9 +79,8 @@ impl ChosenAgent {
     /// Prepares it for a scenario.
     ///
     /// # Errors
-    /// [`Error::File`] or [`Error::Policy`] for a policy that can't be read, or that sees or presses
-    /// something else, [`Error::NoBaseline`] for
-    /// a scenario without a policy.
+    /// [`Error::File`] or [`Error::Policy`] for a policy that can't be read, or that sees or
+    /// presses something else, [`Error::NoBaseline`] for a scenario without a policy.
     pub fn fit(&self, environment: &Environment) -> Result<FittedAgent, Error> {
         let policy = match self {
             ChosenAgent::ReadyMade(agent) => {
@@ -90,7 +89,7 @@ impl ChosenAgent {
             ChosenAgent::Baseline => baseline(&environment.scenario().name)?,
             ChosenAgent::File { path, .. } => Arc::new(NetworkPolicy::from_file(path)?),
         };
-        let sight = Sight::of(&policy, environment)?;
+        let sight = PolicySight::of(&policy, environment)?;
         policy.try_out(&sight)?;
         Ok(FittedAgent::Policy(policy, sight))
     }

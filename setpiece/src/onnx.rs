@@ -7,6 +7,7 @@
 
 mod graph;
 mod message;
+mod node;
 mod operators;
 mod tensor;
 
@@ -15,7 +16,7 @@ pub(crate) use tensor::{Numbers, Tensor};
 
 use graph::{NetworkNode, prepare};
 use message::{ModelMessage, ValueMessage};
-use operators::Given;
+use node::NodeInputs;
 use prost::Message;
 use std::collections::BTreeMap;
 
@@ -151,7 +152,7 @@ impl NetworkNode {
             computed.or_else(|| constants.get(slot).and_then(Option::as_ref))
         };
         let inputs = self.inputs.iter().map(|slot| slot.and_then(value)).collect();
-        (self.operator)(&Given { inputs, attributes: &self.attributes }).map_err(|why| {
+        (self.operator)(&NodeInputs { inputs, attributes: &self.attributes }).map_err(|why| {
             NetworkFault::Node { node: self.name.clone(), operator: self.kind.clone(), why }
         })
     }

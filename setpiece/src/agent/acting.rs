@@ -1,7 +1,7 @@
 //! Agents that play episodes.
 
 use super::policy::NetworkPolicy;
-use super::sight::{Eye, Seen, Sight};
+use super::sight::{PolicyEye, PolicySight, Seen};
 use setpiece_engine::batch::{Policy, ReadyMade};
 use setpiece_engine::environment::Environment;
 use setpiece_engine::observe::action_mask;
@@ -14,7 +14,7 @@ pub enum FittedAgent {
     /// A ready-made agent.
     ReadyMade(ReadyMade),
     /// A policy and what it sees.
-    Policy(Arc<NetworkPolicy>, Sight),
+    Policy(Arc<NetworkPolicy>, PolicySight),
 }
 
 impl FittedAgent {
@@ -24,7 +24,7 @@ impl FittedAgent {
             FittedAgent::ReadyMade(agent) => ActingAgent::ReadyMade(agent.clone()),
             FittedAgent::Policy(policy, sight) => {
                 let (policy, sight) = (policy.clone(), sight.clone());
-                let (eye, slots) = (Eye::default(), Vec::new());
+                let (eye, slots) = (PolicyEye::default(), Vec::new());
                 ActingAgent::Policy(Box::new(PlayingPolicy { policy, sight, eye, slots }))
             }
         }
@@ -60,8 +60,8 @@ impl Policy for ActingAgent {
 #[derive(Debug)]
 pub struct PlayingPolicy {
     policy: Arc<NetworkPolicy>,
-    sight: Sight,
-    eye: Eye,
+    sight: PolicySight,
+    eye: PolicyEye,
     /// By agent.
     slots: Vec<PolicySlot>,
 }

@@ -1,6 +1,6 @@
 //! Policies from ONNX files: from an observation, and perhaps masks, to the logits of the actions.
 
-use super::sight::Sight;
+use super::sight::PolicySight;
 use crate::error::{Error, PolicyFault};
 use crate::files::read_file;
 use crate::onnx::{Network, NetworkFault, NetworkInput, Numbers, Tensor};
@@ -88,7 +88,7 @@ impl NetworkPolicy {
     ///
     /// # Errors
     /// [`Error::Policy`] if it can't be computed, or returns something else than logits.
-    pub(super) fn try_out(&self, sight: &Sight) -> Result<(), Error> {
+    pub(super) fn try_out(&self, sight: &PolicySight) -> Result<(), Error> {
         let mask = [true; Action::FULL_SET];
         let logits = self.logits(sight.blank(), &mask).map_err(|why| self.fault(why.into()))?;
         let is_row = matches!(logits.shape[..], [1, actions] if ACTION_COUNTS.contains(&actions));

@@ -17,7 +17,7 @@ const STACK_MAX: usize = 64;
 
 /// An observation, how many of the latest are seen at once, and as what numbers.
 #[derive(Clone, Debug)]
-pub struct Sight {
+pub struct PolicySight {
     kind: SightKind,
     /// The shape of all that is seen at once; the latest are stacked on the last axis.
     shape: Vec<usize>,
@@ -47,13 +47,16 @@ const FLOATS: [(&str, Floats); 5] = [
     ("simple115", Floats::Simple115),
 ];
 
-impl Sight {
+impl PolicySight {
     /// Finds what a policy sees of a scenario: what its file says, else the first observation that
     /// has as many numbers as its network takes.
     ///
     /// # Errors
     /// [`Error::Policy`] if none has.
-    pub(super) fn of(policy: &NetworkPolicy, environment: &Environment) -> Result<Sight, Error> {
+    pub(super) fn of(
+        policy: &NetworkPolicy,
+        environment: &Environment,
+    ) -> Result<PolicySight, Error> {
         let named = policy.metadata("observation");
         let is_scaled = policy.metadata("scale").is_some_and(|said| said == "true");
         let input = policy.input();
@@ -65,14 +68,16 @@ impl Sight {
             _ => None,
         };
         let is_float = input.is_some_and(|input| input.element.is_float());
-        found.map(|(kind, shape, stack)| Sight { kind, shape, stack, is_float }).ok_or_else(|| {
-            policy.fault(PolicyFault::Observation {
-                axes: axes.to_vec(),
-                named: named.map(str::to_owned),
-                scenario: environment.scenario().name.clone(),
-                known: known(environment),
-            })
-        })
+        found.map(|(kind, shape, stack)| PolicySight { kind, shape, stack, is_float }).ok_or_else(
+            || {
+                policy.fault(PolicyFault::Observation {
+                    axes: axes.to_vec(),
+                    named: named.map(str::to_owned),
+                    scenario: environment.scenario().name.clone(),
+                    known: known(environment),
+                })
+            },
+        )
     }
 
     /// What a network is tried out with.
@@ -163,7 +168,7 @@ pub(super) struct Seen {
 
 /// Writes what agents see. It keeps the memory that this needs.
 #[derive(Debug, Default)]
-pub(super) struct Eye {
+pub(super) struct PolicyEye {
     /// A copy of the match, because looking at one may move its scratch memory.
     looked: Option<Environment>,
     /// The seed, the episode and the step of the copy.
@@ -173,7 +178,7 @@ pub(super) struct Eye {
     bytes: Vec<u8>,
 }
 
-impl Eye {
+impl PolicyEye {
     /// Forgets the match before.
     pub(super) fn begin(&mut self) {
         self.moment = None;
@@ -182,7 +187,7 @@ impl Eye {
     /// Appends what an agent sees now to what they saw; `first`: in this episode.
     pub(super) fn look(
         &mut self,
-        sight: &Sight,
+        sight: &PolicySight,
         environment: &Environment,
         agent: usize,
         (seen, first): (&mut Seen, bool),
@@ -227,7 +232,7 @@ impl Eye {
 
 impl Seen {
     /// The first observation of an episode fills all places.
-    fn push(&mut self, sight: &Sight, latest: &[f32], first: bool) {
+    fn push(&mut self, sight: &PolicySight, latest: &[f32], first: bool) {
         let depth = sight.stack;
         let row = sight.shape.last().copied().unwrap_or(1).max(1);
         let planes = row / depth;
@@ -242,12 +247,12 @@ impl Seen {
     }
 
     /// As a network is given it.
-    pub(super) fn tensor(&self, sight: &Sight) -> Tensor {
+    pub(super) fn tensor(&self, sight: &PolicySight) -> Tensor {
         sight.tensor(&self.stacked)
     }
 }
 
-impl Sight {
+impl PolicySight {
     /// Whether every step has to be seen, not only those with a decision.
     pub(super) fn is_stacked(&self) -> bool {
         self.stack > 1

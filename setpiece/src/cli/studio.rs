@@ -19,8 +19,8 @@ pub(crate) struct StudioArgs {
     /// A recorded episode (.pitchr) to show beside it
     #[arg(value_name = "BESIDE")]
     beside: Option<OsString>,
-    /// An agent that pages can choose, besides the ready-made ones; may be repeated. The first plays
-    /// at the beginning
+    /// An agent that pages can choose, besides the ready-made ones; may be repeated. The first
+    /// plays at the beginning
     #[arg(short, long = "agent", value_name = "AGENT", value_parser = AgentParser)]
     agents: Vec<ChosenAgent>,
     /// The port, on this machine alone; 0 takes any that is free

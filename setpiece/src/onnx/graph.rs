@@ -1,10 +1,10 @@
 //! Prepares a graph: names become slots, and what doesn't depend on the inputs is computed once.
 
 use super::message::{GraphMessage, NodeMessage};
-use super::operators::{Attributes, Operator, operator};
+use super::node::Attributes;
+use super::operators::{Operator, operator, turned};
 use super::tensor::Tensor;
 use super::{Network, NetworkFault, NetworkInput, type_of};
-use crate::onnx::operators::turned;
 use std::collections::BTreeMap;
 
 /// An operator with the slots of what it takes and computes.

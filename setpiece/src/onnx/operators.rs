@@ -11,59 +11,11 @@ mod shape;
 
 pub(super) use linear::transposed as turned;
 
-use super::message::AttributeMessage;
+use super::node::NodeInputs;
 use super::tensor::Tensor;
-use std::collections::BTreeMap;
 
 /// Computes the first output of a node; the error says in a clause why it can't.
-pub(super) type Operator = fn(&Given<'_>) -> Result<Tensor, String>;
-
-/// What a node is given.
-pub(super) struct Given<'a> {
-    /// Its inputs; none where one is left out.
-    pub(super) inputs: Vec<Option<&'a Tensor>>,
-    /// Its constants.
-    pub(super) attributes: &'a Attributes,
-}
-
-/// The constants of a node, by name.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Attributes(pub(super) BTreeMap<String, AttributeMessage>);
-
-impl<'a> Given<'a> {
-    /// An input that has to be there.
-    fn input(&self, at: usize) -> Result<&'a Tensor, String> {
-        self.optional(at).ok_or_else(|| format!("it lacks its input {at}"))
-    }
-
-    /// An input, if it isn't left out.
-    fn optional(&self, at: usize) -> Option<&'a Tensor> {
-        self.inputs.get(at).copied().flatten()
-    }
-
-    /// The whole numbers of an input, if it isn't left out.
-    fn integers(&self, at: usize) -> Result<Option<&'a [i64]>, String> {
-        self.optional(at).map(Tensor::as_integers).transpose()
-    }
-}
-
-impl Attributes {
-    fn integer(&self, name: &str, default: i64) -> i64 {
-        self.0.get(name).map_or(default, |it| it.integer)
-    }
-
-    fn float(&self, name: &str, default: f32) -> f32 {
-        self.0.get(name).map_or(default, |it| it.float)
-    }
-
-    fn integers(&self, name: &str) -> Option<&[i64]> {
-        self.0.get(name).map(|it| it.integers.as_slice())
-    }
-
-    fn text(&self, name: &str) -> &str {
-        self.0.get(name).and_then(|it| std::str::from_utf8(&it.text).ok()).unwrap_or_default()
-    }
-}
+pub(super) type Operator = fn(&NodeInputs<'_>) -> Result<Tensor, String>;
 
 /// Finds an operator of ONNX by its name.
 pub(super) fn operator(name: &str) -> Option<Operator> {
@@ -140,7 +92,7 @@ fn sigmoid(x: f32) -> f32 {
 }
 
 /// The array that a node holds.
-fn constant(given: &Given<'_>) -> Result<Tensor, String> {
+fn constant(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let held = &given.attributes.0;
     if let Some(tensor) = held.get("value").and_then(|it| it.tensor.as_ref()) {
         return Tensor::read(tensor);

@@ -1,10 +1,10 @@
 //! Operators that compute each number from those in the same place.
 
-use super::Given;
+use crate::onnx::node::NodeInputs;
 use crate::onnx::tensor::{ElementType, Numbers, Tensor, common, stretch};
 
 /// Applies a function to every float.
-pub(super) fn map(given: &Given<'_>, f: impl Fn(f32) -> f32) -> Result<Tensor, String> {
+pub(super) fn map(given: &NodeInputs<'_>, f: impl Fn(f32) -> f32) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let floats = tensor.as_floats()?.iter().map(|&x| f(x)).collect();
     Ok(Tensor::floats(tensor.shape.clone(), floats))
@@ -12,7 +12,7 @@ pub(super) fn map(given: &Given<'_>, f: impl Fn(f32) -> f32) -> Result<Tensor, S
 
 /// Combines all inputs, one after the other.
 pub(super) fn zip(
-    given: &Given<'_>,
+    given: &NodeInputs<'_>,
     floats: impl Fn(f32, f32) -> f32 + Copy,
     integers: impl Fn(i64, i64) -> i64 + Copy,
 ) -> Result<Tensor, String> {
@@ -36,7 +36,7 @@ pub(super) fn zip(
 
 /// Compares two inputs.
 pub(super) fn compare(
-    given: &Given<'_>,
+    given: &NodeInputs<'_>,
     floats: impl Fn(f32, f32) -> bool,
     integers: impl Fn(i64, i64) -> bool,
 ) -> Result<Tensor, String> {
@@ -55,7 +55,10 @@ pub(super) fn compare(
 }
 
 /// Combines two inputs of true and false.
-pub(super) fn logic(given: &Given<'_>, f: impl Fn(bool, bool) -> bool) -> Result<Tensor, String> {
+pub(super) fn logic(
+    given: &NodeInputs<'_>,
+    f: impl Fn(bool, bool) -> bool,
+) -> Result<Tensor, String> {
     let (first, second) = (given.input(0)?, given.input(1)?);
     let shape = common(&first.shape, &second.shape)?;
     let (a, b) = (first.as_integers()?, second.as_integers()?);
@@ -77,7 +80,7 @@ fn zipped<T: Copy, U>(
     Ok(first.iter().zip(second.iter()).map(|(&a, &b)| f(a, b)).collect())
 }
 
-pub(super) fn div(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn div(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let by = given.input(1)?;
     if by.as_integers().is_ok_and(|by| by.contains(&0)) {
         return Err("it divides a whole number by 0".to_owned());
@@ -85,7 +88,7 @@ pub(super) fn div(given: &Given<'_>) -> Result<Tensor, String> {
     zip(given, |a, b| a / b, i64::wrapping_div)
 }
 
-pub(super) fn pow(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn pow(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     // The exponent is often a whole number.
     let exponent = given.input(1)?;
     let floats = match &exponent.numbers {
@@ -94,11 +97,11 @@ pub(super) fn pow(given: &Given<'_>) -> Result<Tensor, String> {
     };
     let exponent = Tensor::floats(exponent.shape.clone(), floats);
     let inputs = vec![given.optional(0), Some(&exponent)];
-    zip(&Given { inputs, attributes: given.attributes }, libm::powf, |a, _| a)
+    zip(&NodeInputs { inputs, attributes: given.attributes }, libm::powf, |a, _| a)
 }
 
 /// Keeps floats between two bounds, each of which may be left out.
-pub(super) fn clip(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn clip(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let bound = |at: usize, free: f32| match given.optional(at) {
         Some(bound) => bound.as_floats()?.first().copied().ok_or("a bound is empty".to_owned()),
         None => Ok(free),
@@ -110,19 +113,19 @@ pub(super) fn clip(given: &Given<'_>) -> Result<Tensor, String> {
     })
 }
 
-pub(super) fn elu(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn elu(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let alpha = given.attributes.float("alpha", 1.0);
     map(given, |x| if x < 0.0 { alpha * libm::expm1f(x) } else { x })
 }
 
-pub(super) fn selu(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn selu(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     // The defaults of the operator.
     let alpha = given.attributes.float("alpha", 1.673_263_2);
     let gamma = given.attributes.float("gamma", 1.050_701);
     map(given, |x| gamma * if x <= 0.0 { alpha * libm::expm1f(x) } else { x })
 }
 
-pub(super) fn gelu(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn gelu(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     use std::f32::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI};
     let is_rough = given.attributes.text("approximate") == "tanh";
     map(given, |x| {
@@ -132,19 +135,19 @@ pub(super) fn gelu(given: &Given<'_>) -> Result<Tensor, String> {
     })
 }
 
-pub(super) fn leaky_relu(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn leaky_relu(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let alpha = given.attributes.float("alpha", 0.01);
     map(given, |x| if x < 0.0 { alpha * x } else { x })
 }
 
-pub(super) fn not(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn not(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let integers = tensor.as_integers()?.iter().map(|&it| i64::from(it == 0)).collect();
     Ok(Tensor::integers(tensor.shape.clone(), integers))
 }
 
 /// Changes the type of the numbers.
-pub(super) fn cast(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn cast(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let (tensor, to) = (given.input(0)?, given.attributes.integer("to", 0));
     let to = i32::try_from(to).ok().and_then(ElementType::of);
     let to = to.ok_or("it wants a type of numbers that no policy needs")?;
@@ -167,7 +170,7 @@ pub(super) fn cast(given: &Given<'_>) -> Result<Tensor, String> {
 }
 
 /// Takes each number from the second or third input, as the first says.
-pub(super) fn choose(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn choose(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let (which, yes, no) = (given.input(0)?, given.input(1)?, given.input(2)?);
     let shape = common(&common(&which.shape, &yes.shape)?, &no.shape)?;
     let held = stretch(which.as_integers()?, &which.shape, &shape)?;

@@ -1,11 +1,11 @@
 //! Operators with a window that moves over pictures `(batch, channels, height, width)`.
 
-use super::Given;
 use super::linear::add_product;
+use crate::onnx::node::NodeInputs;
 use crate::onnx::tensor::{Tensor, size_of};
 
 /// A window and how it moves.
-struct Window {
+struct FilterWindow {
     /// Height and width.
     size: [usize; 2],
     steps: [usize; 2],
@@ -17,8 +17,12 @@ struct Window {
     out: [usize; 2],
 }
 
-impl Window {
-    fn of(given: &Given<'_>, size: [usize; 2], picture: [usize; 2]) -> Result<Window, String> {
+impl FilterWindow {
+    fn of(
+        given: &NodeInputs<'_>,
+        size: [usize; 2],
+        picture: [usize; 2],
+    ) -> Result<FilterWindow, String> {
         let pair = |name: &str| -> Result<[usize; 2], String> {
             let Some(given) = given.attributes.integers(name) else { return Ok([1, 1]) };
             let read = |&it: &i64| usize::try_from(it).ok().filter(|&it| it > 0);
@@ -48,7 +52,7 @@ impl Window {
             let room = room.ok_or("the window is larger than the picture")?;
             out[axis] = room / steps[axis] + 1;
         }
-        Ok(Window { size, steps, gaps, before, out })
+        Ok(FilterWindow { size, steps, gaps, before, out })
     }
 
     /// The place in the picture of a pixel of the window, unless it is outside.
@@ -82,7 +86,7 @@ fn pictures(tensor: &Tensor) -> Result<[usize; 4], String> {
 }
 
 /// Filters pictures; the second input has a filter per channel that comes out.
-pub(super) fn conv(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn conv(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let (seen, filters) = (given.input(0)?, given.input(1)?);
     let ([batch, channels, height, width], [filters_n, depth, high, wide]) =
         (pictures(seen)?, pictures(filters)?);
@@ -91,7 +95,7 @@ pub(super) fn conv(given: &Given<'_>) -> Result<Tensor, String> {
         return Err(format!("{:?} filtered by {:?} don't fit", seen.shape, filters.shape));
     }
     let (picture, per_group) = ([height, width], filters_n / groups);
-    let window = Window::of(given, [high, wide], picture)?;
+    let window = FilterWindow::of(given, [high, wide], picture)?;
     let (pixels, inner) = (size_of(&window.out)?, depth * high * wide);
     size_of(&[inner, pixels])?;
     let mut out = Vec::with_capacity(size_of(&[batch, filters_n, pixels])?);
@@ -117,7 +121,7 @@ pub(super) fn conv(given: &Given<'_>) -> Result<Tensor, String> {
 }
 
 /// The greatest number that the window shows.
-pub(super) fn max_pool(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn max_pool(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let seen = given.input(0)?;
     let [batch, channels, height, width] = pictures(seen)?;
     let size: Option<Vec<usize>> = given.attributes.integers("kernel_shape").and_then(|size| {
@@ -128,7 +132,7 @@ pub(super) fn max_pool(given: &Given<'_>) -> Result<Tensor, String> {
         return Err("`ceil_mode` isn't known".to_owned());
     }
     let picture = [height, width];
-    let window = Window::of(given, size, picture)?;
+    let window = FilterWindow::of(given, size, picture)?;
     let mut out = Vec::with_capacity(size_of(&[batch, channels, window.out[0], window.out[1]])?);
     for channel in seen.as_floats()?.chunks_exact(height * width) {
         for down in 0..window.out[0] {

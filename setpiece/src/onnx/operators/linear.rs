@@ -1,6 +1,6 @@
 //! Products of matrices.
 
-use super::Given;
+use crate::onnx::node::NodeInputs;
 use crate::onnx::tensor::{Tensor, stretch};
 
 /// Adds the product of two matrices, `rows × inner` and `inner × columns`, to a third.
@@ -40,7 +40,7 @@ fn sides(matrix: &Tensor) -> Result<[usize; 2], String> {
 }
 
 /// `alpha A B + beta C`; A and B may be transposed.
-pub(super) fn gemm(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn gemm(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let turn = |at: usize, name: &str| {
         let matrix = given.input(at)?;
         let is_turned = given.attributes.integer(name, 0) != 0;
@@ -71,7 +71,7 @@ pub(super) fn gemm(given: &Given<'_>) -> Result<Tensor, String> {
 }
 
 /// A product with a matrix, of an array whose last axis is as long as the matrix is high.
-pub(super) fn matmul(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn matmul(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let (first, second) = (given.input(0)?, given.input(1)?);
     let [height, columns] = sides(second)?;
     let Some((&inner, lead)) = first.shape.split_last().filter(|(inner, _)| **inner == height)

@@ -1,6 +1,6 @@
 //! Operators that look at all numbers along an axis.
 
-use super::Given;
+use crate::onnx::node::NodeInputs;
 use crate::onnx::tensor::{Tensor, axis_of, size_of, strides, walk};
 
 /// Calls `f` with every row along an axis, as the places of its numbers.
@@ -17,7 +17,7 @@ fn rows(shape: &[usize], axis: usize, mut f: impl FnMut(&[usize])) -> Result<(),
 }
 
 /// The shares of exponentials along an axis, or their logarithms.
-pub(super) fn softmax(given: &Given<'_>, logarithms: bool) -> Result<Tensor, String> {
+pub(super) fn softmax(given: &NodeInputs<'_>, logarithms: bool) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let axis = axis_of(given.attributes.integer("axis", -1), tensor.shape.len())?;
     let mut floats = tensor.as_floats()?.to_vec();
@@ -34,7 +34,7 @@ pub(super) fn softmax(given: &Given<'_>, logarithms: bool) -> Result<Tensor, Str
 
 /// Folds the numbers along some axes; all of them if none is named.
 pub(super) fn reduce(
-    given: &Given<'_>,
+    given: &NodeInputs<'_>,
     begin: f32,
     add: impl Fn(f32, f32) -> f32,
     end: impl Fn(f32, usize) -> f32,
@@ -67,7 +67,7 @@ pub(super) fn reduce(
 }
 
 /// Standardises the numbers of the last axes.
-pub(super) fn layer_normalization(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn layer_normalization(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let (tensor, scale) = (given.input(0)?, given.input(1)?.as_floats()?);
     let axis = axis_of(given.attributes.integer("axis", -1), tensor.shape.len())?;
     let n: usize = tensor.shape[axis..].iter().product();
@@ -93,7 +93,7 @@ pub(super) fn layer_normalization(given: &Given<'_>) -> Result<Tensor, String> {
 }
 
 /// Standardises every channel by the mean and variance of the training.
-pub(super) fn batch_normalization(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn batch_normalization(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let channels = *tensor.shape.get(1).ok_or("it has no channels")?;
     let mut parts: Vec<&[f32]> = Vec::new();

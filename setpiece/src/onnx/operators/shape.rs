@@ -1,9 +1,9 @@
 //! Operators that move numbers without changing them.
 
-use super::Given;
+use crate::onnx::node::NodeInputs;
 use crate::onnx::tensor::{Numbers, Tensor, axis_of, common, size_of, stretched, strides, walk};
 
-pub(super) fn shape(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn shape(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let lengths: Vec<i64> = given.input(0)?.shape.iter().map(|&length| length as i64).collect();
     // Counts from the end, and is cut at the ends, like a slice.
     let n = lengths.len() as i64;
@@ -17,7 +17,7 @@ pub(super) fn shape(given: &Given<'_>) -> Result<Tensor, String> {
 }
 
 /// The same numbers in another shape: -1 stands for what is left, 0 for the length that it has.
-pub(super) fn reshape(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn reshape(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let wanted = given.integers(1)?.ok_or("it lacks the shape")?;
     let keeps_zero = given.attributes.integer("allowzero", 0) != 0;
@@ -38,7 +38,7 @@ pub(super) fn reshape(given: &Given<'_>) -> Result<Tensor, String> {
     tensor.reshaped(shape)
 }
 
-pub(super) fn flatten(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn flatten(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let (rank, axis) = (tensor.shape.len(), given.attributes.integer("axis", 1));
     let axis = if axis == rank as i64 { rank } else { axis_of(axis, rank)? };
@@ -46,7 +46,7 @@ pub(super) fn flatten(given: &Given<'_>) -> Result<Tensor, String> {
     tensor.reshaped(vec![rows.iter().product(), columns.iter().product()])
 }
 
-pub(super) fn transpose(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn transpose(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let rank = tensor.shape.len();
     let order = match given.attributes.integers("perm") {
@@ -63,7 +63,7 @@ pub(super) fn transpose(given: &Given<'_>) -> Result<Tensor, String> {
     tensor.picked(shape, &places)
 }
 
-pub(super) fn squeeze(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn squeeze(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let rank = tensor.shape.len();
     let axes = match given.integers(1)? {
@@ -74,7 +74,7 @@ pub(super) fn squeeze(given: &Given<'_>) -> Result<Tensor, String> {
     tensor.reshaped(kept.collect())
 }
 
-pub(super) fn unsqueeze(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn unsqueeze(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let axes = given.integers(1)?.ok_or("it lacks the axes")?;
     let rank = tensor.shape.len() + axes.len();
@@ -85,7 +85,7 @@ pub(super) fn unsqueeze(given: &Given<'_>) -> Result<Tensor, String> {
     tensor.reshaped(shape.collect())
 }
 
-pub(super) fn concat(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn concat(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let parts: Vec<&Tensor> =
         (0..given.inputs.len()).map(|at| given.input(at)).collect::<Result<_, _>>()?;
     let first = parts.first().ok_or("it joins nothing")?;
@@ -132,7 +132,7 @@ fn joined<T: Copy>(
     Ok(joined)
 }
 
-pub(super) fn slice(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn slice(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let lacks = || "it lacks where to begin and to end".to_owned();
     let (starts, ends) =
@@ -164,7 +164,7 @@ pub(super) fn slice(given: &Given<'_>) -> Result<Tensor, String> {
     tensor.picked(shape, &places)
 }
 
-pub(super) fn gather(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn gather(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let (tensor, which) = (given.input(0)?, given.input(1)?);
     let axis = axis_of(given.attributes.integer("axis", 0), tensor.shape.len())?;
     let (lead, rest) = (&tensor.shape[..axis], &tensor.shape[axis + 1..]);
@@ -183,7 +183,7 @@ pub(super) fn gather(given: &Given<'_>) -> Result<Tensor, String> {
     tensor.picked(shape, &places)
 }
 
-pub(super) fn expand(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn expand(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let tensor = given.input(0)?;
     let wanted = given.integers(1)?.ok_or("it lacks the shape")?;
     let wanted: Option<Vec<usize>> = wanted.iter().map(|&it| usize::try_from(it).ok()).collect();
@@ -192,7 +192,7 @@ pub(super) fn expand(given: &Given<'_>) -> Result<Tensor, String> {
     tensor.picked(shape, &places)
 }
 
-pub(super) fn constant_of_shape(given: &Given<'_>) -> Result<Tensor, String> {
+pub(super) fn constant_of_shape(given: &NodeInputs<'_>) -> Result<Tensor, String> {
     let wanted = given.integers(0)?.ok_or("it lacks the shape")?;
     let shape: Option<Vec<usize>> = wanted.iter().map(|&it| usize::try_from(it).ok()).collect();
     let shape = shape.ok_or("the shape has a negative length")?;

@@ -42,7 +42,7 @@ def train(
     try:
         matches = training.matches
         masks = matches.masks[:, 0] if settings.masks else None
-        training.policy.export(out / "policy.onnx", matches.rows[:, 0], masks, settings.repeat)
+        training.policy.export(out / "policy.onnx", matches.rows[:, 0], masks, settings)
     except ImportError as error:
         print(f"no policy.onnx: {error}")
     return found

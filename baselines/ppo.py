@@ -87,10 +87,12 @@ class Policy(nn.Module):
         seen = prepared if isinstance(self.sight, Running) else self.sight(prepared)
         return self.actor(seen), self.foresee(seen)
 
-    def export(self, path: Path, shown: np.ndarray, masks: np.ndarray | None, repeat: int) -> None:
+    def export(
+        self, path: Path, shown: np.ndarray, masks: np.ndarray | None, settings: Settings
+    ) -> None:
         """Writes an ONNX file: from observations, and masks if it needs them, to logits.
 
-        Its metadata says how many steps a decision lasts.
+        Its metadata says what it sees, and how many steps a decision lasts.
         """
         import onnx
 
@@ -107,7 +109,8 @@ class Policy(nn.Module):
             dynamo=False,
         )
         model = onnx.load(path)
-        onnx.helper.set_model_props(model, {"repeat": str(repeat)})
+        said = {name: str(getattr(settings, name)) for name in ("observation", "stack", "repeat")}
+        onnx.helper.set_model_props(model, said)
         onnx.save(model, path)
 
 

@@ -1,5 +1,5 @@
-//! Embeds every file of the standard library, every page of the error codes and the studio's page:
-//! adding one is adding a file.
+//! Embeds every file of the standard library, every page of the error codes, every policy in the
+//! box and the studio's page: adding one is adding a file.
 //!
 //! They lie outside of this crate in the repository, and inside of it in a published package: cargo
 //! follows the links in `embedded/` when it packs. A system without links has files there.
@@ -13,6 +13,7 @@ use std::{env, fs, io};
 fn main() -> io::Result<()> {
     embed(&folder("stdlib-scenarios", "../stdlib-scenarios")?, &["pitch", "rhai"], "stdlib.rs")?;
     embed(&folder("errors", "../docs/errors")?, &["md"], "pages.rs")?;
+    embed_bytes(&folder("policies", "../baselines/policies")?, "onnx", "policies.rs")?;
     let page = folder("studio", "../studio/dist")?;
     println!("cargo:rerun-if-changed={}", page.display());
     println!("cargo:rustc-env=SETPIECE_STUDIO_PAGE={}", page.display());
@@ -31,6 +32,15 @@ fn folder(name: &str, in_repository: &str) -> io::Result<PathBuf> {
 
 /// Writes a table of paths and texts, sorted by path.
 fn embed(root: &Path, endings: &[&str], table_name: &str) -> io::Result<()> {
+    table(root, endings, "include_str!", table_name)
+}
+
+/// Writes a table of paths and bytes, sorted by path.
+fn embed_bytes(root: &Path, ending: &str, table_name: &str) -> io::Result<()> {
+    table(root, &[ending], "include_bytes!", table_name)
+}
+
+fn table(root: &Path, endings: &[&str], include: &str, table_name: &str) -> io::Result<()> {
     println!("cargo:rerun-if-changed={}", root.display());
     let mut files = Vec::new();
     collect(root, endings, &mut files)?;
@@ -39,7 +49,7 @@ fn embed(root: &Path, endings: &[&str], table_name: &str) -> io::Result<()> {
     for file in files {
         let name = file.strip_prefix(root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
         let path = file.display().to_string();
-        table.push_str(&["    (\"", &name, "\", include_str!(r\"", &path, "\")),\n"].concat());
+        table.push_str(&["    (\"", &name, "\", ", include, "(r\"", &path, "\")),\n"].concat());
     }
     table += "]\n";
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());

@@ -111,7 +111,7 @@ fn play(name: &str, agent: Agent, episodes: u64) -> Result<Summary, LabError> {
     let options = RunOptions {
         episodes: 0..episodes,
         seed: 0,
-        agent,
+        agent: agent.into(),
         threads: crate::threads::threads(),
         environment: EnvironmentOptions::default(),
     };

@@ -17,6 +17,7 @@ __all__ = [
     "ACTIONS",
     "ACTION_SETS",
     "AGENTS",
+    "BASELINES",
     "CONTINUOUS",
     "EPISODES_MAX",
     "GRF_LIMIT_MAX",
@@ -42,6 +43,7 @@ __all__ = [
     "SuiteRow",
     "__version__",
     "agents",
+    "baseline_file",
     "compile",
     "compile_cast",
     "grf_name",
@@ -65,6 +67,7 @@ __version__: Final[str]
 ACTIONS: Final[tuple[tuple[str, str], ...]]
 ACTION_SETS: Final[dict[str, int]]
 AGENTS: Final[tuple[str, ...]]
+BASELINES: Final[tuple[str, ...]]
 EPISODES_MAX: Final[int]
 GRF_LIMIT_MAX: Final[int]
 CONTINUOUS: Final[tuple[list[float], list[float]]]
@@ -520,6 +523,7 @@ def compile_cast(
     *,
     allow_outside: bool = False,
 ) -> Scenario: ...
+def baseline_file(scenario: str) -> bytes | None: ...
 def agents(scenario: Scenario, options: _Options) -> list[AgentInfo]: ...
 def restore(text: str) -> Scenario: ...
 def run_command(arguments: Sequence[str]) -> int: ...

@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece._errors import FileError, FormatError, ParameterError
+from setpiece._native import BASELINES, baseline_file
 from setpiece._optional import need
 from setpiece._options import check_path
+from setpiece._spaces import OBSERVATIONS
 
 TYPES = {
     "tensor(float)": np.float32,
@@ -28,6 +30,9 @@ MASK = "mask"
 REPEAT = "repeat"
 """The key of a model's metadata that says how many steps a decision lasts."""
 
+OBSERVATION, SCALE, STACK = "observation", "scale", "stack"
+"""The keys that say what a model sees: the name, whether it is scaled, how many at once."""
+
 
 @dataclass(frozen=True)
 class OnnxPolicy:
@@ -41,6 +46,10 @@ class OnnxPolicy:
     """How many steps a decision lasts."""
     mask: Any = None
     """The input for masks, if the model has one."""
+    observation: str | None = None
+    """The observation that the model names; None also for a stack, which the caller provides."""
+    scale: bool = False
+    """Whether that observation is scaled."""
 
     @property
     def masks(self) -> bool:
@@ -94,35 +103,69 @@ def onnx_policy(path: str | PathLike[str]) -> OnnxPolicy:
 
     If the model's metadata has the key `repeat`, a whole number, a decision lasts so many steps:
     whoever plays the policy presses its action in all of them. The policy has the attribute
-    `repeat`, 1 without that key.
+    `repeat`, 1 without that key. `observation` is the name of what the policy sees, and with `scale`
+    as `true` it is scaled. Opponents and evaluated policies then see that, whatever the caller sees;
+    not if the key `stack` says that several are seen at once.
 
     Raises `FileError`, `FormatError`, `MissingPackageError`, and `ParameterError` if `path` isn't a
     path.
     """
     file = check_path("path", path)
-    runtime = need("onnxruntime", "onnx", "a policy from an `.onnx` file")
+    # Reported before what a file that isn't there would need.
+    need("onnxruntime", "onnx", "a policy from an `.onnx` file")
     if not file.is_file():
         raise FileError(f"there is no file `{fspath(path)}`", path=fspath(path))
+    return _policy(fspath(path), fspath(path))
+
+
+def baseline_policy(scenario: str) -> OnnxPolicy:
+    """Returns the policy that a scenario comes with, or raises `ParameterError`."""
+    model = baseline_file(scenario)
+    if model is None:
+        raise ParameterError(
+            f"the scenario `{scenario}` has no baseline",
+            name="opponents",
+            code="SP0024",
+            help=f"these have one: `{'`, `'.join(BASELINES)}`",
+        )
+    return _policy(f"baseline/{scenario}.onnx", model)
+
+
+def _policy(path: str, model: str | bytes) -> OnnxPolicy:
+    """Returns the policy of a model: its path or its bytes."""
+    runtime = need("onnxruntime", "onnx", "a policy from an `.onnx` file")
     options = runtime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     try:
-        session = runtime.InferenceSession(
-            fspath(path), options, providers=["CPUExecutionProvider"]
-        )
+        session = runtime.InferenceSession(model, options, providers=["CPUExecutionProvider"])
     except Exception as error:
-        raise FormatError(f"`{fspath(path)}` is no ONNX model that can be run: {error}") from error
+        raise FormatError(f"`{path}` is no ONNX model that can be run: {error}") from error
     inputs = session.get_inputs()
     masks = [one for one in inputs if one.name == MASK and one.shape[1:] in ([19], [20])]
     shown = [one for one in inputs if one not in masks]
     if len(shown) != 1 or any(one.type not in TYPES for one in inputs):
         found = ", ".join(f"{one.name}: {one.type}" for one in inputs)
         raise FormatError(
-            f"`{fspath(path)}` has the inputs {found}; expected one, and perhaps a `{MASK}`: "
+            f"`{path}` has the inputs {found}; expected one, and perhaps a `{MASK}`: "
             f"{', '.join(TYPES)}"
         )
-    said = session.get_modelmeta().custom_metadata_map.get(REPEAT, "1")
+    metadata = session.get_modelmeta().custom_metadata_map
+    said = metadata.get(REPEAT, "1")
     if not (said.isdecimal() and int(said) >= 1):
+        raise FormatError(f"`{path}` has the `{REPEAT}` {said!r}; expected a count of steps")
+    name = metadata.get(OBSERVATION)
+    if name is not None and name not in OBSERVATIONS:
         raise FormatError(
-            f"`{fspath(path)}` has the `{REPEAT}` {said!r}; expected a count of steps"
+            f"`{path}` has the `{OBSERVATION}` {name!r}; expected {', '.join(OBSERVATIONS)}"
         )
-    return OnnxPolicy(fspath(path), session, shown[0], int(said), masks[0] if masks else None)
+    if metadata.get(STACK, "1") != "1":
+        name = None
+    return OnnxPolicy(
+        path,
+        session,
+        shown[0],
+        int(said),
+        masks[0] if masks else None,
+        name,
+        name is not None and metadata.get(SCALE) == "true",
+    )

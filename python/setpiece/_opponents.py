@@ -14,7 +14,7 @@ from setpiece._actions import integers
 from setpiece._errors import ActionError, OpponentError, ParameterError
 from setpiece._held import Held
 from setpiece._native import ACTION_SETS, AgentInfo
-from setpiece._onnx import OnnxPolicy, onnx_policy
+from setpiece._onnx import OnnxPolicy, baseline_policy, onnx_policy
 from setpiece._options import check_count, check_flag
 from setpiece._rows import Picker, pick_info
 from setpiece._spaces import check_observation, check_scale
@@ -23,6 +23,7 @@ from setpiece._words import similar
 
 SIDES: tuple[Literal["left"], Literal["right"]] = ("left", "right")
 BOT = "bot"
+BASELINE = "baseline"
 REPEAT_MAX = 1_000
 """The most steps that a decision lasts."""
 
@@ -33,8 +34,8 @@ class Policy:
 
     - `play`: a function of observations that returns actions, the path of an `.onnx` file, or an
       object with the `predict` of Stable-Baselines3.
-    - `observation`: what it sees, as in `setpiece.make` without a stack; None: what the caller
-      sees, including the stack.
+    - `observation`: what it sees, as in `setpiece.make` without a stack; None: what the `.onnx`
+      file says, otherwise what the caller sees, including the stack.
     - `batched`: True: it gets the observations of all its n agents at once, an array with a leading
       axis n (a tuple of n dicts for `"raw"`), and returns n actions. False: it gets one agent's and
       returns one, agent by agent.
@@ -116,9 +117,13 @@ class Table:
         agents: Sequence[AgentInfo],
         opponents: Mapping[str, Opponent],
         n_actions: int,
+        scenario: str,
         what: str = "opponent",
     ) -> None:
-        """Seats opponents; `what` they are called in errors."""
+        """Seats opponents; `what` they are called in errors.
+
+        `scenario` is its name, which has the policy of `"baseline"`.
+        """
         self.n_agents, self.n_actions = len(agents), n_actions
         owner = _owners(agents, read_opponents(opponents))
         self.mine = [at for at in range(self.n_agents) if at not in owner]
@@ -128,11 +133,13 @@ class Table:
             at = [slot for slot, key in owner.items() if key == who]
             if not at or is_word(opponent):
                 continue
-            policy = policy_of(who, opponent)
+            is_baseline = isinstance(opponent, str) and opponent == BASELINE
+            given = Policy(baseline_policy(scenario)) if is_baseline else policy_of(who, opponent)
             ids = tuple(agents[slot].id for slot in at)
             teams = {agents[slot].team for slot in at}
             side = SIDES[teams.pop()] if len(teams) == 1 else None
-            play, held = player_of(policy)
+            play, held = player_of(given)
+            policy = sighted(given, play)
             pick = Picker(self.n_agents, at)
             masked = sees_masks(policy, play)
             self.seats.append(Seat(ids, at, pick, policy, play, held, side, what, masked))
@@ -359,7 +366,7 @@ def policy_of(who: str, opponent: Opponent, argument: str = "opponents") -> Poli
     if callable(opponent):
         return Policy(opponent, batched=False)
     named = argument == "opponents"
-    words = "'bot', a behaviour's name, " if named else ""
+    words = "'bot', 'baseline', a behaviour's name, " if named else ""
     files = "a `.rhai` or `.onnx`" if named else "an `.onnx`"
     raise ParameterError(
         f"`{argument}[{who!r}]` is {opponent!r}; it can be {words}a function, a `setpiece.Policy`, "
@@ -373,6 +380,16 @@ def sees_masks(policy: Policy, play: Callable[..., Any]) -> bool:
     if policy.masks is not None:
         return bool(policy.masks)
     return isinstance(play, OnnxPolicy) and play.masks
+
+
+def sighted(policy: Policy, play: Callable[..., Any]) -> Policy:
+    """Returns a policy with the observation that its file names, if it names none itself."""
+    if policy.observation is not None or not isinstance(play, OnnxPolicy):
+        return policy
+    if play.observation is None:
+        return policy
+    scale = check_scale(play.scale, play.observation)
+    return replace(policy, observation=play.observation, scale=scale)
 
 
 def player_of(policy: Policy) -> tuple[Callable[..., Any], Held]:
@@ -405,7 +422,8 @@ class _Predictor:
 
 def is_word(opponent: object) -> TypeGuard[str | PathLike[str]]:
     """Whether it is the bot, a behaviour or a script, which the engine plays."""
-    return ends_with(opponent, ".rhai") or (isinstance(opponent, str) and not is_onnx(opponent))
+    is_name = isinstance(opponent, str) and opponent != BASELINE and not is_onnx(opponent)
+    return ends_with(opponent, ".rhai") or is_name
 
 
 def is_onnx(opponent: object) -> TypeGuard[str | PathLike[str]]:

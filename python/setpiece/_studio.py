@@ -15,15 +15,24 @@ from setpiece import _native
 from setpiece._environment import FootballEnv
 from setpiece._errors import ParameterError, ReplayError
 from setpiece._held import Held
-from setpiece._native import Scenario
-from setpiece._opponents import Opponent, Seat, ask, is_word, player_of, policy_of, sees_masks
+from setpiece._native import AGENTS, Scenario
+from setpiece._opponents import (
+    Opponent,
+    Seat,
+    ask,
+    is_word,
+    player_of,
+    policy_of,
+    sees_masks,
+    sighted,
+)
 from setpiece._options import check_flag
 from setpiece._rows import Picker
 from setpiece._source import Source, load, name_of, path_of, text_of
 from setpiece._vector import FootballVectorEnv
 
 PORT_MAX = 65_535
-TAKEN = ("bot", "idle", "random", "run_and_shoot", "nobody", "you")
+TAKEN = (*AGENTS, "nobody", "you")
 """Names that mean something else in the page."""
 FRAME_PX = 900
 """The height of the page in a notebook."""
@@ -220,8 +229,9 @@ def _native_policy(name: str, given: Opponent, look: tuple[str, bool]) -> Native
             f"`policies[{name!r}]` is {given!r}, which the page offers anyway if the file has it",
             name="policies",
         )
-    policy = policy_of(name, given, "policies")
-    function, held = player_of(policy)
+    unsighted = policy_of(name, given, "policies")
+    function, held = player_of(unsighted)
+    policy = sighted(unsighted, function)
     if sees_masks(policy, function):
         raise ParameterError(
             f"`policies[{name!r}]` sees masks, which the page doesn't show", name="policies"

@@ -195,7 +195,7 @@ class Suite:
         """Plays every episode of the suite and returns how the policy did.
 
         - `policy`: plays all agents, those of the right side too. An agent of the command
-          (`"bot"`, `"random"`, `"run_and_shoot"`, `"idle"`), the path of an `.onnx` file, a
+          (`"bot"`, `"random"`, `"run_and_shoot"`, `"idle"`, `"baseline"`), the path of an `.onnx` file, a
           function of one observation, a `Policy`, or an object with the `predict` of
           Stable-Baselines3. Actions are those of `opponents`: 0..19.
         - `threads`: None: one per core. Results don't depend on it.
@@ -253,8 +253,9 @@ class Suite:
     ) -> _native.SuiteRow:
         levels = self._native.levels(at)
         n = min(ENVS, levels.n_unfinished)
+        scenario = self._native.scenario(at)
         batch = _native.Batch(
-            self._native.scenario(at),
+            scenario,
             n,
             options,
             threads=check_threads(threads, n),
@@ -263,7 +264,7 @@ class Suite:
         )
         agents = batch.agents
         sides: dict[str, Opponent] = {SIDES[agent.team]: policy for agent in agents}
-        table = Table(agents, sides, ACTION_SETS["v2"], "policy")
+        table = Table(agents, sides, ACTION_SETS["v2"], scenario.name, "policy")
         crowd = Crowd(table, n)
         for kind in table.observations:
             batch.look(*kind)

@@ -82,6 +82,7 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
         }
         Error::Snapshot(_) => "SnapshotError",
         Error::Replay(_) => "ReplayError",
+        Error::NoBaseline { .. } => "ParameterError",
         Error::Environment(why) => {
             if let EnvironmentError::Param(why) = why {
                 fields.set_item("name", param_name(why))?;
@@ -119,7 +120,7 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
         }
         Error::Level { .. } => "LevelError",
         Error::Threads(_) | Error::NoStep { .. } => "SetpieceError",
-        Error::Format { .. } | Error::Compile(_) => "FormatError",
+        Error::Format { .. } | Error::Policy { .. } | Error::Compile(_) => "FormatError",
     };
     Ok((class, error.to_string(), fields))
 }

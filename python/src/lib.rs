@@ -75,6 +75,8 @@ mod _native {
             Action::ALL.iter().map(|action| (action.name(), action.doc())).collect();
         module.add("ACTIONS", pyo3::types::PyTuple::new(module.py(), actions)?)?;
         let sets = ActionSet::NAMED.map(|(name, set)| (name, set.masked().len()));
+        let baselines: Vec<&str> = setpiece::baseline::baselines().collect();
+        module.add("BASELINES", pyo3::types::PyTuple::new(module.py(), baselines)?)?;
         module.add("AGENTS", pyo3::types::PyTuple::new(module.py(), AGENTS)?)?;
         module.add("EPISODES_MAX", EPISODES_MAX)?;
         module.add("GRF_LIMIT_MAX", setpiece::grf::LIMIT_MAX)?;
@@ -83,6 +85,12 @@ mod _native {
         let kinds: Vec<&str> = continuous::KINDS.iter().map(|kind| kind.name()).collect();
         module.add("KINDS", pyo3::types::PyTuple::new(module.py(), kinds)?)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+
+    /// The ONNX file of the policy that a scenario comes with; none without one.
+    #[pyfunction]
+    fn baseline_file(scenario: &str) -> Option<&'static [u8]> {
+        setpiece::baseline::baseline_file(scenario)
     }
 
     /// Runs the command `setpiece` with arguments and returns its exit code: 0, 1 (input) or 2

@@ -180,6 +180,7 @@ impl Studio {
         let is_closed = Arc::new(AtomicBool::new(false));
         let options = OpenOptions {
             allow_outside,
+            agents: Vec::new(),
             guests: Some(Box::new(PythonGuests { policies, is_closed: is_closed.clone() })),
             params: params.map(|param| (param.name.clone(), param.default)).collect(),
         };

@@ -7,7 +7,7 @@ use crate::scenario::Scenario;
 use crate::{errors, given};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use setpiece::engine::control::agents::Agent;
+use setpiece::agent::ChosenAgent;
 use setpiece::engine::environment::EnvironmentOptions;
 use setpiece::evaluate::refuse_endless;
 use setpiece::plans::{PlansOf, library_plans, suite_of};
@@ -111,7 +111,7 @@ impl Suite {
             .ok_or_else(|| errors::parameter(py, "levels", "the suite has no entry"))
     }
 
-    /// Plays an entry with a ready-made agent.
+    /// Plays an entry with an agent of the command.
     fn play(
         &self,
         py: Python<'_>,
@@ -121,14 +121,13 @@ impl Suite {
         threads: usize,
     ) -> PyResult<SuiteRow> {
         let entry = self.entry(py, at)?.clone();
-        let Some(agent) = Agent::from_name(agent) else {
+        let Some(agent) = ChosenAgent::from_name(agent) else {
             let message = format!("no agent is called `{agent}`");
             return Err(errors::parameter(py, "policy", &message));
         };
         let options = EnvironmentOptions { rewards, ..EnvironmentOptions::default() };
-        let row = interruptible(py, move || {
-            suite::row(&entry, &options, &[(agent.name(), agent)], threads, || ())
-        })?;
+        let row =
+            interruptible(py, move || suite::row(&entry, &options, &[agent], threads, || ()))?;
         Ok(SuiteRow { row: row.map_err(|error| errors::from_facade(py, &error))? })
     }
 

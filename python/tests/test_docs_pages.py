@@ -24,7 +24,7 @@ TRIED = {
     "docs/examples.md": {"console": 13},
     "docs/game.md": {"console": 1},
     "docs/language.md": {"pitch": 7, "console": 9, "python": 1},
-    "docs/language/command.md": {"console": 1},
+    "docs/language/command.md": {"console": 3},
     "docs/language/import.md": {"pitch": 3},
     "docs/language/level.md": {"pitch": 3, "console": 1, "json": 1},
     "docs/language/script.md": {"pitch": 4, "rhai": 2},

@@ -65,8 +65,13 @@ fn latency(path: &Path, live: &mut Live) {
         assert_eq!(live.loaded().scenario.title(), index.to_string(), "another save was taken");
         ready.push(begin.elapsed());
         let environment = EnvironmentOptions::default();
-        let options =
-            RunOptions { episodes: 0..1, seed: 0, agent: Agent::Idle, threads: 1, environment };
+        let options = RunOptions {
+            episodes: 0..1,
+            seed: 0,
+            agent: Agent::Idle.into(),
+            threads: 1,
+            environment,
+        };
         let summary = run(&live.loaded().scenario, &options, |_| {})
             .unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(summary.episodes.len(), 1);

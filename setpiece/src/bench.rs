@@ -8,10 +8,10 @@ pub use once::{ONCE_NAMES, once};
 pub use scaling::scaling;
 
 use crate::Error;
+use crate::agent::{ActingAgent, ChosenAgent};
 use crate::pixels::PixelEye;
 use cpu_time::ProcessTime;
-use setpiece_engine::batch::{Batch, EpisodeError, Policy, ReadyMade};
-use setpiece_engine::control::agents::Agent;
+use setpiece_engine::batch::{Batch, EpisodeError, Policy};
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece_engine::laps::{Laps, Phase};
 use setpiece_engine::observe::{Floats, SMM_HEIGHT, SMM_WIDTH, smm, smm_size};
@@ -32,7 +32,7 @@ pub struct BenchOptions {
     /// How long to measure.
     pub duration: Duration,
     /// The agent that plays every slot.
-    pub agent: Agent,
+    pub agent: ChosenAgent,
     /// The observation that every agent gets after every step.
     pub observation: BenchObservation,
     /// Match k plays the episodes of the seed `seed + k`.
@@ -197,7 +197,7 @@ fn reading_ns() -> f64 {
 /// A match, its player and its observation buffers.
 struct BenchLane {
     environment: Environment,
-    agent: ReadyMade,
+    agent: ActingAgent,
     seed: u64,
     actions: Vec<Action>,
     observation: BenchObservation,
@@ -212,6 +212,7 @@ struct BenchLane {
 fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<BenchLane>, Error> {
     let prototype = Environment::new(scenario.clone(), options.environment.clone())
         .map_err(Error::Environment)?;
+    let agent = options.agent.fit(&prototype)?;
     let (floats, map) = match options.observation {
         BenchObservation::None => (0, 0),
         BenchObservation::Simple115v2 => (prototype.layout(Floats::Simple115v2).len(), 0),
@@ -221,7 +222,7 @@ fn lanes(scenario: &Arc<Scenario>, options: &BenchOptions) -> Result<Vec<BenchLa
     };
     let lane = |at: usize| BenchLane {
         environment: prototype.clone(),
-        agent: ReadyMade::new(options.agent),
+        agent: agent.player(),
         seed: options.seed.wrapping_add(at as u64),
         actions: vec![Action::Idle; prototype.n_agents()],
         observation: options.observation,

@@ -2,18 +2,21 @@
 //!
 //! Exit codes: 0 fine, 1 the input has errors, 2 the command line has.
 
+mod agent;
 mod bench;
 mod check;
 mod common;
 mod doc;
 mod explain;
 mod fmt;
+mod leaderboard;
 mod live;
 mod log;
 mod lsp;
 mod out;
 mod play;
 mod playing;
+mod profile;
 mod reference;
 #[cfg(feature = "render")]
 mod render;
@@ -125,6 +128,23 @@ enum Command {
 
 The worst episode of a failed check is written to `failed-checks/`.")]
     Test(test::TestArgs),
+    /// Let agents play all against all on both sides, and rate them
+    #[command(after_help = "Examples:
+  setpiece leaderboard bot random idle
+  setpiece leaderboard old.onnx new.onnx bot --matches 50
+  setpiece leaderboard old.onnx new.onnx --scenario 5_vs_5 --format json
+
+A rating is that of Bradley and Terry on Elo's scale: an agent with 400 points more wins ten times as
+often as it loses. A draw is half a win, and each pair counts one more. Intervals have 95 %: between
+percentiles of ratings for results drawn from their posterior distribution (Jeffreys' prior).")]
+    Leaderboard(leaderboard::LeaderboardArgs),
+    /// Show what an agent does in a scenario: touches, passes, shots, actions, ends and rewards
+    #[command(after_help = "Examples:
+  setpiece profile policy.onnx academy_3_vs_1_with_keeper -o report.html
+  setpiece profile baseline academy_run_to_score -o report.html --episodes 500
+
+The page has its pictures inside and needs no network.")]
+    Profile(profile::ProfileArgs),
     /// Draw an episode: a video, a sheet of frames seen from above, or one moment
     #[cfg(feature = "render")]
     #[command(after_help = "Examples:
@@ -239,6 +259,8 @@ fn run(args: Args) -> u8 {
         Command::Doc(args) => doc::doc(&args, &out),
         Command::Run(args) => play::run_command(&args, &out),
         Command::Test(args) => test::test(&args, &out),
+        Command::Profile(args) => profile::profile_command(&args, &out),
+        Command::Leaderboard(args) => leaderboard::leaderboard_command(&args, &out),
         #[cfg(feature = "render")]
         Command::Render(args) => render::render(&args, &out),
         #[cfg(not(feature = "render"))]

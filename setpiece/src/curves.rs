@@ -1,7 +1,7 @@
 //! What an episode pays over time: the mean return of every reward term up to each step.
 
 use crate::Error;
-use crate::engine::batch::{EpisodeError, Policy, ReadyMade, STEPS_MAX};
+use crate::engine::batch::{EpisodeError, Policy, STEPS_MAX};
 use crate::engine::environment::{Environment, Scratch};
 use crate::run::RunOptions;
 use crate::scenario::{Action, Scenario};
@@ -28,14 +28,15 @@ impl Curves {
 /// Plays the episodes one after the other and adds up what each term pays, as a mean over agents.
 ///
 /// # Errors
-/// [`Error::Environment`] if the options don't fit the scenario, [`Error::Episode`] if an episode
-/// has no start, a script fails, or nothing ends it.
+/// [`Error::Environment`] if the options don't fit the scenario, [`Error::Policy`] if the agent
+/// doesn't, [`Error::Episode`] if an episode has no start, a script fails, or nothing ends it.
 pub fn curves(scenario: &Arc<Scenario>, options: &RunOptions) -> Result<Curves, Error> {
     let fault = |why| Error::Episode(Box::new(why));
     let mut environment = Environment::new(scenario.clone(), options.environment.clone())
         .map_err(Error::Environment)?;
     let names = environment.term_names().to_vec();
-    let (mut policy, mut scratch) = (ReadyMade::new(options.agent), Scratch::default());
+    let mut policy = options.agent.fit(&environment)?.player();
+    let mut scratch = Scratch::default();
     let mut actions = vec![Action::Idle; environment.n_agents()];
     // Per term and step the sum over episodes of what was paid in that step.
     let mut paid: Vec<Vec<f64>> = vec![vec![0.0]; names.len()];

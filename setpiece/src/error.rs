@@ -1,6 +1,7 @@
 //! Errors before an episode runs, each with a stable code and a help line.
 
 use crate::level::Level;
+use crate::onnx::NetworkFault;
 use crate::replay::ReplayError;
 use setpiece_dsl::problem::{Code, Problem, Severity, nearest};
 use setpiece_dsl::source::Sources;
@@ -45,6 +46,20 @@ pub enum Error {
     Snapshot(SnapshotError),
     /// A replay can't be read or played.
     Replay(ReplayError),
+    /// A scenario has no policy in the box.
+    NoBaseline {
+        /// The scenario's name.
+        scenario: String,
+        /// The scenarios that have one.
+        known: Vec<String>,
+    },
+    /// A policy from a file can't be played.
+    Policy {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        why: PolicyFault,
+    },
     /// An environment can't be created from the scenario.
     Environment(EnvironmentError),
     /// An episode failed: no start was found, a script's hook failed, or nothing ended it.
@@ -99,6 +114,77 @@ pub enum LevelFault {
     Unknown,
     /// Its text or JSON can't be read.
     Unreadable(String),
+}
+
+/// What is wrong with a policy from a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PolicyFault {
+    /// Its network can't be read or computed.
+    Network(NetworkFault),
+    /// Its network has other inputs than an observation and perhaps masks.
+    Inputs {
+        /// Their names.
+        found: Vec<String>,
+    },
+    /// Its metadata says something else than a number of steps.
+    Repeat {
+        /// What it says.
+        said: String,
+    },
+    /// It sees something that the scenario doesn't show.
+    Observation {
+        /// The lengths of the axes behind that of the batch; none where one is free.
+        axes: Vec<Option<usize>>,
+        /// The observation that the file names.
+        named: Option<String>,
+        /// The scenario's name.
+        scenario: String,
+        /// The observations of the scenario and how many numbers they have.
+        known: Vec<(&'static str, String)>,
+    },
+    /// It returns something else than logits of the actions.
+    Actions {
+        /// The shape of what it returns.
+        found: Vec<usize>,
+    },
+}
+
+impl From<NetworkFault> for PolicyFault {
+    fn from(why: NetworkFault) -> PolicyFault {
+        PolicyFault::Network(why)
+    }
+}
+
+impl std::fmt::Display for PolicyFault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            PolicyFault::Network(why) => why.fmt(f),
+            PolicyFault::Inputs { found } => write!(
+                f,
+                "expected one input, and perhaps a `mask`; found `{}`",
+                found.join("`, `")
+            ),
+            PolicyFault::Repeat { said } => {
+                write!(f, "its metadata says `repeat` is `{said}`; expected a number of steps")
+            }
+            PolicyFault::Observation { axes, named, scenario, .. } => {
+                let length =
+                    |axis: &Option<usize>| axis.map_or("n".to_owned(), |it| it.to_string());
+                let shape: Vec<String> = axes.iter().map(length).collect();
+                let shape = shape.join(" × ");
+                match named {
+                    Some(name) => write!(
+                        f,
+                        "it sees {shape} numbers of `{name}`, which `{scenario}` doesn't show"
+                    ),
+                    None => write!(f, "it sees {shape} numbers, which `{scenario}` doesn't show"),
+                }
+            }
+            PolicyFault::Actions { found } => {
+                write!(f, "it returns {found:?}; expected the logits of 19 or 20 actions, [1, 19]")
+            }
+        }
+    }
 }
 
 /// What is wrong with a file.
@@ -210,6 +296,8 @@ impl Error {
             },
             Error::Snapshot(_) => Code::BadSnapshot,
             Error::Replay(_) => Code::BadReplay,
+            Error::Policy { .. } => Code::BadPolicy,
+            Error::NoBaseline { .. } => Code::NoBaseline,
             Error::Episode(why) => match **why {
                 EpisodeError::Draw(_) => Code::DrawFailed,
                 EpisodeError::Environment(_) => Code::BadParameter,
@@ -260,6 +348,10 @@ impl Error {
             Error::Cast { .. } => Some(
                 "give the scenario's name or the path of its `.pitch` file, or write `ai: …` in the text".to_owned(),
             ),
+            Error::Policy { why, .. } => policy_help(why),
+            Error::NoBaseline { known, .. } => {
+                Some(format!("these have one: `{}`", known.join("`, `")))
+            }
             Error::NoStep { length, .. } => Some(format!("its last moment is `--step {length}`")),
             Error::Snapshot(why)
             | Error::Environment(EnvironmentError::Snapshot(why)) => snapshot_help(why),
@@ -285,6 +377,25 @@ impl Error {
             ),
             _ => None,
         }
+    }
+}
+
+fn policy_help(why: &PolicyFault) -> Option<String> {
+    match why {
+        PolicyFault::Network(NetworkFault::NotOnnx) => {
+            Some("`torch.onnx.export` writes one".to_owned())
+        }
+        PolicyFault::Network(NetworkFault::Opset(_)) => {
+            Some("export it with `opset_version=17`".to_owned())
+        }
+        PolicyFault::Network(NetworkFault::Operator { .. }) => Some(
+            "`setpiece.evaluate` in Python plays every ONNX model, with `onnxruntime`".to_owned(),
+        ),
+        PolicyFault::Observation { known, .. } => {
+            let known = known.iter().map(|(name, length)| format!("`{name}` has {length}"));
+            Some(known.collect::<Vec<_>>().join(", "))
+        }
+        _ => None,
     }
 }
 
@@ -351,6 +462,12 @@ impl std::fmt::Display for Error {
             Error::Param { why, .. } => why.fmt(f),
             Error::Snapshot(why) => why.fmt(f),
             Error::Replay(why) => why.fmt(f),
+            Error::NoBaseline { scenario, .. } => {
+                write!(f, "the scenario `{scenario}` has no baseline")
+            }
+            Error::Policy { path, why } => {
+                write!(f, "the policy `{}` can't be played: {why}", path.display())
+            }
             Error::Environment(why) => why.fmt(f),
             Error::Episode(why) => why.fmt(f),
             Error::NoStep { step, length: 1 } => {

@@ -1,10 +1,10 @@
 //! Plays what plans say: the entries of suites, and checks.
 
+use crate::agent::ChosenAgent;
 use crate::error::Error;
 use crate::measure::{Estimate, measure, worst};
 use crate::replay::{Recorder, Replay};
-use setpiece_engine::batch::{EpisodeError, EpisodeSummary, Policy, ReadyMade, run_episodes};
-use setpiece_engine::control::agents::Agent;
+use setpiece_engine::batch::{EpisodeError, EpisodeSummary, Policy, run_episodes};
 use setpiece_engine::draw::draw_params;
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece_scenario::plan::{Check, Expectation, PlannedEpisodes, Played};
@@ -39,12 +39,13 @@ pub struct JudgedExpectation<'a> {
 /// - `after`: called with every episode as it ends, from any thread.
 ///
 /// # Errors
-/// [`Error::Environment`] if the bindings don't fit, [`Error::Episode`] for the first episode that
-/// failed, [`Error::Threads`] if threads can't be started.
+/// [`Error::Environment`] if the bindings don't fit, [`Error::Policy`] if the agent doesn't,
+/// [`Error::Episode`] for the first episode that failed, [`Error::Threads`] if threads can't be
+/// started.
 pub fn play(
     what: &PlannedEpisodes,
     options: &EnvironmentOptions,
-    agent: Agent,
+    agent: &ChosenAgent,
     over_params: bool,
     threads: usize,
     after: impl Fn() + Sync,
@@ -52,13 +53,14 @@ pub fn play(
     let fault = |why| Error::Episode(Box::new(why));
     refuse_endless(&what.played.scenario)?;
     let environment = environment(&what.played, options, what.played.bindings.clone())?;
+    let agent = agent.fit(&environment)?;
     let episodes = run_episodes(
         &environment,
         what.seed,
         0..what.count,
         threads.min(what.count.try_into().unwrap_or(usize::MAX)).max(1),
         |index| over_params.then(|| bindings(what, true, index)),
-        || ReadyMade::new(agent),
+        || agent.player(),
         |_| after(),
     )
     .map_err(|why| Error::Threads(why.to_string()))?;
@@ -111,7 +113,7 @@ pub fn judge<'a>(check: &'a Check, results: &Results) -> Vec<JudgedExpectation<'
 pub fn record(
     what: &PlannedEpisodes,
     options: &EnvironmentOptions,
-    agent: Agent,
+    agent: &ChosenAgent,
     over_params: bool,
     index: u64,
 ) -> Result<Replay, Error> {
@@ -120,7 +122,7 @@ pub fn record(
     environment
         .reset(Some(what.seed), Some(index))
         .map_err(|why| fault(EpisodeError::Draw(why)))?;
-    let mut policy = ReadyMade::new(agent);
+    let mut policy = agent.fit(&environment)?.player();
     policy.begin(&environment);
     let (mut recorder, mut scratch) = (Recorder::default(), Scratch::default());
     recorder.begin(None);

@@ -1,8 +1,8 @@
 //! A played episode, kept scene by scene.
 
 use crate::Error;
-use crate::engine::batch::{EpisodeError, Policy, ReadyMade, STEPS_MAX};
-use crate::engine::control::agents::Agent;
+use crate::agent::ChosenAgent;
+use crate::engine::batch::{EpisodeError, Policy, STEPS_MAX};
 use crate::engine::environment::{Environment, EnvironmentOptions, Scratch};
 use crate::engine::judge::Outcome;
 use crate::engine::state::event::Event;
@@ -23,7 +23,7 @@ pub struct FilmOptions {
     /// The episode's index under the seed.
     pub episode: u64,
     /// The agent that plays every slot.
-    pub agent: Agent,
+    pub agent: ChosenAgent,
     /// Parameters and physics.
     pub environment: EnvironmentOptions,
     /// Stop after this many steps, whether or not the episode ends.
@@ -74,11 +74,13 @@ impl Film {
 /// Plays an episode and keeps every moment.
 ///
 /// # Errors
-/// [`Error::Environment`] if the options don't fit the scenario; [`Error::Episode`] if it has no
-/// start, a script fails, or nothing ends it.
+/// [`Error::Environment`] if the options don't fit the scenario; [`Error::Policy`] if the agent
+/// doesn't; [`Error::Episode`] if it has no start, a script fails, or nothing ends it.
 pub fn film(scenario: &Arc<Scenario>, options: &FilmOptions) -> Result<Film, Error> {
-    let who = Some(options.agent.name());
-    Ok(film_of(scenario, options, &mut ReadyMade::new(options.agent), who)?.0)
+    let environment = Environment::new(scenario.clone(), options.environment.clone())
+        .map_err(Error::Environment)?;
+    let mut policy = options.agent.fit(&environment)?.player();
+    Ok(film_of(scenario, options, &mut policy, Some(options.agent.name()))?.0)
 }
 
 /// Like [`film`], with any policy instead of the agent of the options, and its name. Returns what
@@ -242,13 +244,14 @@ fn keepers(scenario: &Scenario) -> [bool; PLAYERS_MAX] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::control::agents::Agent;
     use setpiece_render::scene::Mode;
 
     fn played(text: &str, until_step: Option<u32>) -> Result<Film, Error> {
         let options = FilmOptions {
             seed: 1,
             episode: 2,
-            agent: Agent::Idle,
+            agent: Agent::Idle.into(),
             environment: EnvironmentOptions::default(),
             until_step,
         };

@@ -5,6 +5,8 @@
 //! an episode as scenes, which [`mod@render`] draws. [`watch`] recompiles a scenario when its files
 //! change, and [`probe`] finds problems that only a dry run shows.
 
+pub mod agent;
+pub mod baseline;
 pub mod bench;
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -21,6 +23,7 @@ pub mod explain;
 pub mod files;
 pub mod film;
 pub mod grf;
+pub mod leaderboard;
 pub mod level;
 pub mod levels;
 pub mod live;
@@ -28,12 +31,14 @@ pub mod load;
 #[cfg(feature = "editor")]
 pub mod lsp;
 pub mod measure;
+pub mod onnx;
 pub mod picture;
 pub mod pixels;
 pub mod plans;
 #[cfg(feature = "render")]
 pub mod plot;
 pub mod probe;
+pub mod profile;
 pub mod replay;
 pub mod run;
 pub mod scene;

@@ -33,16 +33,7 @@ pub(crate) fn svg_over(
     scene: &Scene,
     beneath: &str,
 ) -> String {
-    let [left, top, width, height] = view(&scene.pitch);
-    let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{left} {top} {width} {height}\" width=\"{}\" height=\"{}\" \
-         font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n<title>{}</title>\n",
-        width * 8.0,
-        height * 8.0,
-        escaped(title)
-    );
-    lawn(&mut text, &scene.pitch);
-    lines(&mut text, &scene.pitch);
+    let mut text = begun(title, &scene.pitch);
     text.push_str(beneath);
     for one in scene.players.iter().filter(|player| player.present) {
         let name = names.get(player_id(one.id).index()).map_or("", String::as_str);
@@ -53,6 +44,26 @@ pub(crate) fn svg_over(
         text,
         "<circle cx=\"{ball_x:.2}\" cy=\"{ball_y:.2}\" r=\"0.7\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"0.3\"/>\n</svg>\n",
     );
+    text
+}
+
+/// Draws an empty pitch with some elements over it, in metres.
+pub(crate) fn pitch_svg(title: &str, pitch: &Pitch, over: &str) -> String {
+    begun(title, pitch) + over + "</svg>\n"
+}
+
+/// A picture's beginning, up to the lines of the pitch.
+fn begun(title: &str, pitch: &Pitch) -> String {
+    let [left, top, width, height] = view(pitch);
+    let mut text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{left} {top} {width} {height}\" width=\"{}\" height=\"{}\" \
+         font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n<title>{}</title>\n",
+        width * 8.0,
+        height * 8.0,
+        escaped(title)
+    );
+    lawn(&mut text, pitch);
+    lines(&mut text, pitch);
     text
 }
 
@@ -155,6 +166,6 @@ fn player(text: &mut String, player: &ScenePlayer, name: &str) {
 }
 
 /// Escapes XML's special characters.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -2,10 +2,10 @@
 
 pub mod faults;
 
+use crate::agent::ChosenAgent;
 use crate::error::Error;
 use crate::evaluate::refuse_endless;
-use setpiece_engine::batch::{EpisodeError, EpisodeSummary, ReadyMade, run_episodes};
-use setpiece_engine::control::agents::Agent;
+use setpiece_engine::batch::{EpisodeError, EpisodeSummary, run_episodes};
 use setpiece_engine::digest;
 use setpiece_engine::environment::{Environment, EnvironmentOptions};
 use setpiece_engine::statistics::{MatchMeans, MatchStatistics};
@@ -26,7 +26,7 @@ pub struct RunOptions {
     /// The seed.
     pub seed: u64,
     /// The agent that plays every slot.
-    pub agent: Agent,
+    pub agent: ChosenAgent,
     /// Threads; the results don't depend on them.
     pub threads: usize,
     /// Parameters, rewards, physics.
@@ -89,8 +89,8 @@ pub struct SideMeans {
 /// thread.
 ///
 /// # Errors
-/// [`Error::Environment`] if the options don't fit the scenario, [`Error::Threads`] if threads
-/// can't be started.
+/// [`Error::Environment`] if the options don't fit the scenario, [`Error::Policy`] if the agent
+/// doesn't, [`Error::Threads`] if threads can't be started.
 pub fn run(
     scenario: &Arc<Scenario>,
     options: &RunOptions,
@@ -99,8 +99,9 @@ pub fn run(
     refuse_endless(scenario)?;
     let environment = Environment::new(scenario.clone(), options.environment.clone())
         .map_err(Error::Environment)?;
+    let agent = options.agent.fit(&environment)?;
     let begin = Instant::now();
-    let players = || ReadyMade::new(options.agent);
+    let players = || agent.player();
     let episodes = run_episodes(
         &environment,
         options.seed,

@@ -4,12 +4,12 @@ mod table;
 
 pub use table::SuiteTable;
 
+use crate::agent::ChosenAgent;
 use crate::error::Error;
 use crate::evaluate::{Results, play};
 use crate::measure::{Estimate, differences, measure};
 use serde::Serialize;
 use setpiece_engine::batch::EpisodeSummary;
-use setpiece_engine::control::agents::Agent;
 use setpiece_engine::digest;
 use setpiece_engine::environment::EnvironmentOptions;
 use setpiece_scenario::Verdict;
@@ -64,16 +64,16 @@ pub struct Difference {
 pub fn row(
     entry: &PlannedEpisodes,
     environment: &EnvironmentOptions,
-    agents: &[(&str, Agent)],
+    agents: &[ChosenAgent],
     threads: usize,
     after: impl Fn() + Sync,
 ) -> Result<SuiteRow, Error> {
     let results = agents
         .iter()
-        .map(|(_, agent)| play(entry, environment, *agent, false, threads, &after))
+        .map(|agent| play(entry, environment, agent, false, threads, &after))
         .collect::<Result<Vec<_>, _>>()?;
     let rows = agents.iter().zip(&results);
-    let rows = rows.map(|((name, _), results)| agent_row(name, results)).collect();
+    let rows = rows.map(|(agent, results)| agent_row(agent.name(), results)).collect();
     let difference = match results.as_slice() {
         [first, second] => Some(Difference {
             success_rate: differences(&successes(second), &successes(first)),

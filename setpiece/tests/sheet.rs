@@ -54,7 +54,7 @@ fn played(name: &str, agent: Agent) -> Film {
     let options = FilmOptions {
         seed: 0,
         episode: 0,
-        agent,
+        agent: agent.into(),
         environment: EnvironmentOptions::default(),
         until_step: None,
     };

@@ -209,6 +209,34 @@ fn parameters_seeds_clouds_and_summaries_follow_the_page() {
     assert!(refused["message"].as_str().unwrap().contains("nobody is called `genius`"));
 }
 
+#[test]
+fn a_policy_plays_at_the_beginning_and_may_be_chosen() {
+    let policies = concat!(env!("CARGO_MANIFEST_DIR"), "/../baselines/policies/");
+    let file = format!("{policies}academy_empty_goal_close.onnx");
+    let studio = Studio::with(&["academy_empty_goal_close", "--agent", &file], SCENARIO);
+    let mut tab = studio.tab();
+    let players = tab.hear("checked")["players"].clone();
+    assert_eq!(players, json!(["random", "idle", "run_and_shoot", "bot", "baseline", file]));
+    let mut episode = tab.hear("episode");
+    assert_eq!((&episode["agent"], &episode["success"]), (&json!(file), &json!(true)));
+    tab.ask(&json!({"type": "play", "seed": 0, "episode": 0, "agent": "baseline"}));
+    let mut same = tab.hear("episode");
+    episode["agent"].take();
+    same["agent"].take();
+    assert_eq!(episode, same);
+}
+
+#[test]
+fn a_scenario_without_a_baseline_offers_none() {
+    let studio = Studio::open();
+    let mut tab = studio.tab();
+    let players = tab.hear("checked")["players"].clone();
+    assert!(!players.as_array().unwrap().contains(&json!("baseline")), "{players}");
+    tab.ask(&json!({"type": "play", "seed": 0, "episode": 0, "agent": "baseline"}));
+    let message = tab.hear("refused")["message"].as_str().unwrap().to_owned();
+    assert!(message.contains("nobody is called `baseline`"), "{message}");
+}
+
 const ZONES: &str = "
 region danger = rect((30m, -12m), (44m, 12m)) | circle((25m, 0m), reach)
 const reach = 6m

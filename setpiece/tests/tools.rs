@@ -49,7 +49,7 @@ fn explain_lists_every_code_and_suggests_one() {
     let (_, list, _) = run(dir.path(), &["explain"], "");
     assert_eq!(list.lines().count(), setpiece::dsl::problem::Code::ALL.len());
     assert!(list.contains("SP0213  warning  a name is never used"), "{list}");
-    let (code, out, err) = run(dir.path(), &["explain", "SP023"], "");
+    let (code, out, err) = run(dir.path(), &["explain", "SP02033"], "");
     assert_eq!((code, out.as_str()), (Some(1), ""));
     assert!(err.contains("SP0010") && err.contains("did you mean `SP0203`?"), "{err}");
     for wrong in ["", "SP", "SP-1", "99999999999", "role", "ß0203"] {

@@ -16,6 +16,7 @@ fn play(name: &str, agent: Agent, episodes: u64) -> Summary {
 
 fn play_with(name: &str, agent: Agent, episodes: u64, environment: EnvironmentOptions) -> Summary {
     let loaded = setpiece::load(name).unwrap();
+    let agent = agent.into();
     let options = RunOptions { episodes: 0..episodes, seed: 1, agent, threads: 2, environment };
     let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
     assert!(summary.episodes.iter().all(Result::is_ok), "{name}");
@@ -58,7 +59,7 @@ fn who_stands_on_the_ball_is_left_alone() {
         let options = RunOptions {
             episodes: 0..40,
             seed: 0,
-            agent: Agent::Idle,
+            agent: Agent::Idle.into(),
             threads: 2,
             environment: EnvironmentOptions::default(),
         };
@@ -124,7 +125,7 @@ fn who_lost_the_ball_is_known() {
     let loaded = setpiece::compile_text(text, "<test>").unwrap_or_else(|error| panic!("{error}"));
     let environment = EnvironmentOptions::default();
     let options =
-        RunOptions { episodes: 0..2, seed: 1, agent: Agent::Bot, threads: 2, environment };
+        RunOptions { episodes: 0..2, seed: 1, agent: Agent::Bot.into(), threads: 2, environment };
     let summary = run(&loaded.scenario, &options, |_| {}).unwrap();
     let term = |name: &str| summary.terms.iter().position(|(term, _)| term == name).unwrap();
     for episode in summary.episodes.iter().flatten() {
@@ -209,7 +210,7 @@ fn the_golden_digest_holds() {
         let options = RunOptions {
             episodes: 0..episodes,
             seed: 1,
-            agent,
+            agent: agent.into(),
             threads: 1,
             environment: EnvironmentOptions::default(),
         };

@@ -197,7 +197,7 @@ fn a_run_averages_records_over_its_episodes() {
     let options = RunOptions {
         episodes: 0..8,
         seed: 2,
-        agent: Agent::Bot,
+        agent: Agent::Bot.into(),
         threads: 2,
         environment: EnvironmentOptions::default(),
     };

@@ -62,6 +62,8 @@ codes! {
     NoPlans = 20 Error "there is no such suite, check or curriculum";
     OtherSpaces = 21 Error "a level doesn't fit its vector";
     BadLevel = 22 Error "a level can't be read";
+    BadPolicy = 23 Error "a policy can't be played";
+    NoBaseline = 24 Error "a scenario has no baseline";
     // SP01xx: syntax.
     Syntax = 101 Error "something else was expected here";
     TooDeep = 102 Error "brackets are nested too deeply";

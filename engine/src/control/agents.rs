@@ -41,7 +41,7 @@ pub enum Agent {
 impl Agent {
     /// Every agent with its name on the command line.
     pub const NAMED: &'static [(&'static str, Agent)] = &{
-        let [random, idle, run_and_shoot, bot] = AGENTS;
+        let [random, idle, run_and_shoot, bot, _] = AGENTS;
         [
             (random, Agent::Random),
             (idle, Agent::Idle),

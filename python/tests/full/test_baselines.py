@@ -206,7 +206,7 @@ def test_a_policy_of_pictures_is_exported_for_any_number_of_them(ppo: Any, tmp_p
     pytest.importorskip("onnxruntime")
     training = ppo.Training(ppo.Settings(observation="smm", stack=2, **SMALL))
     rows = training.matches.rows
-    training.policy.export(tmp_path / "policy.onnx", rows[:, 0], None, 4)
+    training.policy.export(tmp_path / "policy.onnx", rows[:, 0], None, training.settings)
     policy = setpiece.onnx_policy(tmp_path / "policy.onnx")
     assert policy.repeat == 4
     for number in (1, 7):

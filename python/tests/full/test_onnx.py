@@ -1,3 +1,6 @@
+import json
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -7,6 +10,7 @@ from conftest import play, same
 
 import setpiece
 from setpiece import Action, Policy, parallel_env
+from setpiece._native import BASELINES, baseline_file
 
 pytest.importorskip("onnxruntime")
 onnx = pytest.importorskip("onnx")
@@ -26,6 +30,7 @@ def save(
     batch: Any = "batch",
     kind: int = TensorProto.FLOAT,
     repeat: str | None = None,
+    **metadata: str,
 ) -> Path:
     """Writes a linear model with one favourite action."""
     size = int(np.prod(shape))
@@ -45,7 +50,8 @@ def save(
     )
     model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=9)
     if repeat is not None:
-        helper.set_model_props(model, {"repeat": repeat})
+        metadata["repeat"] = repeat
+    helper.set_model_props(model, metadata)
     onnx.checker.check_model(model)
     onnx.save(model, path)
     return path
@@ -100,6 +106,111 @@ def test_a_model_says_how_long_a_decision_lasts(tmp_path: Path) -> None:
     for wrong in ("0", "often", "-1", "1.5"):
         with pytest.raises(setpiece.FormatError, match="expected a count of steps"):
             setpiece.onnx_policy(save(tmp_path / "wrong.onnx", repeat=wrong))
+
+
+def test_a_model_names_what_it_sees(tmp_path: Path) -> None:
+    pixels = save(
+        tmp_path / "policy.onnx", shape=(72, 96, 4), kind=TensorProto.UINT8, observation="smm"
+    )
+    named = setpiece.make(DUEL, right=1, opponents={"right": pixels})
+    asked = setpiece.make(DUEL, right=1, opponents={"right": Policy(pixels, observation="smm")})
+    assert same(play(named, 1), play(asked, 1))
+    scaled = setpiece.onnx_policy(save(tmp_path / "s.onnx", observation="egocentric", scale="true"))
+    assert (scaled.observation, scaled.scale) == ("egocentric", True)
+    # A stack is the caller's.
+    stacked = setpiece.onnx_policy(save(tmp_path / "4.onnx", observation="smm", stack="4"))
+    assert stacked.observation is None
+    with pytest.raises(setpiece.FormatError, match="`observation` 'radar'"):
+        setpiece.onnx_policy(save(tmp_path / "wrong.onnx", observation="radar"))
+
+
+def linear(n: int, torch: Any) -> Any:
+    """Three layers that see `n` numbers, standardised as in `baselines`."""
+    nn = torch.nn
+    layers = [nn.LayerNorm(n), nn.Linear(n, 32), nn.Tanh(), nn.Linear(32, 32), nn.ReLU()]
+    return nn.Sequential(*layers, nn.Linear(32, 19))
+
+
+def filters(planes: int, torch: Any) -> Any:
+    """Filters over maps, as in `baselines`."""
+
+    class Filters(torch.nn.Module):  # type: ignore[misc]
+        def __init__(self) -> None:
+            super().__init__()
+            nn = torch.nn
+            layers = [nn.Conv2d(planes, 4, 8, 4), nn.ReLU(), nn.Conv2d(4, 8, 4, 2), nn.ReLU()]
+            self.layers = nn.Sequential(*layers, nn.Flatten(), nn.Linear(560, 20))
+
+        def forward(self, maps: Any) -> Any:
+            return self.layers(maps.permute(0, 3, 1, 2).float() / 255).log_softmax(-1)
+
+    return Filters()
+
+
+@pytest.mark.parametrize(
+    ("observation", "stack", "scale"),
+    [("simple115v2", 1, ""), ("simple115v2", 4, ""), ("egocentric", 1, "true"), ("smm", 2, "")],
+)
+def test_the_command_plays_the_episodes_of_python(
+    tmp_path: Path, observation: str, stack: int, scale: str
+) -> None:
+    """To the digest, with another runtime: what is wide, stacked, scaled, and held for 3 steps."""
+    torch = pytest.importorskip("torch")
+    torch.manual_seed(1)
+    scenario, file = "academy_3_vs_1_with_keeper", tmp_path / "policy.onnx"
+    env = setpiece.make(scenario, observation=observation, stack=stack, scale=scale == "true")
+    shown = torch.from_numpy(env.reset(seed=1)[0][None])
+    network = filters(4 * stack, torch) if observation == "smm" else linear(shown.shape[1], torch)
+    # Large weights: what it presses depends on what it sees.
+    for weights in network.parameters():
+        torch.nn.init.normal_(weights)
+    axes = {"observation": {0: "batch"}}
+    torch.onnx.export(
+        network.eval(), (shown,), file, input_names=["observation"], dynamic_axes=axes, dynamo=False
+    )
+    model = onnx.load(file)
+    said = {"repeat": "3", "observation": observation, "scale": scale, "stack": str(stack)}
+    helper.set_model_props(model, said)
+    onnx.save(model, file)
+    line = [sys.executable, "-m", "setpiece", "run", scenario, "--agent", str(file)]
+    line += ["--episodes", "40", "--format", "json"]
+    played = json.loads(subprocess.run(line, capture_output=True, check=True).stdout)
+    (row,) = setpiece.evaluate(
+        file, scenario, episodes=40, observation=observation, stack=stack, scale=scale == "true"
+    ).rows
+    assert played["digest"] == row.digest
+    # It does something.
+    assert row.digest != setpiece.evaluate("idle", scenario, episodes=40).rows[0].digest
+
+
+@pytest.mark.parametrize("name", BASELINES)
+def test_a_policy_in_the_box_plays_the_same_everywhere(tmp_path: Path, name: str) -> None:
+    file = tmp_path / "policy.onnx"
+    file.write_bytes(baseline_file(name) or b"")
+    boxed, opened = (
+        setpiece.evaluate(policy, name, episodes=50, observation="egocentric").rows[0].digest
+        for policy in ("baseline", file)
+    )
+    assert boxed == opened
+    env, same_env = (
+        setpiece.make(name, right=1, opponents={"left": policy}) for policy in ("baseline", file)
+    )
+    assert same(play(env, 1), play(same_env, 1))
+    envs = setpiece.make_vec(name, 3, right=1, opponents={"left": "baseline"})
+    envs.reset(seed=1)
+    envs.step(np.zeros(3, int))
+
+
+def test_a_scenario_without_a_baseline_says_which_have_one() -> None:
+    for play_with in (
+        lambda: setpiece.make(DUEL, right=1, opponents={"right": "baseline"}),
+        lambda: setpiece.evaluate("baseline", DUEL),
+        lambda: setpiece.play(DUEL, "baseline", "bot"),
+    ):
+        with pytest.raises(setpiece.ParameterError, match="has no baseline") as caught:
+            play_with()
+        assert caught.value.code == "SP0024"
+        assert "`academy_empty_goal_close`" in str(caught.value.help)
 
 
 @pytest.mark.parametrize("kind", [TensorProto.BOOL, TensorProto.FLOAT, TensorProto.UINT8])

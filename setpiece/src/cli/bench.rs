@@ -1,9 +1,10 @@
 //! `setpiece bench`: how fast scenarios are played on this machine.
 
+use super::agent::AgentParser;
 use super::common::FINE;
 use super::out::{Out, StyledText};
-use super::playing::AgentName;
 use crate::Error;
+use crate::agent::ChosenAgent;
 use crate::bench::{
     BenchObservation, BenchOptions, Measured, ONCE_NAMES, measure, once, phases, scaling,
 };
@@ -37,8 +38,8 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "S", default_value_t = 3.0, value_parser = seconds)]
     seconds: f64,
     /// Who controls the agents
-    #[arg(short, long, value_enum, default_value_t = AgentName::Random)]
-    agent: AgentName,
+    #[arg(short, long, value_parser = AgentParser, default_value = "random")]
+    agent: ChosenAgent,
     /// The observation of the agents after every step
     #[arg(short, long, value_enum, default_value_t = ObservationName::Simple115v2)]
     observation: ObservationName,
@@ -143,10 +144,7 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
         .observation
         .to_possible_value()
         .map_or_else(String::new, |value| value.get_name().to_owned());
-    let agent = args
-        .agent
-        .to_possible_value()
-        .map_or_else(String::new, |value| value.get_name().to_owned());
+    let agent = args.agent.name().to_owned();
     let mut rows = Vec::new();
     for loaded in &loaded {
         out.warnings(loaded);
@@ -157,7 +155,7 @@ pub(crate) fn bench(args: &BenchArgs, out: &Out) -> Result<u8, Error> {
                 matches: matches as usize,
                 threads,
                 duration: Duration::from_secs_f64(args.seconds),
-                agent: args.agent.agent(),
+                agent: args.agent.clone(),
                 observation: match args.observation {
                     ObservationName::None => BenchObservation::None,
                     ObservationName::Simple115v2 => BenchObservation::Simple115v2,

@@ -3,7 +3,7 @@
 use super::common::FINE;
 use super::out::{Out, StyledText};
 use crate::drawing::drawn;
-use crate::engine::batch::{EpisodeError, Policy, ReadyMade, STEPS_MAX};
+use crate::engine::batch::{EpisodeError, Policy, STEPS_MAX};
 use crate::engine::environment::{Environment, Scratch};
 use crate::run::RunOptions;
 use crate::scenario::pitch::STEPS_PER_S;
@@ -27,7 +27,8 @@ pub(crate) fn live(loaded: &Loaded, options: &RunOptions, out: &Out) -> Result<u
     let fault = |why| Error::Episode(Box::new(why));
     let mut environment = Environment::new(scenario.clone(), options.environment.clone())
         .map_err(Error::Environment)?;
-    let (mut policy, mut scratch) = (ReadyMade::new(options.agent), Scratch::default());
+    let mut policy = options.agent.fit(&environment)?.player();
+    let mut scratch = Scratch::default();
     let mut actions = vec![Action::Idle; environment.n_agents()];
     let mut again = false;
     for episode in options.episodes.clone() {

@@ -1,14 +1,15 @@
 //! `setpiece run`: plays episodes of a scenario, once or whenever its file changes.
 
+use super::agent::AgentParser;
 use super::common::{FAULT, FINE, TICK};
 use super::live::live;
 use super::out::{Out, StyledText};
 use super::suite::run_suite;
-use super::{playing, playing::Playing, summary};
+use super::{playing::Playing, summary};
+use crate::agent::ChosenAgent;
 #[cfg(feature = "render")]
 use crate::curves::curves;
 use crate::dsl::problem::{Code, nearest};
-use crate::engine::control::agents::Agent;
 use crate::engine::environment::{Environment, EnvironmentOptions};
 #[cfg(feature = "render")]
 use crate::error::FileFault;
@@ -53,8 +54,8 @@ pub(crate) struct RunArgs {
     #[arg(long, value_enum, default_value_t = RunFormat::Text)]
     pub(crate) format: RunFormat,
     /// A second agent that plays the same episodes, for a table of both
-    #[arg(long, value_enum, value_name = "AGENT", conflicts_with_all = ["watch", "live", "level"])]
-    beside: Option<playing::AgentName>,
+    #[arg(long, value_parser = AgentParser, value_name = "AGENT", conflicts_with_all = ["watch", "live", "level"])]
+    beside: Option<ChosenAgent>,
     /// Show the episodes in the terminal, ten steps a second, instead of a summary
     #[arg(long, conflicts_with_all = ["format", "watch", "threads"])]
     live: bool,
@@ -80,11 +81,9 @@ pub(crate) enum RunFormat {
 }
 
 impl RunArgs {
-    /// The agents of a table, by name.
-    pub(crate) fn agents(&self) -> Vec<(&'static str, Agent)> {
-        let beside = self.beside.map(playing::AgentName::agent);
-        let agents = [Some(self.playing.agent()), beside].into_iter().flatten();
-        agents.map(|agent| (agent.name(), agent)).collect()
+    /// The agents of a table.
+    pub(crate) fn agents(&self) -> Vec<ChosenAgent> {
+        [Some(self.playing.agent()), self.beside.clone()].into_iter().flatten().collect()
     }
 
     /// How many threads play.

@@ -1,7 +1,8 @@
 //! Options shared by commands that play episodes: the scenario, its parameters, the agent, the
 //! seed, the physics.
 
-use crate::engine::control::agents::Agent;
+use crate::agent::ChosenAgent;
+use crate::cli::agent::AgentParser;
 use crate::engine::environment::{EnvironmentOptions, Physics};
 use crate::error::LevelFault;
 use crate::files::{SNAPSHOT_MAX_BYTES, read_file};
@@ -46,8 +47,8 @@ pub(crate) struct Playing {
     #[arg(long = "scenario", value_name = "NAME", conflicts_with = "level")]
     wanted: Option<String>,
     /// Who controls the agents
-    #[arg(short, long, value_enum, default_value_t = AgentName::Bot)]
-    agent: AgentName,
+    #[arg(short, long, value_parser = AgentParser, default_value = "bot")]
+    agent: ChosenAgent,
     /// The seed; the same seed gives the same episodes
     #[arg(short, long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
@@ -63,19 +64,6 @@ pub(crate) struct Playing {
     /// Begin every episode in the state of a snapshot instead of the scenario's start
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-#[value(rename_all = "snake_case")]
-pub(crate) enum AgentName {
-    /// Uniform over the 19 actions
-    Random,
-    /// Nothing
-    Idle,
-    /// Sprints at goal, shoots from 16 m, chases the ball
-    RunAndShoot,
-    /// The built-in bot
-    Bot,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -104,18 +92,6 @@ fn level(text: &str) -> Result<Level, Error> {
         return Err(unreadable(format!("the greatest index of an episode is {}", u64::MAX - 1)));
     }
     Ok(level)
-}
-
-impl AgentName {
-    /// The engine's agent.
-    pub(crate) fn agent(self) -> Agent {
-        match self {
-            AgentName::Random => Agent::Random,
-            AgentName::Idle => Agent::Idle,
-            AgentName::RunAndShoot => Agent::RunAndShoot,
-            AgentName::Bot => Agent::Bot,
-        }
-    }
 }
 
 impl Playing {
@@ -163,8 +139,8 @@ impl Playing {
     }
 
     /// The agent that plays every slot.
-    pub(crate) fn agent(&self) -> Agent {
-        self.agent.agent()
+    pub(crate) fn agent(&self) -> ChosenAgent {
+        self.agent.clone()
     }
 
     /// How the ball's contacts are found, if it is said.

@@ -3,8 +3,8 @@
 use super::common::FINE;
 use super::{out::Out, playing::OneEpisode};
 use crate::Error;
-use crate::engine::batch::{EpisodeError, Policy, ReadyMade};
-use crate::engine::control::agents::Agent;
+use crate::agent::ActingAgent;
+use crate::engine::batch::{EpisodeError, Policy};
 use crate::engine::environment::{Environment, Scratch};
 use crate::files::{refuse_overwriting, write};
 use crate::scenario::Action;
@@ -35,7 +35,8 @@ pub(crate) fn snapshot(args: &SnapshotArgs, out: &Out) -> Result<u8, Error> {
     let broken = |why: EpisodeError| Error::Episode(Box::new(why));
     let (seed, episode) = args.one.key();
     environment.reset(Some(seed), Some(episode)).map_err(|why| broken(why.into()))?;
-    play(&mut environment, playing.agent(), args.step).map_err(broken)?;
+    let agent = playing.agent().fit(&environment)?.player();
+    play(&mut environment, agent, args.step).map_err(broken)?;
     if environment.steps() < args.step {
         return Err(Error::NoStep { step: args.step, length: environment.steps() });
     }
@@ -48,8 +49,12 @@ pub(crate) fn snapshot(args: &SnapshotArgs, out: &Out) -> Result<u8, Error> {
 }
 
 /// Plays to a step, or to the end of the episode.
-fn play(environment: &mut Environment, agent: Agent, step: u32) -> Result<(), EpisodeError> {
-    let (mut policy, mut scratch) = (ReadyMade::new(agent), Scratch::default());
+fn play(
+    environment: &mut Environment,
+    mut policy: ActingAgent,
+    step: u32,
+) -> Result<(), EpisodeError> {
+    let mut scratch = Scratch::default();
     policy.begin(environment);
     let mut actions = vec![Action::Idle; environment.n_agents()];
     while environment.is_running() && environment.steps() < step {

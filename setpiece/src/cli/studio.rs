@@ -1,8 +1,10 @@
 //! `setpiece studio`: the text and the football on one page.
 
+use super::agent::AgentParser;
 use super::common::{FAULT, FINE};
 use super::out::Out;
 use crate::Error;
+use crate::agent::ChosenAgent;
 use crate::dsl::problem::Code;
 use crate::studio::{OpenOptions, ServeOptions, Session, serve};
 use clap::Args;
@@ -17,6 +19,10 @@ pub(crate) struct StudioArgs {
     /// A recorded episode (.pitchr) to show beside it
     #[arg(value_name = "BESIDE")]
     beside: Option<OsString>,
+    /// An agent that pages can choose, besides the ready-made ones; may be repeated. The first
+    /// plays at the beginning
+    #[arg(short, long = "agent", value_name = "AGENT", value_parser = AgentParser)]
+    agents: Vec<ChosenAgent>,
     /// The port, on this machine alone; 0 takes any that is free
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
@@ -27,7 +33,14 @@ pub(crate) struct StudioArgs {
 
 /// Serves the page until Ctrl-C.
 pub(crate) fn studio(args: &StudioArgs, out: &Out) -> Result<u8, Error> {
-    let options = OpenOptions { allow_outside: out.allow_outside, ..OpenOptions::default() };
+    for agent in &args.agents {
+        agent.check()?;
+    }
+    let options = OpenOptions {
+        allow_outside: out.allow_outside,
+        agents: args.agents.clone(),
+        ..OpenOptions::default()
+    };
     let session = Session::open(&args.scenario, args.beside.as_deref(), options)?;
     let served = serve(session, ServeOptions { port: args.port, framed: false }, |ready| {
         out.line(format!("open {}", ready.address));

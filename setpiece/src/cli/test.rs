@@ -1,9 +1,10 @@
 //! `setpiece test`: plays the checks of files and says which hold.
 
+use super::agent::AgentParser;
 use super::common::{FAULT, FINE};
 use super::out::{Out, StyledText};
-use super::playing;
 use crate::Error;
+use crate::agent::ChosenAgent;
 use crate::drawing::Paint;
 use crate::dsl::problem::Code;
 use crate::engine::control::agents::Agent;
@@ -28,8 +29,8 @@ pub(crate) struct TestArgs {
     #[arg(long, value_name = "TEXT")]
     filter: Option<String>,
     /// Who plays, instead of the agent that a check names
-    #[arg(short, long, value_enum)]
-    agent: Option<playing::AgentName>,
+    #[arg(short, long, value_parser = AgentParser)]
+    agent: Option<ChosenAgent>,
     /// Threads; the results don't depend on them [default: one per core]
     #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
     threads: Option<u16>,
@@ -90,6 +91,9 @@ struct Worst {
 
 /// Runs the command.
 pub(crate) fn test(args: &TestArgs, out: &Out) -> Result<u8, Error> {
+    if let Some(agent) = &args.agent {
+        agent.check()?;
+    }
     let (mut played, mut broken) = (Vec::new(), false);
     let mut taken = BTreeSet::new();
     for path in texts(&args.files)? {
@@ -158,8 +162,8 @@ fn free_name(path: &Path, check: &Check, taken: &mut BTreeSet<String>) -> String
 /// - `name`: what its replays are called.
 fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<PlayedCheck, Error> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let named = Agent::from_name(&check.agent).unwrap_or(Agent::Bot);
-    let agent = args.agent.map_or(named, playing::AgentName::agent);
+    let named = ChosenAgent::from_name(&check.agent).unwrap_or(Agent::Bot.into());
+    let agent = args.agent.clone().unwrap_or(named);
     let begin = Instant::now();
     let bar =
         super::common::bar(check.episodes.count, "{msg} {bar:40} {pos}/{len} episodes  {eta} left");
@@ -167,7 +171,7 @@ fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<Played
     let results = play(
         &check.episodes,
         &EnvironmentOptions::default(),
-        agent,
+        &agent,
         check.over_params,
         args.threads.map_or(cores, usize::from),
         || bar.inc(1),
@@ -178,7 +182,8 @@ fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<Played
         check: check.name.clone(),
         agent: args
             .agent
-            .map_or_else(|| check.agent.clone(), |agent| agent.agent().name().to_owned()),
+            .as_ref()
+            .map_or_else(|| check.agent.clone(), |agent| agent.name().to_owned()),
         episodes: check.episodes.count,
         seed: check.episodes.seed,
         seconds: begin.elapsed().as_secs_f64(),
@@ -196,7 +201,7 @@ fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<Played
     let judged = judge(check, &results);
     played.holds = judged.iter().all(|judged| judged.holds);
     for judged in judged {
-        played.expectations.push(expectation(args, (check, name), agent, judged)?);
+        played.expectations.push(expectation(args, (check, name), &agent, judged)?);
     }
     Ok(played)
 }
@@ -204,7 +209,7 @@ fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<Played
 fn expectation(
     args: &TestArgs,
     (check, name): (&Check, &str),
-    agent: Agent,
+    agent: &ChosenAgent,
     judged: JudgedExpectation<'_>,
 ) -> Result<PlayedExpectation, Error> {
     let goal = &judged.expectation.goal;
@@ -230,7 +235,7 @@ fn expectation(
 fn keep(
     args: &TestArgs,
     (check, name): (&Check, &str),
-    agent: Agent,
+    agent: &ChosenAgent,
     index: u64,
 ) -> Result<Worst, Error> {
     let episodes = &check.episodes;

@@ -172,7 +172,7 @@ impl Analysis {
             .filter_map(|item| named(&item))
             .collect();
         if what == "with" {
-            found.extend(AGENTS.map(|name| word(name, "", "a ready-made agent")));
+            found.extend(AGENTS.map(|name| word(name, "", "an agent")));
         }
         if matches!(what, "extends" | "play") {
             let known = FileLoader::anywhere().scenarios().into_iter();

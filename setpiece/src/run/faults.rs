@@ -2,7 +2,7 @@
 
 use super::{RunOptions, Summary};
 use crate::error::Error;
-use setpiece_engine::batch::{Policy, ReadyMade};
+use setpiece_engine::batch::Policy;
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
 use setpiece_scenario::vocabulary::Action;
 use setpiece_scenario::{Instr, Scenario};
@@ -109,7 +109,9 @@ fn play(
     index: u64,
     mut look: impl FnMut(&mut Environment),
 ) {
-    let (mut scratch, mut policy) = (Scratch::default(), ReadyMade::new(options.agent));
+    // The run has fitted the same agent.
+    let Ok(agent) = options.agent.fit(environment) else { return };
+    let (mut scratch, mut policy) = (Scratch::default(), agent.player());
     if environment.reset(Some(options.seed), Some(index)).is_err() {
         return;
     }

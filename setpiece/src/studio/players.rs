@@ -1,7 +1,8 @@
-//! Who plays the agents: a ready-made agent, a behaviour of the text, or a policy from outside.
+//! Who plays the agents: an agent of the command, a behaviour of the text, or a policy of the
+//! program that has started the studio.
 
-use crate::engine::batch::{Policy, ReadyMade};
-use crate::engine::control::agents::Agent;
+use crate::agent::{ActingAgent, ChosenAgent};
+use crate::engine::batch::Policy;
 use crate::engine::environment::Environment;
 use crate::scenario::Action;
 
@@ -21,10 +22,10 @@ pub trait Guests: Send {
 }
 
 /// Who can play the agents.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(super) enum Performer {
-    /// A ready-made agent.
-    ReadyMade(Agent),
+    /// An agent that the command knows.
+    Agent(ChosenAgent),
     /// A behaviour of the text, by its name.
     Behavior(String),
     /// A policy from outside, by its name.
@@ -35,7 +36,7 @@ impl Performer {
     /// How pages call it.
     pub(super) fn name(&self) -> &str {
         match self {
-            Performer::ReadyMade(agent) => agent.name(),
+            Performer::Agent(agent) => agent.name(),
             Performer::Behavior(name) | Performer::Guest(name) => name,
         }
     }
@@ -43,8 +44,8 @@ impl Performer {
 
 /// What chooses the agents' actions.
 pub(super) enum ActingPolicy {
-    /// A ready-made agent.
-    ReadyMade(ReadyMade),
+    /// An agent that the command knows.
+    Agent(ActingAgent),
     /// A policy from outside.
     Guest(Box<dyn Guest + Send>),
 }
@@ -53,7 +54,7 @@ impl ActingPolicy {
     /// Why a policy from outside failed.
     pub(super) fn fault(&mut self) -> Option<String> {
         match self {
-            ActingPolicy::ReadyMade(_) => None,
+            ActingPolicy::Agent(_) => None,
             ActingPolicy::Guest(guest) => guest.fault(),
         }
     }
@@ -62,14 +63,14 @@ impl ActingPolicy {
 impl Policy for ActingPolicy {
     fn begin(&mut self, environment: &Environment) {
         match self {
-            ActingPolicy::ReadyMade(agent) => agent.begin(environment),
+            ActingPolicy::Agent(agent) => agent.begin(environment),
             ActingPolicy::Guest(guest) => guest.begin(environment),
         }
     }
 
     fn act(&mut self, environment: &Environment, agent: usize) -> Action {
         match self {
-            ActingPolicy::ReadyMade(ready_made) => ready_made.act(environment, agent),
+            ActingPolicy::Agent(acting) => acting.act(environment, agent),
             ActingPolicy::Guest(guest) => guest.act(environment, agent),
         }
     }

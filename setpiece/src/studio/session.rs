@@ -8,9 +8,10 @@ use super::players::{ActingPolicy, Guests, Performer};
 use super::stage::{STEPS_MAX, StudioStage, episode_of};
 use super::summary::RunningSummary;
 use super::tell::{said, said_episode, send_all, step, tell};
+use crate::agent::ChosenAgent;
+use crate::baseline::baseline_file;
 use crate::drag::rewritten;
 use crate::dsl::report::{Diagnostic, diagnostics};
-use crate::engine::batch::ReadyMade;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::Environment;
 use crate::engine::state::PlayerId;
@@ -54,6 +55,8 @@ pub(super) enum Command {
 pub struct OpenOptions {
     /// Whether imports and scripts may be outside the file's folder.
     pub allow_outside: bool,
+    /// Agents that pages can choose besides the ready-made ones; the first plays at the beginning.
+    pub agents: Vec<ChosenAgent>,
     /// The policies of the program that opens it.
     pub guests: Option<Box<dyn Guests>>,
     /// Parameters that differ from their defaults, SI units.
@@ -177,6 +180,8 @@ impl Session {
         let watcher = Watcher::new(&loaded.inputs);
         let params = std::mem::take(&mut options.params);
         let nothing: Arc<str> = Arc::from("");
+        let who = options.agents.first().cloned().unwrap_or_else(|| Agent::Bot.into());
+        let who = Performer::Agent(who);
         let mut session = Session {
             source: name,
             path,
@@ -187,7 +192,7 @@ impl Session {
             params,
             seed: 0,
             episode: 0,
-            who: Performer::ReadyMade(Agent::Bot),
+            who,
             beside: None,
             watcher,
             live: None,
@@ -333,8 +338,8 @@ impl Session {
 
     /// Who has a name: a ready-made agent, a policy from outside, or a behaviour of the text.
     fn find(&self, name: &str) -> Result<Performer, String> {
-        if let Some(agent) = Agent::from_name(name) {
-            return Ok(Performer::ReadyMade(agent));
+        if let Some(agent) = self.agents().find(|agent| agent.name() == name) {
+            return Ok(Performer::Agent(agent));
         }
         if self.guests().iter().any(|guest| guest == name) {
             return Ok(Performer::Guest(name.to_owned()));
@@ -345,16 +350,30 @@ impl Session {
         Err(format!("nobody is called `{name}`"))
     }
 
+    /// The ready-made agents, and those that the studio was opened with.
+    fn agents(&self) -> impl Iterator<Item = ChosenAgent> {
+        let ready_made = Agent::NAMED.iter().map(|(_, agent)| ChosenAgent::from(*agent));
+        let baseline = baseline_file(&self.loaded.scenario.name).map(|_| ChosenAgent::Baseline);
+        let given = self.options.agents.iter();
+        let given = given.filter(|agent| ChosenAgent::from_name(agent.name()).is_none());
+        ready_made.chain(baseline).chain(given.cloned())
+    }
+
     fn guests(&self) -> Vec<String> {
         self.options.guests.as_ref().map(|guests| guests.names()).unwrap_or_default()
     }
 
     /// The scenario with its parameters, played by somebody.
     fn stage(&self, who: &Performer) -> Result<StudioStage, String> {
-        let bot = || ActingPolicy::ReadyMade(ReadyMade::new(Agent::Bot));
+        let acting = |agent: &ChosenAgent| -> Result<ActingPolicy, Error> {
+            let scenario = self.loaded.scenario.clone();
+            let environment =
+                Environment::new(scenario, self.environment()).map_err(Error::Environment)?;
+            Ok(ActingPolicy::Agent(agent.fit(&environment)?.player()))
+        };
         let mut scenario = self.loaded.scenario.clone();
         let player = match who {
-            Performer::ReadyMade(agent) => ActingPolicy::ReadyMade(ReadyMade::new(*agent)),
+            Performer::Agent(agent) => acting(agent).map_err(|why| why.to_string())?,
             Performer::Guest(name) => {
                 let policy = self.options.guests.as_ref().and_then(|guests| guests.policy(name));
                 ActingPolicy::Guest(policy.ok_or_else(|| format!("`{name}` has gone"))?)
@@ -366,7 +385,7 @@ impl Session {
                 let (_, main) = self.loaded.sources.iter().next().ok_or("there is no text")?;
                 let cast = compile_text_with(&main.text, &main.name, &options);
                 scenario = cast.map_err(|why| why.to_string())?.scenario;
-                bot()
+                acting(&Agent::Bot.into()).map_err(|why| why.to_string())?
             }
         };
         let who = who.name().to_owned();
@@ -514,7 +533,7 @@ impl Session {
     }
 
     fn sketch(&self) -> Result<Arc<str>, String> {
-        let stage = self.stage(&Performer::ReadyMade(Agent::Idle))?;
+        let stage = self.stage(&Performer::Agent(Agent::Idle.into()))?;
         Ok(said(&Reply::Sketch(stage.sketch(&self.loaded, (self.seed, self.episode))?)))
     }
 }

@@ -59,7 +59,7 @@ impl StudioStage {
         let options = FilmOptions {
             seed,
             episode,
-            agent: Agent::Idle,
+            agent: Agent::Idle.into(),
             environment: self.options.clone(),
             until_step: Some(STEPS_MAX),
         };

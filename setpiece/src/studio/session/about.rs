@@ -1,7 +1,6 @@
 //! What the session says of itself: its text, what a check found, its parameters and players.
 
 use super::Session;
-use crate::engine::control::agents::Agent;
 use crate::engine::environment::{Environment, EnvironmentOptions};
 use crate::scenario::{Bindings, Type};
 use crate::studio::message::{CheckReply, OpenReply, ParamControl, Reply, SeatReply};
@@ -55,12 +54,12 @@ impl Session {
         })
     }
 
-    /// Who can play: ready-made agents, policies from outside, behaviours of the text.
+    /// Who can play: agents of the command, policies from outside, behaviours of the text.
     pub(super) fn players(&self) -> Vec<String> {
-        let ready_made = Agent::NAMED.iter().map(|(name, _)| (*name).to_owned());
+        let agents = self.agents().map(|agent| agent.name().to_owned());
         let guests = self.guests();
         let behaviors = self.loaded.behaviors.iter().filter(|name| !guests.contains(name));
-        ready_made.chain(guests.iter().cloned()).chain(behaviors.cloned()).collect()
+        agents.chain(guests.iter().cloned()).chain(behaviors.cloned()).collect()
     }
 
     /// The agents that people can play.

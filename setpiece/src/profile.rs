@@ -1,0 +1,234 @@
+//! What an agent does: touches, passes, shots, actions, ends and rewards of some episodes.
+
+mod page;
+
+pub use page::page;
+
+use crate::agent::ChosenAgent;
+use crate::error::Error;
+use crate::evaluate::refuse_endless;
+use crate::measure::{Estimate, measure};
+use crate::replay::{Recorder, Replay};
+use crate::scene::of_match;
+use crate::tracking::Tracking;
+use setpiece_engine::batch::{EpisodeError, EpisodeSummary, Policy, STEPS_MAX};
+use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
+use setpiece_engine::state::PlayerId;
+use setpiece_render::Scene;
+use setpiece_render::scene::Pitch;
+use setpiece_scenario::Scenario;
+use setpiece_scenario::plan::{Measure, Quantity};
+use setpiece_scenario::vocabulary::{Action, EventKind, Team, Verdict};
+use std::sync::Arc;
+
+/// What to look at.
+#[derive(Clone, Debug)]
+pub struct ProfileOptions {
+    /// The agent that plays every slot.
+    pub agent: ChosenAgent,
+    /// The first episodes of the seed.
+    pub episodes: u64,
+    /// The seed.
+    pub seed: u64,
+    /// Parameters, physics.
+    pub environment: EnvironmentOptions,
+}
+
+/// What an agent did. Places are metres, and its team attacks towards +x.
+#[derive(Clone, Debug)]
+pub struct Profile {
+    /// The scenario's name.
+    pub scenario: String,
+    /// The agent's name.
+    pub agent: String,
+    /// How many episodes were played.
+    pub episodes: u64,
+    /// Their seed.
+    pub seed: u64,
+    /// The mean of the left team's goals less the right one's.
+    pub score: Option<Estimate>,
+    /// The mean length, seconds.
+    pub length: Option<Estimate>,
+    /// Endings with their verdicts and counts, the most frequent first.
+    pub ends: Vec<(String, Option<Verdict>, u32)>,
+    /// The mean return of an agent by term.
+    pub terms: Vec<(String, f64)>,
+    /// How often each action was pressed, the most frequent first.
+    pub actions: Vec<(Action, u64)>,
+    /// Where players of its teams touched the ball.
+    pub touches: Vec<[f32; 2]>,
+    /// Their passes.
+    pub passes: Vec<ProfilePass>,
+    /// Their shots.
+    pub shots: Vec<ProfileShot>,
+    /// The measures of the pitch, of the first episode.
+    pub pitch: Pitch,
+}
+
+/// A pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProfilePass {
+    /// Where it was struck.
+    pub from: [f32; 2],
+    /// Where it ended.
+    pub to: [f32; 2],
+    /// Whether a teammate received it.
+    pub completed: bool,
+}
+
+/// A shot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProfileShot {
+    /// Where it was struck.
+    pub at: [f32; 2],
+    /// How it ended: `successful` for a goal, `saved`, `blocked`, `woodwork`, `wide`.
+    pub outcome: &'static str,
+}
+
+/// Plays the episodes one after the other and looks at them. `after` is called after each.
+///
+/// # Errors
+/// [`Error::Environment`] if the options don't fit the scenario, [`Error::Policy`] or
+/// [`Error::NoBaseline`] if the agent doesn't, [`Error::Episode`] if an episode has no start, a
+/// script fails or nothing ends it, [`Error::Replay`] if one is too long to be recorded.
+pub fn profile(
+    scenario: &Arc<Scenario>,
+    options: &ProfileOptions,
+    after: impl Fn(),
+) -> Result<Profile, Error> {
+    refuse_endless(scenario)?;
+    let mut environment = Environment::new(scenario.clone(), options.environment.clone())
+        .map_err(Error::Environment)?;
+    let mut policy = options.agent.fit(&environment)?.player();
+    let names = environment.term_names().to_vec();
+    let teams: Vec<Team> = environment.roster().agents.iter().map(|(team, _)| *team).collect();
+    let mut found = Profile {
+        scenario: scenario.name.clone(),
+        agent: options.agent.name().to_owned(),
+        episodes: options.episodes,
+        seed: options.seed,
+        score: None,
+        length: None,
+        ends: Vec::new(),
+        terms: Vec::new(),
+        actions: Vec::new(),
+        touches: Vec::new(),
+        passes: Vec::new(),
+        shots: Vec::new(),
+        pitch: Pitch::default(),
+    };
+    let (mut summaries, mut scratch) = (Vec::new(), Scratch::default());
+    let mut counts = [0; Action::FULL_SET];
+    for index in 0..options.episodes {
+        let replay =
+            play(&mut environment, &mut policy, (options.seed, index), &mut scratch, |it| {
+                look(it, &teams, &mut found, &mut counts);
+            })?;
+        if index == 0 {
+            let mut scene = Scene::default();
+            of_match(environment.state(), &mut scene);
+            found.pitch = scene.pitch;
+        }
+        let tracking = Tracking::of(&replay)?;
+        for event in &tracking.events {
+            let Some(by) = event.by.filter(|by| teams.contains(&by.team())) else { continue };
+            let at = ahead(by, event.at);
+            match (event.kind, event.end) {
+                ("pass", Some((to, _))) => found.passes.push(ProfilePass {
+                    from: at,
+                    to: ahead(by, to),
+                    completed: event.success,
+                }),
+                ("shot", _) => found.shots.push(ProfileShot { at, outcome: event.outcome }),
+                _ => {}
+            }
+        }
+        summaries.push(EpisodeSummary::of(&environment));
+        after();
+    }
+    summarise(&mut found, &summaries, &names, &counts);
+    Ok(found)
+}
+
+/// The place of a player's deed, as their team sees it: attacking towards +x.
+fn ahead(by: PlayerId, [x, y]: [f32; 2]) -> [f32; 2] {
+    let side = by.team().side() as f32;
+    [side * x, side * y]
+}
+
+/// Plays an episode and records it; `look` is called after each step, before the next begins.
+fn play(
+    environment: &mut Environment,
+    policy: &mut impl Policy,
+    (seed, index): (u64, u64),
+    scratch: &mut Scratch,
+    mut look: impl FnMut((&Environment, &[Action])),
+) -> Result<Replay, Error> {
+    let fault = |why| Error::Episode(Box::new(why));
+    environment.reset(Some(seed), Some(index)).map_err(|why| fault(EpisodeError::Draw(why)))?;
+    policy.begin(environment);
+    let mut recorder = Recorder::default();
+    recorder.begin(environment.options().from.clone().as_deref());
+    let mut actions = vec![Action::Idle; environment.n_agents()];
+    while environment.is_running() {
+        for (agent, action) in actions.iter_mut().enumerate() {
+            *action = policy.act(environment, agent);
+            recorder.note(*action, None);
+        }
+        environment.step(&actions, scratch).map_err(|why| fault(EpisodeError::Step(why)))?;
+        look((environment, &actions));
+        if environment.is_running() && environment.steps() >= STEPS_MAX {
+            return Err(fault(EpisodeError::Endless(STEPS_MAX)));
+        }
+    }
+    Replay::of(environment, &recorder)
+}
+
+/// Counts the actions and touches of a step.
+fn look(
+    (environment, actions): (&Environment, &[Action]),
+    teams: &[Team],
+    found: &mut Profile,
+    counts: &mut [u64; Action::FULL_SET],
+) {
+    for action in actions {
+        if let Some(count) = counts.get_mut(action.index()) {
+            *count += 1;
+        }
+    }
+    for event in environment.events().iter().filter(|event| event.kind == EventKind::Touch) {
+        if let Some(by) = event.by.filter(|by| teams.contains(&by.team())) {
+            found.touches.push(ahead(by, [event.at.x, event.at.y]));
+        }
+    }
+}
+
+/// Fills in what is a sum or a mean over all episodes.
+fn summarise(
+    found: &mut Profile,
+    summaries: &[EpisodeSummary],
+    names: &[String],
+    counts: &[u64; Action::FULL_SET],
+) {
+    let episodes: Vec<&EpisodeSummary> = summaries.iter().collect();
+    found.score = measure(&Measure::Mean(Quantity::Score), &episodes, names);
+    found.length = measure(&Measure::Mean(Quantity::Length), &episodes, names);
+    for episode in summaries {
+        let known = found.ends.iter_mut().find(|(name, ..)| *name == episode.outcome);
+        match known {
+            Some((.., count)) => *count += 1,
+            None => found.ends.push((episode.outcome.clone(), episode.verdict, 1)),
+        }
+    }
+    found.ends.sort_by(|a, b| b.2.cmp(&a.2).then_with(|| a.0.cmp(&b.0)));
+    let rows = summaries.iter().map(|episode| episode.terms.len()).sum::<usize>().max(1) as f64;
+    let term = |at: usize| {
+        let paid = summaries.iter().flat_map(|episode| &episode.terms);
+        paid.filter_map(|terms| terms.get(at)).sum::<f64>() / rows + 0.0
+    };
+    found.terms = names.iter().enumerate().map(|(at, name)| (name.clone(), term(at))).collect();
+    let pressed = Action::ALL.iter().map(|action| (*action, counts[action.index()]));
+    found.actions = pressed.filter(|(_, count)| *count > 0).collect();
+    // Stable: of equal counts the first action stays first.
+    found.actions.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+}

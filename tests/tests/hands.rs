@@ -172,7 +172,7 @@ fn weak_defenders_reach_the_ball_too() {
 }
 
 #[test]
-fn a_defender_plants_their_feet_for_a_dribbler() {
+fn a_defender_meets_a_dribbler_no_faster_than_at_a_walk() {
     let mut environment = met(0.6);
     let mut speeds = Vec::new();
     for episode in 0..20 {
@@ -188,7 +188,9 @@ fn a_defender_plants_their_feet_for_a_dribbler() {
         );
     }
     speeds.sort_by(f32::total_cmp);
-    assert!(speeds.len() > 15 && speeds[speeds.len() / 2] < 2.0, "{speeds:?}");
+    // GRF's: at 3.4 m/s.
+    let middle = speeds[speeds.len() / 2];
+    assert!(speeds.len() > 15 && (2.0..4.2).contains(&middle), "{speeds:?}");
 }
 
 #[test]
@@ -198,7 +200,7 @@ fn a_defender_stops_for_a_ball_that_rolls_up() {
         let matches = played(&mut environment, *episode, |step| {
             if step == 1 { Action::Sprint } else { Action::Right }
         });
-        matches.iter().any(|game| game.players[12].body.lunge.is_some_and(|lunge| lunge.stops()))
+        matches.iter().any(|game| game.players[12].body.lunge.is_some_and(|lunge| lunge.brakes))
     };
     let stopped = (0..20).filter(stops).count();
     assert!(stopped >= 10, "{stopped} of 20");

@@ -186,7 +186,8 @@ pub(super) fn begin(game: &mut Match, near: Squad, about: Squad) {
         return;
     }
     let along = wanted(game.player(id), asks(game, id)).filter(|motion| {
-        (game.on_ball() == Some(id) || is_slow(game, id)) && motion.fits(game, id, 0.0, reach(game, id))
+        (game.on_ball() == Some(id) || is_slow(game, id))
+            && motion.fits(game, id, 0.0, reach(game, id))
     });
     let free = || game.on_ball().is_none();
     let Some(motion) = along.or_else(|| free().then(|| trap::find(game, id)).flatten()) else {
@@ -387,8 +388,8 @@ fn begins_again(player: &Player, lunge: &Lunge, now: i32) -> bool {
     let new =
         wanted(player, asked).map_or(Vec2::ZERO, |motion| self::wish(asked, run(player), motion));
     let stands = |wish: Vec2| wish.length_squared() < STOPS_MPS * STOPS_MPS;
-    let changed =
-        stands(new) != stands(lunge.wish) || new.dot(lunge.wish) < CHANGED * new.length() * lunge.wish.length();
+    let changed = stands(new) != stands(lunge.wish)
+        || new.dot(lunge.wish) < CHANGED * new.length() * lunge.wish.length();
     now <= lunge.from() + AGAIN_TICKS && changed
 }
 

@@ -4,7 +4,8 @@
 //! ball will be if nobody touches it. If somebody does, the foot arrives beside the ball.
 
 use crate::football::{
-    bounce, contact, dribble_motion, leg, noise, poke, possession, reach, report, slide, touch, trap,
+    bounce, contact, dribble_motion, leg, noise, poke, possession, reach, report, slide, touch,
+    trap,
 };
 use crate::state::event::Events;
 use crate::state::player::{Aim, Lunge, Pose};

@@ -151,8 +151,7 @@ fn meet(game: &mut Match, events: &mut Events, [i, j]: [PlayerId; 2], first: Opt
 
 /// How much better a player stands whose leg is out for the ball. (GRF's.)
 fn tackles(player: &Player, now: i32) -> f32 {
-    let pokes =
-        player.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke && lunge.at > now);
+    let pokes = player.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke && lunge.at > now);
     let stat =
         if player.body.pose == Pose::Sliding { Stat::SlidingTackle } else { Stat::StandingTackle };
     if pokes || stat == Stat::SlidingTackle {

@@ -154,6 +154,7 @@ fn lose_balance(
         (true, false) => FALLEN,
         (false, _) => stumble(speed, cos),
     };
+    let ticks = if falls { tripped.shaken(f32::from(ticks)) as u8 } else { ticks };
     tripped.body.strike_pose(Pose::Stumbling { to_dmps: (mps * 10.0) as u8 }, ticks);
     // A foot on its way back brings a runner down, too. (GRF's.)
     let lunges = other.body.lunge.is_some_and(|lunge| lunge.aim == Aim::Poke)

@@ -7,7 +7,7 @@ use setpiece_engine::football::{contact, foul, keeper, stumble};
 use setpiece_engine::physics::Ball;
 use setpiece_engine::state::PlayerId;
 use setpiece_engine::state::event::Event;
-use setpiece_engine::state::player::{Aim, Lunge, Motion, Pose};
+use setpiece_engine::state::player::{Aim, Lunge, Pose};
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Rule, Team};
 
 /// Starts the ball as if a player had touched it last, and plays until play stops.
@@ -304,11 +304,21 @@ fn meeting(mps: f32, lunges: bool) -> ([Pose; 2], bool) {
     bench.game.ball.pos = (spot + Vec2::new(0.3, 0.0)).extend(0.11);
     (bench.game.owner, bench.game.last_touch, bench.game.possession) =
         (Some(LEFT_MAN), Some(LEFT_MAN), Some(Team::Left));
-    let (at, aim) = (now + 10, Aim::Poke);
-    let motion = Motion::Reach { aim, stops: false, place: spot };
-    let lunge = Lunge { at, out: 1, back: 18, changes_feet: false, motion };
+    let lunge = Lunge {
+        at: now + 10,
+        out: 1,
+        back: 18,
+        changes_feet: false,
+        aim: Aim::Poke,
+        place: spot.extend(0.11),
+        brakes: true,
+        out_dmps: 9,
+        at_dmps: None,
+        wish: -Vec2::X,
+    };
     bench.game.players[right].body.lunge = lunges.then_some(lunge);
-    stumble::meet(&mut bench.game, &mut bench.events, [LEFT_MAN, RIGHT_MAN], 0.72);
+    let vel = [left, right].map(|i| bench.game.players[i].vel);
+    stumble::meet(&mut bench.game, &mut bench.events, [LEFT_MAN, RIGHT_MAN], vel, 0.72);
     ([left, right].map(|i| bench.game.players[i].body.pose), bench.seen(EventKind::Foul).is_some())
 }
 

@@ -181,7 +181,8 @@ const BENT_MPS: f32 = 6.7;
 /// who may be when a free ball has come.
 pub(super) fn begin(game: &mut Match, near: Squad, about: Squad) {
     let Some(id) = next(game, near, about) else { return };
-    if game.player(id).body.kick.is_some() && !kick::looks(game, id) {
+    let kicks = game.player(id).body.kick.is_some();
+    if kicks && !kick::looks(game, id) {
         // A kick comes first.
         return;
     }
@@ -276,9 +277,9 @@ fn on_mps(player: &Player, wanted: f32) -> f32 {
 }
 
 impl DribbleMotion {
-    /// Whether the motion to one of both sides meets a ball that comes this way. `course`: from the
-    /// player's run to the ball's; `made_for`: the same of the motion, and how far the ball's may be
-    /// off that; degrees.
+    /// Whether the motion to one of both sides meets a ball that comes on a course. `course`: from
+    /// the player's run to the ball's; `made_for`: the same of the motion, and how far the ball's
+    /// may be off that; degrees.
     pub(super) fn meets(
         &self,
         game: &Match,

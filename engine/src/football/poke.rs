@@ -71,3 +71,19 @@ fn of_gait(pace: f32, on: bool) -> &'static [Poke] {
         &STOPPING
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_gait_has_a_poke_for_who_runs_on_and_who_does_not() {
+        for pace in [0.0, 4.0, 7.5] {
+            for on in [false, true] {
+                assert!(!of_gait(pace, on).is_empty(), "at {pace} m/s");
+            }
+        }
+        let ahead = |pace, on| of_gait(pace, on).iter().all(|poke| poke.course_degrees > 100.0);
+        assert!(!ahead(7.5, true) && ahead(4.0, false), "who turns pokes what comes from ahead");
+    }
+}

@@ -27,8 +27,8 @@ const SLIDES: [DribbleMotion; 3] = [
     motion(0.0, 180.0, [31, 59], Braked(0.2), 1.02, [0.0, 0.87], [0.0, 0.7]),
     motion(0.0, 180.0, [32, 62], Braked(1.2), 0.97, [0.0, 0.95], [0.0, 0.77]),
 ];
-/// How fast a ball flies off that a slide meets: ahead and up, m/s, and how much of its own velocity
-/// turns round. (GRF's.)
+/// How fast a ball flies off that a slide meets: ahead and up, m/s, and how much of its own
+/// velocity turns round. (GRF's.)
 const MET_MPS: [f32; 2] = [6.0, 6.0];
 const BACK: f32 = 0.28;
 /// The severity of a slide that goes for no ball, and of one that does: too early or late, by a

@@ -265,6 +265,21 @@ fn a_defender_reaches_for_the_ball_that_a_sprinter_pushes_ahead() {
 }
 
 #[test]
+fn a_leg_that_swings_at_the_ball_does_not_reach_for_it_as_well() {
+    let mut bench = Bench::new(Layout::Eleven, 1);
+    let mut swings = 0;
+    for step in 0..1500 {
+        play(&mut bench, 1);
+        for (i, player) in bench.game.players.iter().enumerate() {
+            let body = &player.body;
+            swings += u32::from(body.swings());
+            assert!(!(body.swings() && body.lunge.is_some()), "player {i} in step {step}");
+        }
+    }
+    assert!(swings > 50, "{swings} steps of swings");
+}
+
+#[test]
 fn a_leg_far_from_the_ball_is_drawn_back_in_its_time() {
     let mut bench = Bench::new(Layout::Eleven, 3);
     let far = PlayerId(0);

@@ -332,6 +332,29 @@ fn who_runs_into_a_rival_loses_their_balance_and_who_stands_does_not() {
     assert!(meeting(7.0, true).1, "a leg that is out brings a sprinter down");
 }
 
+#[test]
+fn a_sprinter_who_is_held_up_stumbles_as_slowly_as_they_feel() {
+    let stumble = |felt: f32| {
+        let mut bench = alone(&[], 0);
+        let [left, right] = [LEFT_MAN.index(), RIGHT_MAN.index()];
+        let spot = bench.game.players[left].pos;
+        (bench.game.players[left].vel, bench.game.players[left].body.facing) =
+            (Vec2::new(7.5, 0.0), Vec2::X);
+        bench.game.players[left].body.push_m = 0.1;
+        bench.game.players[right].pos = spot + Vec2::new(0.4, 0.0);
+        bench.game.players[right].body.facing = -Vec2::X;
+        bench.game.ball.pos = (spot + Vec2::new(0.3, 0.0)).extend(0.11);
+        (bench.game.owner, bench.game.last_touch) = (Some(LEFT_MAN), Some(LEFT_MAN));
+        let vel = [Vec2::new(felt, 0.0), Vec2::ZERO];
+        stumble::meet(&mut bench.game, &mut bench.events, [LEFT_MAN, RIGHT_MAN], vel, 0.72);
+        let player = &bench.game.players[left];
+        (player.vel.x, player.body.pose_ticks)
+    };
+    let ((slow, briefly), (fast, long)) = (stumble(5.0), stumble(7.5));
+    assert_eq!((slow, fast), (5.0, 7.5));
+    assert!(0 < briefly && briefly < long, "{briefly} and {long} ticks");
+}
+
 /// Shoots at a player's chest: the handballs of each seed, and what was given.
 fn handballs(
     rules: &[(Rule, f64)],

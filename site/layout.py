@@ -15,7 +15,7 @@ MOVED = {
 }
 """Pages that are elsewhere than their path says."""
 
-ASSETS = {".css", ".gif", ".json", ".mp4", ".png", ".svg"}
+ASSETS = {".css", ".gif", ".json", ".mp4", ".onnx", ".png", ".svg"}
 """Endings of files that are copied as they are; every other file becomes a page."""
 
 

@@ -43,7 +43,7 @@ scenario reckless extends academy {
     ball at victim + (-1m, 0m) { owner: victim }
     team left {
         GK at (-1, 0)
-        hothead: CB at (0.02, 0) { yellow_cards: 1 }
+        hothead: CB at (0.082, 0) { yellow_cards: 1 }
         mate: CM at (-0.5, 0.3)
     }
     team right {

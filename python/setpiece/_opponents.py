@@ -305,7 +305,9 @@ def read_opponents(opponents: Mapping[str, Opponent] | None) -> Mapping[str, Opp
         return {}
     if not isinstance(opponents, Mapping):
         raise ParameterError(
-            f"expected `opponents` as a mapping, found `{opponents!r}`", name="opponents"
+            "expected `opponents` as a mapping, such as `{'right': 'bot'}`, "
+            f"found `{opponents!r}`",
+            name="opponents",
         )
     return opponents
 

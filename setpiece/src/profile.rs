@@ -146,7 +146,8 @@ pub fn profile(
         summaries.push(EpisodeSummary::of(&environment));
         after();
     }
-    summarise(&mut found, &summaries, &names, &counts);
+    let side = if teams.contains(&Team::Left) { 1.0 } else { -1.0 };
+    summarise(&mut found, &summaries, &names, &counts, side);
     Ok(found)
 }
 
@@ -209,9 +210,13 @@ fn summarise(
     summaries: &[EpisodeSummary],
     names: &[String],
     counts: &[u64; Action::FULL_SET],
+    side: f64,
 ) {
     let episodes: Vec<&EpisodeSummary> = summaries.iter().collect();
-    found.score = measure(&Measure::Mean(Quantity::Score), &episodes, names);
+    found.score = measure(&Measure::Mean(Quantity::Score), &episodes, names).map(|score| {
+        let (low, high) = (side * score.low, side * score.high);
+        Estimate { value: side * score.value, low: low.min(high), high: low.max(high), ..score }
+    });
     found.length = measure(&Measure::Mean(Quantity::Length), &episodes, names);
     for episode in summaries {
         let known = found.ends.iter_mut().find(|(name, ..)| *name == episode.outcome);

@@ -47,16 +47,21 @@ pub struct PairScore {
 /// The matches of two agents, which may be parts.
 type Shares = ([usize; 2], [f64; 3]);
 
+/// The drawn matches that each pair has more than it played, and that drawn results don't need:
+/// their shares are never none.
+const ONE_MORE: f64 = 1.0;
+const AS_DRAWN: f64 = 0.0;
+
 /// Rates some agents by their matches.
 pub fn elo(agents: usize, pairs: &[PairScore]) -> Vec<Elo> {
     let played: Vec<Shares> =
         pairs.iter().map(|pair| (pair.agents, pair.results.map(f64::from))).collect();
-    let found = ratings(agents, &played);
+    let found = ratings(agents, &played, ONE_MORE);
     let mut resampled: Vec<Vec<f64>> = vec![Vec::with_capacity(RESAMPLES); agents];
     for resample in 0..RESAMPLES {
         let mut stream = Stream::new(0, resample as u64, Purpose::Resample);
         let drawn: Vec<Shares> = pairs.iter().map(|pair| drawn_again(pair, &mut stream)).collect();
-        for (ratings, rating) in resampled.iter_mut().zip(ratings(agents, &drawn)) {
+        for (ratings, rating) in resampled.iter_mut().zip(ratings(agents, &drawn, AS_DRAWN)) {
             ratings.push(rating);
         }
     }
@@ -90,11 +95,11 @@ fn gamma(count: u32, stream: &mut Stream) -> f64 {
     whole + normal * normal / 2.0
 }
 
-/// The likeliest ratings.
-fn ratings(agents: usize, pairs: &[Shares]) -> Vec<f64> {
+/// The likeliest ratings, with this many more drawn matches of each pair.
+fn ratings(agents: usize, pairs: &[Shares], more: f64) -> Vec<f64> {
     let mut points = vec![0.0; agents];
     for &([first, second], [won, drawn, lost]) in pairs {
-        let half = 0.5 * (drawn + 1.0);
+        let half = 0.5 * (drawn + more);
         points[first] += won + half;
         points[second] += lost + half;
     }
@@ -102,7 +107,7 @@ fn ratings(agents: usize, pairs: &[Shares]) -> Vec<f64> {
     for _ in 0..ROUNDS {
         let mut expected = vec![0.0; agents];
         for &([first, second], results) in pairs {
-            let matches = results.iter().sum::<f64>() + 1.0;
+            let matches = results.iter().sum::<f64>() + more;
             let share = matches / (strengths[first] + strengths[second]);
             expected[first] += share;
             expected[second] += share;
@@ -177,5 +182,26 @@ mod tests {
     fn the_same_matches_have_the_same_intervals() {
         let pairs = [pair(0, 1, [3, 2, 1]), pair(0, 2, [4, 0, 2]), pair(1, 2, [2, 2, 2])];
         assert_eq!(elo(3, &pairs), elo(3, &pairs));
+    }
+
+    #[test]
+    fn whoever_wins_everything_may_be_any_better() {
+        let found = elo(2, &[pair(0, 1, [20, 0, 0])]);
+        assert!(found[0].high > found[0].value + 100.0, "{found:?}");
+        assert!(found[1].low < found[1].value - 100.0, "{found:?}");
+    }
+
+    #[test]
+    fn an_interval_holds_the_truth_about_as_often_as_it_says() {
+        // 95 of 100 matches won: 511 points apart.
+        let apart = SCALE * libm::log10(19.0);
+        let mut held = 0;
+        for seed in 0..60 {
+            let mut stream = Stream::new(seed, 0, Purpose::Resample);
+            let won = (0..40).filter(|_| stream.unit_f64() < 0.95).count() as u32;
+            let found = elo(2, &[pair(0, 1, [won, 0, 40 - won])]);
+            held += u32::from((found[0].low..=found[0].high).contains(&(MEAN + apart / 2.0)));
+        }
+        assert!(held >= 52, "{held} of 60");
     }
 }

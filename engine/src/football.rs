@@ -23,7 +23,7 @@ mod carry;
 pub mod clock;
 pub mod contact;
 mod dribble;
-mod dribble_motion;
+pub mod dribble_motion;
 pub mod duel;
 pub mod fatigue;
 mod first_touch;

@@ -1,6 +1,7 @@
 //! Turns an agent's actions into what its player wants.
 
 use crate::control::{assist, sticky};
+use crate::football::dribble_motion::{self, BRAKED};
 use crate::football::pace::{
     DRIBBLE_MPS, DRIBBLE_WITH_BALL_MPS, RUN_MPS, RUN_WITH_BALL_MPS, SPRINT_MPS,
 };
@@ -14,9 +15,6 @@ use setpiece_scenario::vocabulary::{Action, GameMode, Role};
 /// A lower pace counts as standing, share of a sprint; chosen.
 const STILL: f32 = 0.1;
 
-/// The share of the pace that they want that a player on the ball has while a kick is requested.
-/// (GRF's.)
-const BRAKED: f32 = 0.9;
 /// The share of their speed that they keep per step while a leg follows through. Measured.
 const FOLLOWING: f32 = 0.88;
 
@@ -136,9 +134,7 @@ pub fn drive(
 /// most if another direction is held. (GRF's.)
 fn braked(player: &Player, direction: Option<Vec2>, gait: f32) -> Vec2 {
     let ahead = player.vel.normalize_or(player.body.facing);
-    let along =
-        direction.map_or(1.0, |direction| 0.5 + 0.5 * ahead.dot(direction).clamp(-1.0, 1.0));
-    let most = gait * BRAKED * (0.2 + 0.8 * libm::powf(along, 1.5));
+    let most = gait * BRAKED * dribble_motion::braking(ahead, direction);
     ahead * player.vel.length().min(most)
 }
 

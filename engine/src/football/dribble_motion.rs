@@ -150,7 +150,7 @@ const LOW_M: f32 = 0.15;
 /// A ball that meets a player faster than this can't be taken along, m/s. (GRF's.)
 const TAKES_MPS: f32 = 15.0;
 /// What is left of the pace of a player who is to kick. (GRF's.)
-const BRAKED: f32 = 0.9;
+pub const BRAKED: f32 = 0.9;
 /// Between which ticks from now the ball's course is seen. A slower ball has none, m/s. (GRF's.)
 const COURSE_TICKS: [u32; 2] = [12, 18];
 const ROLLS_MPS: f32 = 2.0;
@@ -450,8 +450,13 @@ pub(super) fn asks(game: &Match, id: PlayerId) -> Vec2 {
 /// The velocity of a player who is to kick, and holds a direction at a gait.
 fn braked(player: &Player, held: Vec2) -> Vec2 {
     let ahead = player.vel.normalize_or(player.body.facing);
-    let along = held.try_normalize().map_or(1.0, |held| 0.5 + 0.5 * ahead.dot(held));
-    ahead * (player.vel.length() * BRAKED * (0.2 + 0.8 * libm::powf(along.clamp(0.0, 1.0), 1.5)))
+    ahead * (player.vel.length() * BRAKED * braking(ahead, held.try_normalize()))
+}
+
+/// The share of that by the direction that is held: all of it straight ahead, a fifth back.
+pub fn braking(ahead: Vec2, held: Option<Vec2>) -> f32 {
+    let along = held.map_or(1.0, |held| 0.5 + 0.5 * ahead.dot(held).clamp(-1.0, 1.0));
+    0.2 + 0.8 * libm::powf(along, 1.5)
 }
 
 /// The motion that a player wants. None for one who stands and wants to.

@@ -42,7 +42,7 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     playing: Playing,
     /// The number of episodes [default: 20]
-    #[arg(short = 'n', long, value_name = "N", conflicts_with = "level", value_parser = RangedU64ValueParser::<u64>::new().range(1..=1_000_000_000))]
+    #[arg(short = 'n', long, value_name = "N", conflicts_with = "level", value_parser = RangedU64ValueParser::<u64>::new().range(1..=1_000_000))]
     episodes: Option<u64>,
     /// Pay this reward instead of the scenario's own; may be repeated or separated by commas
     #[arg(long, value_name = "NAME", value_delimiter = ',')]

@@ -66,6 +66,19 @@ PERIODS = {"first_half": 1, "second_half": 2}
 START = datetime(1970, 1, 1, tzinfo=timezone.utc)
 """The moment of frame 0 in files of the Common Data Format."""
 
+FIGURES = [
+    "goal_width",
+    "goal_height",
+    "penalty_area_length",
+    "penalty_area_width",
+    "six_yard_length",
+    "six_yard_width",
+    "penalty_spot_distance",
+    "circle_radius",
+]
+"""What `meta.json` says of the pitch, metres, by the names that kloppy has for it. Files of other
+makers have the length and the width alone."""
+
 SHOT = {
     "successful": ShotResult.GOAL,
     "saved": ShotResult.SAVED,
@@ -172,13 +185,17 @@ class _Match:
         return cls(sheet, teams, players, periods)
 
     def metadata(self, flags: DatasetFlag, events: list[Event] | None = None) -> Metadata:
-        length, width = (self.sheet["venue"][key] for key in ("pitch_length", "pitch_width"))
+        venue = self.sheet["venue"]
+        length, width = venue["pitch_length"], venue["pitch_width"]
+        figures = {key: venue[key] for key in FIGURES if key in venue}
         pitch = MetricPitchDimensions(
             x_dim=Dimension(-length / 2, length / 2),
             y_dim=Dimension(-width / 2, width / 2),
             pitch_length=length,
             pitch_width=width,
             standardized=False,
+            penalty_arc_radius=figures.get("circle_radius", 9.15),
+            **figures,
         )
         return Metadata(
             periods=[*self.periods.values()],

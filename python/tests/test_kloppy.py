@@ -191,3 +191,22 @@ def test_the_tables_hold_numbers(replay: Replay, tmp_path: Path) -> None:
     for row in rows:
         assert abs(float(row["x"])) < 65
         assert abs(float(row["y"])) < 42.5
+
+
+def test_a_small_pitch_has_its_own_goals_and_boxes(tmp_path: Path) -> None:
+    text = """
+    scenario small extends academy {
+        pitch { length: 60m, width: 40m, goal: 5m, box: 9m }
+        ball at (0.2, 0)
+        team left { CF at (0.1, 0) }
+        end limit 2s
+    }
+    """
+    made = recorded(text, tmp_path / "small.pitchr", seed=1)
+    made.export(tmp_path, "cdf")
+    cdf.MetaSchemaValidator().validate_schema(tmp_path / "meta.json", mode="extreme")
+    pitch = load_tracking(tmp_path).metadata.pitch_dimensions
+    assert (pitch.pitch_length, pitch.pitch_width) == (60, 40)
+    assert (pitch.goal_width, pitch.penalty_area_length) == (5, 9)
+    assert pitch.penalty_area_width == pytest.approx(40.32 * 40 / 72, abs=0.5)
+    assert pitch.circle_radius == pitch.penalty_arc_radius < 9.15

@@ -19,7 +19,7 @@ use crate::scene::number;
 use events::EventLog;
 use glam::Vec2;
 use setpiece_scenario::pitch::{PLAYERS_MAX, STEPS_PER_S};
-use setpiece_scenario::{GameMode, Team};
+use setpiece_scenario::{GameMode, PitchSize, Team};
 use std::path::{Path, PathBuf};
 
 /// Frames per second.
@@ -41,10 +41,8 @@ pub enum TrackingForm {
 pub struct Tracking {
     /// The scenario's name, the seed and the index: `corner_7_0`.
     pub id: String,
-    /// How long the pitch is.
-    pub length_m: f64,
-    /// How wide the pitch is.
-    pub width_m: f64,
+    /// How large the pitch is, with its goals and boxes.
+    pub pitch: PitchSize,
     /// Everyone who is on the pitch at some time, the left team first.
     pub players: Vec<TrackedPlayer>,
     /// The frames.
@@ -147,11 +145,9 @@ impl Tracking {
             let id = environment.player_name(slot)?;
             Some(TrackedPlayer { id, slot, number: number(slot), starts })
         };
-        let pitch = &environment.state().pitch;
         Ok(Tracking {
             id: format!("{}_{}_{}", environment.scenario().name, replay.seed, replay.index),
-            length_m: 2.0 * pitch.half_length(),
-            width_m: 2.0 * pitch.half_width(),
+            pitch: environment.state().pitch,
             players: slots().filter_map(player).collect(),
             moments,
             events: log.finish(),

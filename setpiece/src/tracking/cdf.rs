@@ -6,7 +6,8 @@ use super::words::{period, team};
 use super::{FRAME_MS, FRAME_RATE, TrackedEvent, TrackedMoment, TrackedPlayer, Tracking};
 use serde::Serialize;
 use serde_json::{Value, json};
-use setpiece_scenario::Team;
+use setpiece_scenario::vocabulary::PitchMeasure;
+use setpiece_scenario::{PitchSize, Team};
 
 /// The version of the format.
 const VERSION: &str = "0.3.2";
@@ -50,11 +51,7 @@ pub(super) fn meta(tracking: &Tracking) -> String {
             "whistles": halves.iter().flat_map(CdfHalf::whistles).collect::<Vec<_>>(),
         },
         "teams": {"home": side(Team::Left), "away": side(Team::Right)},
-        "venue": {
-            "id": "setpiece",
-            "pitch_length": tracking.length_m,
-            "pitch_width": tracking.width_m,
-        },
+        "venue": venue(&tracking.pitch),
         "officials": [{"id": REFEREE, "type": "main_referee"}],
         "meta": {
             "video": null,
@@ -67,6 +64,25 @@ pub(super) fn meta(tracking: &Tracking) -> String {
         },
     });
     format!("{sheet:#}\n")
+}
+
+/// The pitch, metres. The format has its length and width; what it doesn't have, `setpiece.kloppy`
+/// reads.
+fn venue(pitch: &PitchSize) -> Value {
+    let twice = |measure| 2.0 * pitch.measure(measure);
+    json!({
+        "id": "setpiece",
+        "pitch_length": twice(PitchMeasure::HalfLength),
+        "pitch_width": twice(PitchMeasure::HalfWidth),
+        "goal_width": twice(PitchMeasure::GoalHalfWidth),
+        "goal_height": pitch.measure(PitchMeasure::GoalHeight),
+        "penalty_area_length": pitch.measure(PitchMeasure::BoxDepth),
+        "penalty_area_width": twice(PitchMeasure::BoxHalfWidth),
+        "six_yard_length": pitch.measure(PitchMeasure::SixYardDepth),
+        "six_yard_width": twice(PitchMeasure::SixYardHalfWidth),
+        "penalty_spot_distance": pitch.measure(PitchMeasure::PenaltySpot),
+        "circle_radius": pitch.measure(PitchMeasure::Circle),
+    })
 }
 
 /// A half, and its first and last frame.

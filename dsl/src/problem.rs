@@ -12,7 +12,7 @@ mod similar;
 mod triage;
 
 pub use code::{Code, Severity, Stage};
-pub use said::{Label, Rewrite, Words};
+pub use said::{Elsewhere, Label, Rewrite, Words};
 pub use script::{ScriptApi, ScriptProblem, ScriptSight};
 pub(crate) use similar::Guess;
 pub use similar::nearest;
@@ -96,7 +96,13 @@ impl Problem {
             .into_iter()
             .map(|(span, text)| Rewrite::one(span.unwrap_or(self.span), text));
         let rewrites = self.rewrites.iter().cloned().chain(written).collect();
-        Words { message: said.message, labels, help: said.help, rewrites }
+        Words {
+            message: said.message,
+            labels,
+            help: said.help,
+            rewrites,
+            elsewhere: said.elsewhere,
+        }
     }
 
     /// Whether it says that the file has nothing to run, or not what was asked for.

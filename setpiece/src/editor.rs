@@ -3,7 +3,6 @@
 //! Questions and answers are plain data, without a protocol: [`Workspace`] has the open texts, and
 //! each question is a file. `setpiece lsp` speaks for it over the Language Server Protocol.
 
-mod above;
 mod actions;
 mod alone;
 mod analysis;
@@ -13,7 +12,10 @@ mod complete;
 mod completion;
 mod cursor;
 mod declared;
+mod defaults;
 mod edits;
+mod elsewhere;
+mod fix_all;
 mod fixes;
 mod fold;
 mod grf;
@@ -28,6 +30,7 @@ mod meant;
 mod names;
 mod near;
 mod outline;
+mod paid;
 mod parents;
 mod place;
 mod preview;
@@ -43,6 +46,7 @@ mod settings;
 mod signature;
 pub mod text;
 mod tokens;
+mod uses;
 mod within;
 mod words;
 

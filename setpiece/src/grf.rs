@@ -12,5 +12,5 @@ mod script;
 mod translate;
 
 pub use recorded::{FIXED_SEED, GrfPlayer, GrfScenario, LIMIT_MAX};
-pub use script::{GrfScript, scripts};
+pub use script::{GrfFault, GrfScript, scripts};
 pub use translate::{TranslationError, identifier, to_pitch};

@@ -83,6 +83,8 @@ pub struct LanguageServer {
     late: BTreeMap<PathBuf, KeptFindings>,
     /// Whether the editor fills places in what it inserts.
     has_snippets: bool,
+    /// Whether the editor shows an action that can't be done, with its reason.
+    shows_refused: bool,
 }
 
 impl LanguageServer {
@@ -91,8 +93,10 @@ impl LanguageServer {
     /// - `params`: what its `initialize` says of it.
     /// - `allow_outside`: whether imports and scripts may be outside a text's folder.
     pub fn new(params: &Value, allow_outside: bool) -> LanguageServer {
-        let snippets =
-            params.pointer("/capabilities/textDocument/completion/completionItem/snippetSupport");
+        let can = |what: &str| {
+            let found = params.pointer(&format!("/capabilities/textDocument/{what}"));
+            found.and_then(Value::as_bool).unwrap_or_default()
+        };
         LanguageServer {
             workspace: Workspace::new(allow_outside).with_folders(convert::folders_of(params)),
             open: BTreeMap::new(),
@@ -102,7 +106,8 @@ impl LanguageServer {
             age: Arc::default(),
             said: BTreeMap::new(),
             late: BTreeMap::new(),
-            has_snippets: snippets.and_then(Value::as_bool).unwrap_or_default(),
+            has_snippets: can("completion/completionItem/snippetSupport"),
+            shows_refused: can("codeAction/disabledSupport"),
         }
     }
 

@@ -304,6 +304,16 @@ fn fixes_mend_what_they_are_about() {
             "rules { cards: on }\n    end caught when offside by left",
             "rules { offside: on, cards: on }\n",
         ),
+        // An option of another block goes there, and takes its comma or its empty braces along.
+        ("rules { drag: 2 }", "{\n    world { drag: 2 }\n    ball at"),
+        ("rules { drag: 2, offside: on }", "    rules { offside: on }\n"),
+        ("rules { offside: on, drag: 2 }\n    world { swerve: 2 }", "    rules { offside: on }\n"),
+        ("rules { drag: 2 }\n    world { swerve: 2 }", "    world { drag: 2, swerve: 2 }\n"),
+        ("world { offside: on }", "{\n    rules { offside: on }\n    ball at"),
+        ("world { length: 60m }", "{\n    pitch { length: 60m }\n    ball at"),
+        ("team right { CB at (0.8, 0) { drag: 2 } }", "team right { CB at (0.8, 0) }"),
+        ("team right { drag: 2 }", "team right {  }"),
+        ("team right { fatigue: 0.5 }", ""),
         ("reward r { give normal(0, 1, 2) * 0 + 1 }", ""),
         ("end a when !ball_dead", "end a when not ball_dead"),
         (
@@ -367,6 +377,35 @@ fn everything_that_says_how_is_mended_at_once() {
     ] {
         assert!(after.contains(expected), "{expected}: {after}");
     }
+}
+
+/// However many slips a text has, all of them are mended at once, and what isn't a slip stays.
+#[test]
+fn hundreds_of_slips_are_mended_at_once() {
+    let line = |name: &str| format!("    end success when distance({name}, ball) < 3m\n");
+    let (mut slips, mut mended) = (String::new(), String::new());
+    for part in 0..40 {
+        let head = format!(
+            "scenario s{part} extends academy {{\n    ball at (0.5, 0)\n    team left {{ striker: CF at (0.4, 0) }}\n"
+        );
+        // What nothing is like stays as it is.
+        let unlike = if part == 20 { line("xyzzy") } else { String::new() };
+        for (text, name, region) in
+            [(&mut slips, "strikr", "right.bax"), (&mut mended, "striker", "right.box")]
+        {
+            text.push_str(&head);
+            for _ in 0..3 {
+                text.push_str(&line(name));
+            }
+            text.push_str(&format!("{unlike}    end failure when ball in {region}\n}}\n"));
+        }
+    }
+    let path = Path::new("/nowhere/slips.pitch");
+    let mut workspace = Workspace::default();
+    workspace.set(path, &slips);
+    assert_eq!(workspace.reports()[path].len(), 161);
+    let all = workspace.fix_all(path).expect("slips");
+    assert_eq!(all.edits[0].text, mended);
 }
 
 #[test]
@@ -464,6 +503,39 @@ fn hints_show_metres_arguments_and_what_is_inherited() {
     let refused: Vec<f64> = refused.map(|it| it.parse().expect("a share")).collect();
     let [refused] = refused.as_slice() else { panic!("{hints:?}") };
     assert!((20.0..40.0).contains(refused), "{refused}");
+}
+
+/// A shaped reward beside an inherited one: what both pay for is said.
+#[test]
+fn what_an_inherited_reward_pays_for_too_is_said() {
+    let said = |parent: &str, reward: &str| -> Vec<String> {
+        let text = format!(
+            "reward mine {{\n    give 2 on goal by us\n}}\nscenario a{parent} {{\n    ball at (0.5, 0)\n    \
+             team left {{ CF at (0.4, 0) }}\n    {reward}\n    end limit 3s\n}}\n"
+        );
+        let path = Path::new("/nowhere/paid.pitch");
+        let mut workspace = Workspace::default();
+        workspace.set(path, &text);
+        let analysis = workspace.analysis(path).expect("a text");
+        let hints = analysis
+            .hints(&(0..text.len()))
+            .into_iter()
+            .map(|it| (text[..it.at].rsplit('\n').next().unwrap().trim().to_owned(), it.text));
+        let paid = hints.filter(|(_, hint)| hint.contains("pays for"));
+        paid.map(|(line, hint)| format!("{line} ⟨{hint}⟩")).collect()
+    };
+    let academy = " extends academy";
+    assert_eq!(
+        said(
+            academy,
+            "reward r {\n    give 0.1 on pass completed by us\n    on goal by  us {\n    give 1\n} }"
+        ),
+        ["on goal by  us ⟨`scoring` pays for it, too⟩"]
+    );
+    assert_eq!(said(academy, "reward mine"), ["give 2 on goal by us ⟨`scoring` pays for it, too⟩"]);
+    assert_eq!(said(academy, "reward r { give 0.1 on goal by them when me.x > 0 }").len(), 1);
+    assert_eq!(said(academy, "reward mine\n    remove reward scoring"), [""; 0]);
+    assert_eq!(said("", "reward mine"), [""; 0]);
 }
 
 #[test]
@@ -637,4 +709,15 @@ fn any_edit_leads_to_what_a_fresh_workspace_says() {
             let _ = workspace.format(path);
         }
     }
+}
+
+/// A selection in a thousand open brackets grows a hundred times, and then to the whole text.
+#[test]
+fn a_selection_grows_in_few_steps() {
+    let (mut workspace, path, at) = marked(&format!("{}‸", "scenario a {\n".repeat(1_000)));
+    let analysis = workspace.analysis(&path).expect("a text");
+    let grown = analysis.selections(at);
+    assert_eq!(grown.len(), 100);
+    assert_eq!(grown.last(), Some(&(0..analysis.text.len())));
+    assert!(grown.windows(2).all(|it| it[1].start <= it[0].start && it[0].end <= it[1].end));
 }

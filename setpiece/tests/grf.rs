@@ -9,7 +9,7 @@
 use proptest::prelude::*;
 use setpiece::dsl::format::format;
 use setpiece::dsl::source::Source;
-use setpiece::grf::{GrfPlayer, GrfScenario, GrfScript, identifier, scripts, to_pitch};
+use setpiece::grf::{GrfFault, GrfPlayer, GrfScenario, GrfScript, identifier, scripts, to_pitch};
 use setpiece::scenario::vocabulary::Role;
 
 const WHOLE: &str = r#"# An author's own drill.
@@ -241,7 +241,7 @@ fn what_is_not_known_is_not_invented() {
         ),
     ] {
         let script = format!("{head}{}{behind}", script(body));
-        let read = GrfScript::read(&script).unwrap_or_else(|| panic!("{script}"));
+        let read = GrfScript::read(&script).unwrap_or_else(|fault| panic!("{fault}: {script}"));
         assert_eq!(read.left_out.len(), left_out, "{script}\n{:?}", read.left_out);
         assert_eq!(read.even.left_team.len(), 1, "{script}");
     }
@@ -249,7 +249,7 @@ fn what_is_not_known_is_not_invented() {
     let read = GrfScript::read(&format!("GAP = 0.3\n{default}{behind}")).expect("a script");
     assert_eq!((read.left_out.len(), read.even.left_team.len()), (1, 1));
     let all_in_a_loop = "  builder.SetBallPosition(0, 0)\n  for x, y, r in PLACES:\n    builder.AddPlayer(x, y, r)\n";
-    assert_eq!(GrfScript::read(&script(all_in_a_loop)), None);
+    assert!(GrfScript::read(&script(all_in_a_loop)).is_err());
     let ended = format!("{behind}  return builder\n  builder.AddPlayer(0.5, 0, 9)\n");
     assert_eq!(GrfScript::read(&script(&ended)).expect("a script").even.right_team.len(), 1);
 }
@@ -278,7 +278,7 @@ fn values_are_those_of_python() {
         ["2 ** 3", "1 / 0", "4 / 2", "9999999999999999999", "'1'", "1 < 2 < 3", "(1", "f(1)", "1 1"]
     {
         let script = script(&format!("  builder.config().game_duration = {value}\n"));
-        assert_eq!(GrfScript::read(&script), None, "{value}");
+        assert_eq!(GrfScript::read(&script), Err(GrfFault::Empty), "{value}");
     }
     let of = |body: &str| GrfScript::read(&script(body)).expect(body).even;
     assert_eq!(
@@ -296,10 +296,10 @@ fn values_are_those_of_python() {
 #[test]
 fn what_no_text_can_have_is_not_read() {
     let third = "  builder.AddPlayer(0.1 * (builder.EpisodeNumber() % 3), 0, e_PlayerRole_CM)\n";
-    assert_eq!(GrfScript::read(&script(third)), None);
+    assert_eq!(GrfScript::read(&script(third)), Err(GrfFault::Turns));
     let many = "  builder.AddPlayer(0.1, 0, e_PlayerRole_CM)\n".repeat(12);
-    assert_eq!(GrfScript::read(&script(&many)), None);
-    assert_eq!(GrfScript::read(&script("  pass\n")), None);
+    assert_eq!(GrfScript::read(&script(&many)), Err(GrfFault::Crowd));
+    assert_eq!(GrfScript::read(&script("  pass\n")), Err(GrfFault::Empty));
     let rule = "  builder.config().offsides = builder.EpisodeNumber() % 2 == 0\n";
     let why = GrfScript::read(&script(rule)).expect("a script").to_pitch("rule").unwrap_err();
     assert!(why.to_string().starts_with("`offsides` is True in even and False in odd"), "{why}");
@@ -450,7 +450,7 @@ proptest! {
 /// Reads every script of a text; whatever becomes a text says the same names.
 fn read_all(text: &str) {
     for range in scripts(text) {
-        let Some(script) = text.get(range).and_then(GrfScript::read) else { continue };
+        let Some(Ok(script)) = text.get(range).map(GrfScript::read) else { continue };
         if let Ok(written) = script.to_pitch("any") {
             assert!(written.contains("scenario any {"), "{written}");
         }

@@ -1,7 +1,8 @@
 //! The keys of every pair of braces, each list once.
 
 use setpiece_scenario::vocabulary::{
-    AgentsOption, BallOption, PitchFigure, PlayerOption, StartOption, SubstituteOption, TeamOption,
+    AgentsOption, BallOption, PitchFigure, PlayerOption, Rule, StartOption, SubstituteOption,
+    TeamOption,
 };
 
 /// Keys of `agents { }`.
@@ -17,6 +18,8 @@ pub(crate) const BALL: &[&str] = BallOption::NAMES;
 /// Keys of `world { }`; the wind is one key with two figures.
 pub(crate) const WORLD: &[&str] =
     &["gravity", "wind", "drag", "swerve", "spin_decay", "bounce", "friction"];
+/// Keys of `rules { }`.
+pub(crate) const RULES: &[&str] = Rule::NAMES;
 /// Keys of `pitch { }`.
 pub(crate) const PITCH: &[&str] = PitchFigure::NAMES;
 /// Keys of `start … { }`.

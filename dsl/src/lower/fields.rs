@@ -2,7 +2,7 @@
 
 use super::Lower;
 use crate::ast::{Expr, Field, FieldValue};
-use crate::check::options::{PITCH, PLAYER, WORLD};
+use crate::check::options::{PITCH, PLAYER, RULES, WORLD};
 use crate::problem::facts::{Names, Types};
 use crate::problem::{Guess, Problem};
 
@@ -30,8 +30,8 @@ pub(super) fn is_known(lower: &Lower<'_, '_>, field: &Field, known: &[&str], who
         None if matches!(key, "mass" | "weight") && ["`world`", "the ball"].contains(&&*whose) => {
             Names::NoMass { whose, option }
         }
+        _ if whose == A_TEAM && PLAYER.contains(&key) => Names::OfPlayers { option },
         Some(block) => Names::OfBlock { whose, option, block },
-        None if whose == A_TEAM && PLAYER.contains(&key) => Names::OfPlayers { option },
         None => Names::NoOption { whose, option, guess: Guess::similar_or_all(key, known) },
     };
     lower.report(Problem::new(field.key.span, fact));
@@ -40,7 +40,7 @@ pub(super) fn is_known(lower: &Lower<'_, '_>, field: &Field, known: &[&str], who
 
 /// The block of the scenario that alone has this option.
 pub(super) fn block_of(option: &str) -> Option<&'static str> {
-    let blocks = [("world", WORLD), ("pitch", PITCH)];
+    let blocks = [("world", WORLD), ("pitch", PITCH), ("rules", RULES)];
     blocks.into_iter().find(|(_, keys)| keys.contains(&option)).map(|(block, _)| block)
 }
 

@@ -64,7 +64,7 @@ fn parts_of(rule: Rule) -> Vec<NextPart> {
         Rule::unit | Rule::long_unit => return vec![NextPart::Unit],
         Rule::ident | Rule::path => return vec![NextPart::Name],
         Rule::operand | Rule::arg => return vec![NextPart::Operand],
-        Rule::expr | Rule::value => return vec![NextPart::Value],
+        Rule::expr | Rule::value | Rule::param_default => return vec![NextPart::Value],
         Rule::end_when => &["success", "failure", "when", "script"],
         Rule::trigger => &["when", "script"],
         Rule::sight => &["noise", "when", "delayed", "stack"],
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn the_grammar_says_what_may_follow() {
-        let cases: [(&str, &str, &[NextPart]); 14] = [
+        let cases: [(&str, &str, &[NextPart]); 15] = [
             ("scenario", "ball ", &[Place]),
             ("scenario", "ball at ", &[Operand]),
             ("scenario", "team ", &[Keyword("left"), Keyword("right")]),
@@ -96,6 +96,7 @@ mod tests {
             ("reward", "give 0.1 * closing(ball, ", &[Operand]),
             ("check", "play academy with ", &[Name]),
             ("agents", "left: ", &[Keyword("script"), Value]),
+            ("scenario", "param p: bool = ", &[Value]),
             // Text that can't be read has nothing behind it.
             ("reward", "give give ", &[]),
             ("scenario", "give 1 ", &[]),

@@ -224,7 +224,10 @@ impl Reader<'_> {
         habit: Option<&str>,
     ) -> Option<Problem> {
         let span = self.at(at);
-        let owner = Context::ALL.iter().find(|other| other.keywords().contains(&word))?;
+        // What may stand in a file and in a scenario belongs in the scenario around.
+        let owner = std::iter::once(Context::Scenario)
+            .chain(Context::ALL)
+            .find(|other| other.keywords().contains(&word))?;
         if context.keywords().contains(&word) {
             return None;
         }

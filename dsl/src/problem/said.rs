@@ -23,6 +23,23 @@ pub struct Words {
     pub help: Option<String>,
     /// The same as changes of the text, as far as it is known where they go; the likeliest first.
     pub rewrites: Vec<Rewrite>,
+    /// A statement that the help asks for elsewhere than in the place of the marked text.
+    pub elsewhere: Option<Elsewhere>,
+}
+
+/// A statement that a help asks for elsewhere than in the place of the marked text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Elsewhere {
+    /// A statement of the scenario.
+    OfScenario(String),
+    /// A statement at the top of the reward or the behaviour.
+    OfBody(String),
+    /// An option of a block of the scenario, with its value: the block, the key, the value.
+    Setting(&'static str, String, String),
+    /// The marked option and its value, in this block of the scenario.
+    Moved(&'static str),
+    /// The marked value as a `let` of the scenario, and its name in the place of the value.
+    Named,
 }
 
 /// A way to follow a help.
@@ -55,6 +72,8 @@ pub(super) struct Said {
     pub(super) names: Vec<String>,
     /// Texts that stand for others once the help is followed; for the marked one if none is named.
     pub(super) writes: Vec<(Option<Span>, String)>,
+    /// What the help asks for elsewhere.
+    pub(super) elsewhere: Option<Elsewhere>,
 }
 
 /// Says what is wrong, and what the marked text is.
@@ -66,6 +85,7 @@ pub(super) fn say(message: impl Into<String>, label: impl Into<String>) -> Said 
         help: None,
         names: Vec::new(),
         writes: Vec::new(),
+        elsewhere: None,
     }
 }
 
@@ -94,7 +114,13 @@ impl Said {
         self
     }
 
-    /// The same, if there is such a text.
+    /// Notes a statement that the help asks for elsewhere.
+    pub(super) fn elsewhere(mut self, statement: Elsewhere) -> Said {
+        self.elsewhere = Some(statement);
+        self
+    }
+
+    /// The same as [`Said::writing`], if there is such a text.
     pub(super) fn writing_if(self, found: Option<(Span, &String)>) -> Said {
         match found {
             Some((span, text)) => self.writing(Some(span), text),

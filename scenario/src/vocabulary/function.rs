@@ -37,7 +37,7 @@ words! {
         Pressed = "pressed", "pressed(p, within: d): an opponent of p is nearer than d";
         Sees = "sees", "sees(p, a, within: angle): a lies within this angle of where p faces, half to each side";
         OffsideLine = "offside_line", "offside_line(team): normalised x of its offside line";
-        Closing = "closing", "closing(a, b): how much closer they came in this step";
+        Closing = "closing", "closing(a, b): the metres by which they came closer in this step";
         Prev = "prev", "prev(e): e one step ago";
         Delta = "delta", "delta(e): e less prev(e)";
         Potential = "potential", "potential(e, gamma: g): g times e less e a step ago, e being 0 once the episode terminates: shaping that changes no best policy";

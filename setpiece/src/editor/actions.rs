@@ -20,6 +20,8 @@ pub struct Action {
     pub edits: Vec<Edit>,
     /// The code of the problem that it mends.
     pub code: Option<Code>,
+    /// Why it can't be done; it has no edits then.
+    pub refused: Option<String>,
 }
 
 /// What a change is for.
@@ -40,11 +42,13 @@ impl Workspace {
     /// [`Workspace::fix_all`] has what mends the whole text.
     pub fn actions(&mut self, path: &Path, within: Range<usize>) -> Vec<Action> {
         // Whoever pastes a script wants none of its lines mended.
-        if let Some(action) = self.translation(path, &within) {
-            return vec![action];
+        let translation = self.translation(path, &within);
+        if translation.as_ref().is_some_and(|it| it.refused.is_none()) {
+            return translation.into_iter().collect();
         }
         let Some(analysis) = self.analysis(path) else { return Vec::new() };
         let mut actions = self.fixes(path, &within);
+        actions.extend(translation);
         // What is wrong is mended first.
         if analysis.errors_at(path, &within) {
             return actions;
@@ -105,6 +109,7 @@ impl Analysis {
             kind: ActionKind::Rewrite,
             edits: vec![Edit::replace(path, range, text)],
             code: None,
+            refused: None,
         })
     }
 
@@ -147,6 +152,7 @@ impl Analysis {
                 Edit::replace(path, range, name),
             ],
             code: None,
+            refused: None,
         })
     }
 
@@ -180,6 +186,7 @@ impl Analysis {
                 Edit::replace(path, range, name),
             ],
             code: None,
+            refused: None,
         })
     }
 
@@ -213,6 +220,7 @@ impl Analysis {
                 Edit::replace(path, first..last, format!("formation: {name}")),
             ],
             code: None,
+            refused: None,
         })
     }
 
@@ -236,6 +244,7 @@ impl Analysis {
                 format!("{indent}when me has ball {{\n{inside}{indent}}}\n"),
             )],
             code: None,
+            refused: None,
         })
     }
 

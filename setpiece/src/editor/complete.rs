@@ -1,10 +1,12 @@
 //! What may stand at a place of a text.
 
-use super::completion::{Completion, CompletionKind, PARAMETER, keys, keywords, word, words_of};
+use super::completion::{
+    Completion, CompletionKind, PARAMETER, joining, keys, keywords, word, words_of,
+};
 use super::cursor::{CursorPlace, context, inline_script};
 use super::keywords::KeywordBlock;
 use super::outline::flat;
-use super::place::is_script;
+use super::place::{SCRIPTS, is_script};
 use super::removable::removed;
 use super::text::word_at;
 use super::within::further;
@@ -37,10 +39,10 @@ impl Workspace {
         }
         match context(before, typed) {
             CursorPlace::Nothing => Vec::new(),
-            CursorPlace::Import => {
+            CursorPlace::File(ending) => {
                 // What is written of the path already stays.
                 let written = before.rsplit('"').next().unwrap_or_default();
-                let mut files = self.files(path);
+                let mut files = self.files(path, ending);
                 files.retain(|it| it.text.starts_with(written));
                 for file in &mut files {
                     file.text.drain(..written.len());
@@ -56,9 +58,10 @@ impl Workspace {
                 found
             }
             CursorPlace::Key(block) => keys(block),
-            CursorPlace::After("import") => {
+            CursorPlace::Quoted(ending) => {
                 let quoted = |it: Completion| Completion { text: format!("\"{}\"", it.text), ..it };
-                self.files(path).into_iter().map(quoted).collect()
+                let files = self.files(path, ending).into_iter().map(quoted);
+                files.chain(joining("rhai").filter(|_| ending == SCRIPTS)).collect()
             }
             CursorPlace::After(what) => analysis.after(what),
             CursorPlace::Measure => words_of(&[WordKind::Measure]).collect(),
@@ -110,14 +113,14 @@ fn members(base: &str) -> Vec<Completion> {
 }
 
 impl Workspace {
-    /// The files that can be imported: in the text's folder and those in it, and of the library.
-    fn files(&self, path: &Path) -> Vec<Completion> {
+    /// The files that can be named: in the text's folder and those in it, and of the library.
+    fn files(&self, path: &Path, ending: &str) -> Vec<Completion> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let relative = |file: PathBuf| {
             let parts = file.strip_prefix(folder).ok()?.iter().map(|part| part.to_str());
             Some(parts.collect::<Option<Vec<_>>>()?.join("/"))
         };
-        let files = self.files_in(folder).into_iter().filter(|it| it != path);
+        let files = self.files_in(folder, ending).into_iter().filter(|it| it != path);
         let mut beside: Vec<String> = files.filter_map(relative).collect();
         // Those of the folder itself first.
         beside.sort_by_key(|name| (name.matches('/').count(), name.clone()));
@@ -132,8 +135,8 @@ impl Workspace {
             let is_deeper = name.contains('/');
             file(name, if is_deeper { "in a folder beside this file" } else { "beside this file" })
         });
-        let library = FileLoader::library_texts().map(|(name, _)| file(name, "of the library"));
-        beside.chain(library).collect()
+        let library = FileLoader::library_texts().filter(|(name, _)| name.ends_with(ending));
+        beside.chain(library.map(|(name, _)| file(name, "of the library"))).collect()
     }
 
     /// What the texts that use a script name.

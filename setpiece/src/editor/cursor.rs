@@ -1,6 +1,7 @@
 //! What is being written where a cursor stands, by the text before it: whole or broken.
 
 use super::keywords::KeywordBlock;
+use super::place::{SCENARIOS, SCRIPTS, TABLES};
 use super::text::{code, ends_in_code, word_at};
 
 /// A statement is looked for in this many lines above a cursor.
@@ -11,8 +12,10 @@ const LINES: usize = 12;
 pub(super) enum CursorPlace<'a> {
     /// Nothing can be completed: a comment, or a text in quotes.
     Nothing,
-    /// The path of an `import`.
-    Import,
+    /// The path, in quotes, of a file with this ending.
+    File(&'static str),
+    /// A file with this ending, in quotes that aren't written yet.
+    Quoted(&'static str),
     /// What follows a dot; with the word before it.
     Member(&'a str),
     /// The unit of a number.
@@ -36,8 +39,8 @@ pub(super) fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
     let line = before.rsplit('\n').next().unwrap_or_default();
     let quoted = line.matches('"').count() % 2 == 1;
     if quoted {
-        let is_import = line.trim_start().starts_with("import");
-        return if is_import { CursorPlace::Import } else { CursorPlace::Nothing };
+        let named_by = line.rsplit_once('"').map_or("", |(before, _)| last_word(before));
+        return ending_behind(named_by).map_or(CursorPlace::Nothing, CursorPlace::File);
     }
     if !ends_in_code(before) {
         return CursorPlace::Nothing;
@@ -50,7 +53,7 @@ pub(super) fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
         return CursorPlace::Unit;
     }
     let trimmed = before.trim_end();
-    let last = trimmed.get(word_at(trimmed, trimmed.len())).unwrap_or_default();
+    let last = last_word(trimmed);
     let block = block_around(before);
     let begins = trimmed.is_empty()
         || trimmed.ends_with(['{', '}'])
@@ -60,8 +63,13 @@ pub(super) fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
     if last == "extends" && head.starts_with("formation") {
         return CursorPlace::After("formation");
     }
-    if matches!(last, "extends" | "reward" | "play" | "with" | "import") && !begins {
+    if matches!(last, "extends" | "reward" | "play" | "with") && !begins {
         return CursorPlace::After(last);
+    }
+    // `from` also joins a place: `beyond ball by 2m from `.
+    let names_file = last != "from" || head.starts_with("table");
+    if let Some(ending) = ending_behind(last).filter(|_| names_file && !begins) {
+        return CursorPlace::Quoted(ending);
     }
     if trimmed.ends_with("formation:") {
         return CursorPlace::After("formation");
@@ -77,6 +85,22 @@ pub(super) fn context<'a>(before: &'a str, typed: &str) -> CursorPlace<'a> {
         (true, block) if is_of_options(block) => CursorPlace::Key(block),
         (true, block) => CursorPlace::Statement(block),
     }
+}
+
+/// The ending of the files that are named behind a word.
+fn ending_behind(word: &str) -> Option<&'static str> {
+    match word {
+        "import" => Some(SCENARIOS),
+        "script" => Some(SCRIPTS),
+        "from" => Some(TABLES),
+        _ => None,
+    }
+}
+
+/// The word that a text ends in, without the blanks behind it.
+pub(super) fn last_word(text: &str) -> &str {
+    let trimmed = text.trim_end();
+    trimmed.get(word_at(trimmed, trimmed.len())).unwrap_or_default()
 }
 
 /// Whether the block of this word has options instead of statements.

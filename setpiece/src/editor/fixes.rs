@@ -16,7 +16,6 @@ use crate::dsl::parse::parse;
 use crate::dsl::problem::{Code, Severity};
 use crate::dsl::source::{FileId, Source};
 use crate::files::FileLoader;
-use crate::grf::scripts;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
@@ -25,8 +24,6 @@ use std::path::Path;
 const TRIES: usize = 12;
 /// For how many reports of a selection edits are tried.
 const REPORTS: usize = 6;
-/// How often the fixes of a text are applied one after the other: each may uncover another report.
-const ROUNDS: usize = 50;
 
 impl Workspace {
     /// What mends the problems that touch some bytes of a text.
@@ -37,43 +34,12 @@ impl Workspace {
         reports.iter().flat_map(|report| self.fixes_of(path, &analysis, report)).collect()
     }
 
-    /// What mends everything in a text whose report says how; none if nothing does.
-    pub fn fix_all(&self, path: &Path) -> Option<Action> {
-        let before = self.file_text(path)?;
-        let mut after = self.clone();
-        let mut from = 0;
-        for _ in 0..ROUNDS {
-            let Some(analysis) = after.analysis(path) else { break };
-            // A script of another engine is translated as a whole or not at all.
-            let scripts = scripts(&analysis.text);
-            let is_in_script = |at: usize| scripts.iter().any(|script| script.contains(&at));
-            let next = analysis
-                .own_reports(path)
-                .filter(|report| report.place.range.start >= from)
-                .filter(|report| !is_in_script(report.place.range.start))
-                .find_map(|report| {
-                    let fixes = after.clone().fixes_of(path, &analysis, report);
-                    // Which of several units or forms is meant only the author knows.
-                    let has_forms = report.help.as_ref().is_some_and(|it| it.contains(", or "));
-                    let is_range = report.help.as_ref().is_some_and(|it| it.contains("a value in"));
-                    let is_open = has_forms || is_range || (names_unit(report) && fixes.len() > 1);
-                    let fix = fixes.into_iter().next().filter(|_| !is_open);
-                    Some((report.place.range.start, fix?))
-                });
-            let Some((at, fix)) = next else { break };
-            from = at;
-            after = after.after(&fix.edits);
-        }
-        let text = after.text(path).filter(|text| ***text != *before)?;
-        Some(Action {
-            title: "apply every help that says what to write".to_owned(),
-            kind: ActionKind::FixAll,
-            edits: vec![Edit::replace(path, 0..before.len(), &**text)],
-            code: None,
-        })
-    }
-
-    fn fixes_of(&mut self, path: &Path, analysis: &Analysis, report: &TextReport) -> Vec<Action> {
+    pub(super) fn fixes_of(
+        &mut self,
+        path: &Path,
+        analysis: &Analysis,
+        report: &TextReport,
+    ) -> Vec<Action> {
         let mut tries = self.written(path, report);
         if tries.is_empty() {
             tries = meant(analysis, path, report);
@@ -100,6 +66,7 @@ impl Workspace {
                 kind: ActionKind::Fix,
                 edits: it.edits,
                 code: Some(code),
+                refused: None,
             })
             .collect()
     }
@@ -214,7 +181,7 @@ pub(super) struct Try {
 }
 
 /// Whether a report is about a text that can't be read.
-fn is_unread(report: &TextReport) -> bool {
+pub(super) fn is_unread(report: &TextReport) -> bool {
     report.code.to_string().starts_with("SP01")
 }
 

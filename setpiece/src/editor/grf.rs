@@ -8,7 +8,7 @@ use super::place::is_script;
 use super::text::ends_in_code;
 use crate::compile_text;
 use crate::files::name_of;
-use crate::grf::{GrfScript, identifier, scripts};
+use crate::grf::{GrfFault, GrfScript, identifier, scripts};
 use std::ops::Range;
 use std::path::Path;
 
@@ -32,7 +32,21 @@ impl Workspace {
         if !ends_in_code(before) || !is_outside(before) {
             return None;
         }
-        let script = GrfScript::read(text.get(range.clone())?)?;
+        let title = "turn the script of Google Research Football into a scenario";
+        let refused = |reason: String| {
+            Some(Action {
+                title: title.to_owned(),
+                kind: ActionKind::Fix,
+                edits: Vec::new(),
+                code: None,
+                refused: Some(reason),
+            })
+        };
+        let script = match GrfScript::read(text.get(range.clone())?) {
+            Ok(script) => script,
+            Err(GrfFault::Empty) => return None,
+            Err(fault) => return refused(fault.to_string()),
+        };
         let is_last = behind.trim().is_empty();
         if is_last {
             range.end = text.len();
@@ -41,16 +55,25 @@ impl Workspace {
         // A word of the language is no name; nor is one that a formation of the text has.
         let names = [stem.clone(), format!("{stem}_scenario"), format!("{stem}_script")];
         let others = format!("{before}\n{behind}");
+        let mut reason = None;
         let written = names.iter().find_map(|name| {
             let name = free_name(&others, name);
             let layouts = ["kicking", "receiving"].map(|role| format!("{name}_{role}"));
             if layouts.iter().any(|layout| free_name(&others, layout) != *layout) {
                 return None;
             }
-            let written = script.to_pitch(&name).ok()?;
-            compile_text(&written, &name_of(path)).is_ok().then_some(written)
-        })?;
-        let title = "turn the script of Google Research Football into a scenario";
+            let written = match script.to_pitch(&name) {
+                Ok(written) => written,
+                Err(fault) => {
+                    reason = Some(format!("{fault}: {}", fault.help()));
+                    return None;
+                }
+            };
+            let compiled = compile_text(&written, &name_of(path));
+            reason = compiled.as_ref().err().map(ToString::to_string);
+            compiled.is_ok().then_some(written)
+        });
+        let Some(written) = written else { return refused(reason?) };
         let title = match script.left_out.len() {
             0 => title.to_owned(),
             1 => format!("{title}, without a line that can't be read"),
@@ -64,6 +87,7 @@ impl Workspace {
             kind: ActionKind::Fix,
             edits: vec![Edit::replace(path, range, written)],
             code: None,
+            refused: None,
         })
     }
 }

@@ -28,6 +28,7 @@ impl Analysis {
         hints.extend(self.argument_names());
         hints.extend(self.inherited());
         hints.extend(self.refused());
+        hints.extend(self.paid_twice());
         hints.retain(|hint| within.start <= hint.at && hint.at <= within.end);
         hints.sort_by_key(|hint| hint.at);
         hints

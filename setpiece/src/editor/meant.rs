@@ -4,9 +4,9 @@
 //! between their backticks is tried.
 
 use super::Analysis;
-use super::above::{above, drawn};
 use super::closing::closings;
 use super::edits::Edit;
+use super::elsewhere::elsewhere;
 use super::fixes::{Try, names_unit};
 use super::report::TextReport;
 use super::text::{brackets, line_around};
@@ -47,11 +47,8 @@ pub(super) fn meant(analysis: &Analysis, path: &Path, report: &TextReport) -> Ve
     }
     let before = analysis.text.get(..range.start).unwrap_or_default();
     tries.extend(nearest_of(help, marked).map(|text| write(range.clone(), text)));
-    if let Some(above) = above(analysis, path, report, help) {
-        return vec![above];
-    }
-    if help.starts_with("draw it with a `let`") {
-        return drawn(analysis, path, &range).into_iter().collect();
+    if report.elsewhere.is_some() {
+        return elsewhere(analysis, path, report).into_iter().collect();
     }
     for (text, goes_on) in quoted(help) {
         // `2..11 CB …` is the beginning of what is marked.

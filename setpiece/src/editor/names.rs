@@ -61,7 +61,7 @@ impl NamePlaces {
     }
 }
 
-fn sort(places: &mut Vec<FilePlace>) {
+pub(super) fn sort(places: &mut Vec<FilePlace>) {
     places
         .sort_by(|one, other| (&one.path, one.range.start).cmp(&(&other.path, other.range.start)));
     places.dedup();
@@ -109,22 +109,8 @@ impl Analysis {
         self.place(declared)
     }
 
-    /// Where a declaration of a file is used in this text and in the scripts that it names.
-    fn uses_of(&self, path: &Path, declaration: &FilePlace) -> Vec<FilePlace> {
-        let is_meant = |span: Span| self.place(span).as_ref() == Some(declaration);
-        let uses = self.index.uses().filter(|(_, declared)| is_meant(*declared));
-        let mut places: Vec<FilePlace> = uses
-            .filter_map(|(at, _)| match self.own(at) {
-                Some(range) => Some(FilePlace { path: path.to_owned(), range }),
-                None => self.place(at).filter(|place| !is_scenario(&place.path)),
-            })
-            .collect();
-        sort(&mut places);
-        places
-    }
-
     /// The declarations that stand for each other.
-    fn related(&self) -> Vec<(FilePlace, FilePlace)> {
+    pub(super) fn related(&self) -> Vec<(FilePlace, FilePlace)> {
         let pairs = self.index.related();
         pairs.filter_map(|(one, other)| Some((self.place(one)?, self.place(other)?))).collect()
     }
@@ -183,41 +169,8 @@ impl Workspace {
         let Some(declaration) = self.declaration(path, offset) else {
             return NamePlaces::default();
         };
-        let files = self.files_with(&declaration);
-        let mut found = NamePlaces { declarations: vec![declaration], uses: Vec::new() };
-        let mut pairs: Vec<(FilePlace, FilePlace)> = Vec::new();
-        for path in &files {
-            pairs.extend(self.analysis(path).iter().flat_map(|analysis| analysis.related()));
-        }
-        let mut next = 0;
-        while let Some(known) = found.declarations.get(next).cloned() {
-            next += 1;
-            for (one, other) in &pairs {
-                for (this, that) in [(one, other), (other, one)] {
-                    if *this == known && !found.declarations.contains(that) {
-                        found.declarations.push(that.clone());
-                    }
-                }
-            }
-        }
-        for path in &files {
-            let Some(analysis) = self.analysis(path) else { continue };
-            for declaration in &found.declarations {
-                found.uses.extend(analysis.uses_of(path, declaration));
-            }
-        }
-        found.uses.retain(|place| !found.declarations.contains(place));
-        sort(&mut found.declarations);
-        sort(&mut found.uses);
-        found
-    }
-
-    /// The open texts, and the files near them, that have the word of a declaration.
-    fn files_with(&self, declaration: &FilePlace) -> Vec<PathBuf> {
-        let Some(name) = self.word(declaration) else { return Vec::new() };
-        let has_name =
-            |path: &PathBuf| self.file_text(path).is_some_and(|text| text.contains(&name));
-        self.files_near().into_iter().filter(has_name).collect()
+        let names = self.word(&declaration).into_iter().collect();
+        self.uses(&names).places(declaration)
     }
 
     fn word(&self, place: &FilePlace) -> Option<String> {

@@ -1,7 +1,7 @@
 //! The files that belong to the open texts: those near them that may import them.
 
 use super::Workspace;
-use super::place::is_scenario;
+use super::place::{SCENARIOS, ends_in, is_scenario};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -21,24 +21,24 @@ impl Workspace {
     pub(super) fn files_near(&self) -> BTreeSet<PathBuf> {
         let mut files = BTreeSet::new();
         for folder in &self.folders {
-            search(folder, DEPTH_MAX, &mut files);
+            search(folder, DEPTH_MAX, SCENARIOS, &mut files);
         }
         let folders: BTreeSet<&Path> = self.paths().filter_map(Path::parent).collect();
         for folder in folders {
-            search(folder, 1, &mut files);
+            search(folder, 1, SCENARIOS, &mut files);
             if let Some(above) = folder.parent() {
-                search(above, 0, &mut files);
+                search(above, 0, SCENARIOS, &mut files);
             }
         }
         files.extend(self.paths().filter(|path| is_scenario(path)).map(Path::to_owned));
         files
     }
 
-    /// The scenarios' files of a folder and of those in it, and the open texts there.
-    pub(super) fn files_in(&self, folder: &Path) -> BTreeSet<PathBuf> {
+    /// The files with this ending of a folder and of those in it, and the open texts there.
+    pub(super) fn files_in(&self, folder: &Path, ending: &str) -> BTreeSet<PathBuf> {
         let mut files = BTreeSet::new();
-        search(folder, DEPTH_MAX, &mut files);
-        let open = self.paths().filter(|it| it.starts_with(folder) && is_scenario(it));
+        search(folder, DEPTH_MAX, ending, &mut files);
+        let open = self.paths().filter(|it| it.starts_with(folder) && ends_in(it, ending));
         files.extend(open.map(Path::to_owned));
         files
     }
@@ -73,7 +73,7 @@ impl Workspace {
 }
 
 /// Adds the scenarios' files of a folder, and of the folders in it as deep as is asked.
-fn search(folder: &Path, depth: usize, files: &mut BTreeSet<PathBuf>) {
+fn search(folder: &Path, depth: usize, ending: &str, files: &mut BTreeSet<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     // In one order, so that the same files are left out where there are too many.
     let mut entries: Vec<_> = entries.flatten().collect();
@@ -86,10 +86,10 @@ fn search(folder: &Path, depth: usize, files: &mut BTreeSet<PathBuf>) {
         let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
         match entry.file_type() {
             Ok(kind) if kind.is_dir() && depth > 0 && !is_hidden => {
-                search(&path, depth - 1, files);
+                search(&path, depth - 1, ending, files);
             }
             Ok(kind) if kind.is_dir() => {}
-            _ if is_scenario(&path) => drop(files.insert(path)),
+            _ if ends_in(&path, ending) => drop(files.insert(path)),
             _ => {}
         }
     }

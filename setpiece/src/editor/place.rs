@@ -32,12 +32,22 @@ pub(super) fn is_in_library(path: &Path) -> bool {
     path.starts_with("std")
 }
 
+/// The endings of files' names: scenarios, scripts, and tables.
+pub(super) const SCENARIOS: &str = "pitch";
+pub(super) const SCRIPTS: &str = "rhai";
+pub(super) const TABLES: &str = "csv";
+
 /// Whether a file is a script.
 pub(super) fn is_script(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending == "rhai")
+    ends_in(path, SCRIPTS)
 }
 
 /// Whether a file has scenarios.
 pub(super) fn is_scenario(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending == "pitch")
+    ends_in(path, SCENARIOS)
+}
+
+/// Whether a file's name has this ending.
+pub(super) fn ends_in(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|own| own == ending)
 }

@@ -3,7 +3,7 @@
 use super::Edit;
 use super::place::FilePlace;
 use crate::dsl::ast::Span;
-use crate::dsl::problem::{Code, Problem, Rewrite, Severity};
+use crate::dsl::problem::{Code, Elsewhere, Problem, Rewrite, Severity};
 use crate::dsl::source::Sources;
 use std::ops::Range;
 
@@ -24,6 +24,8 @@ pub struct TextReport {
     pub related: Vec<(FilePlace, String)>,
     /// How the help is followed, as far as the compiler knows it.
     pub rewrites: Vec<TextRewrite>,
+    /// A statement that the help asks for elsewhere.
+    pub elsewhere: Option<Elsewhere>,
 }
 
 /// A way to follow a help.
@@ -80,6 +82,7 @@ impl TextReport {
                 .filter_map(|label| Some((FilePlace::of(label.span, sources)?, label.text.clone())))
                 .collect(),
             rewrites,
+            elsewhere: words.elsewhere,
         })
     }
 }

@@ -5,6 +5,9 @@ use super::text::{brackets, line_around, word_at};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+/// How many ranges a selection may grow by.
+const LEVELS: usize = 100;
+
 impl Analysis {
     /// What surrounds a byte, from the smallest to the whole text.
     pub fn selections(&self, offset: usize) -> Vec<Range<usize>> {
@@ -38,6 +41,10 @@ impl Analysis {
             }
         }
         nested.reverse();
+        // Nobody grows a selection so often, and an editor takes each of them as a part of the next.
+        if nested.len() > LEVELS {
+            nested.drain(LEVELS - 1..nested.len() - 1);
+        }
         nested
     }
 }

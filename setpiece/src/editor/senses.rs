@@ -131,6 +131,44 @@ const SENSES: &[Sense] = senses! {
     }
 };
 
+/// The rules of the grammar that join words to a statement, by the block that it stands in (empty:
+/// any) and by its first word (empty: any).
+const JOINING: &[(&str, &str, &[Rule])] = &[
+    ("team", "", &[Rule::player_when, Rule::relative]),
+    ("formation", "", &[Rule::player_when, Rule::relative]),
+    ("scenario", "ball", &[Rule::relative]),
+    ("reward", "give", &[Rule::give_to, Rule::give_on, Rule::give_when, Rule::label]),
+    ("reward", "give", &[Rule::event_by, Rule::event_from]),
+    ("reward", "on", &[Rule::block_when]),
+    ("reward", "when", &[Rule::when_block]),
+    ("scenario", "reward", &[Rule::audience, Rule::label]),
+    ("scenario", "end", &[Rule::end, Rule::event_by, Rule::event_from]),
+    ("scenario", "start", &[Rule::start]),
+    ("scenario", "rounds", &[Rule::rounds]),
+    ("scenario", "substitute", &[Rule::substitute]),
+    ("scenario", "param", &[Rule::param]),
+    ("scenario", "require", &[Rule::require]),
+    ("scenario", "team", &[Rule::team]),
+    ("scenario", "observe", &[Rule::seen_when]),
+    ("behavior", "do", &[Rule::do_until, Rule::do_for]),
+    ("behavior", "interrupt", &[Rule::interrupt]),
+    ("behavior", "repeat", &[Rule::repeat]),
+    ("check", "play", &[Rule::play, Rule::episodes]),
+    ("", "import", &[Rule::import]),
+];
+
+/// What a word means that joins a statement, by the statement's block and its first word.
+pub(super) fn joined(block: &str, head: &str, word: &str) -> Option<&'static str> {
+    let is_meant = |of: &str, it: &str| of.is_empty() || of == it;
+    let rules =
+        JOINING.iter().filter(|(of, first, _)| is_meant(of, block) && is_meant(first, head));
+    let mut rules = rules.flat_map(|(_, _, rules)| rules.iter());
+    rules.find_map(|rule| {
+        let known = SENSES.iter().find(|known| known.rule == *rule && known.word == word);
+        known.map(|known| known.doc)
+    })
+}
+
 /// Rules whose words are all of one kind.
 const KINDS: [(Rule, WordKind); 2] =
     [(Rule::over_kind, WordKind::OverTime), (Rule::callee, WordKind::Function)];

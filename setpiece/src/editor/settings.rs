@@ -2,6 +2,7 @@
 
 use super::Analysis;
 use super::completion::{Completion, word, words_of};
+use super::cursor::last_word;
 use super::words::WordKind;
 use crate::scenario::vocabulary::Rule;
 
@@ -60,7 +61,11 @@ fn settings(block: &str, key: &str) -> Option<Settings> {
         ("team" | "player" | "substitute", "difficulty")
         | ("player" | "substitute", "fatigue")
         | ("player", "yellow_cards")
-        | ("stats", _) => Settings::Number,
+        | ("stats" | "world" | "pitch", _)
+        | ("start", "elapsed") => Settings::Number,
+        ("start", "score") => {
+            Settings::Words(&[("[0, 0]", "goals of the left and the right team")])
+        }
         ("kickoff", "kicking" | "receiving") => Settings::Formation,
         ("ball", "owner") => Settings::WordsOrPlayers(&[]),
         ("rules", key) => match Rule::from_name(key)? {
@@ -78,19 +83,14 @@ fn settings(block: &str, key: &str) -> Option<Settings> {
 impl Analysis {
     /// What may stand behind `KEY:` in a block; none if it is any value, or another text.
     pub(super) fn settings(&self, block: &str, text: &str) -> Option<Vec<Completion>> {
-        let key = text.trim_end().strip_suffix(':')?.trim_end();
-        let key = key.rsplit(|sign: char| !(sign.is_alphanumeric() || sign == '_')).next()?;
-        let found = settings(block, key)?;
+        let found = settings(block, last_word(key_of(text)?))?;
         let (words, further): (_, Vec<Completion>) = match found {
             Settings::Words(words) => (words, Vec::new()),
             Settings::WordsOrOwn(words) => {
                 let values = self.own_names().into_iter().filter(|it| it.detail != "a player");
                 (words, values.collect())
             }
-            Settings::Number => {
-                let values = self.own_names().into_iter().filter(|it| it.detail != "a player");
-                (&[][..], values.chain(words_of(&[WordKind::Function])).collect())
-            }
+            Settings::Number => (&[][..], self.numbers()),
             Settings::Formation => (&[][..], self.after("formation")),
             Settings::WordsOrActs(words) => {
                 // `wait` says for how long, in a behaviour.
@@ -110,8 +110,25 @@ impl Analysis {
         Some(own.into_iter().chain(further).collect())
     }
 
+    /// What may be a value that no moment of the match decides.
+    pub(super) fn numbers(&self) -> Vec<Completion> {
+        let values = self.own_names().into_iter().filter(|it| it.detail != "a player");
+        values.chain(words_of(&[WordKind::Function])).collect()
+    }
+
     /// The players that have a name.
     pub(super) fn players(&self) -> Vec<Completion> {
         self.own_names().into_iter().filter(|it| it.detail == "a player").collect()
     }
+}
+
+/// The end of a text up to the key whose value is written next: of `ai: `, and of each part of
+/// `ai: if chasing then press else `.
+fn key_of(text: &str) -> Option<&str> {
+    let text = text.trim_end();
+    let is_part = matches!(last_word(text), "then" | "else");
+    let value = text.rfind([',', '{', '\n']).map_or(0, |at| at + 1);
+    let value = text.get(value..)?;
+    let end = if is_part { value.split_once(':')?.0 } else { text.strip_suffix(':')? };
+    Some(end.trim_end())
 }

@@ -2,24 +2,29 @@
 
 use super::Analysis;
 use super::areas::is_place_in;
-use super::completion::{Completion, joining, word, words_of};
+use super::completion::{Completion, CompletionKind, joining, word, words_of};
 use super::cursor::{UnfinishedStatement, unfinished};
+use super::senses::joined;
 use super::words::WordKind;
 use crate::dsl::parse::{NextPart, next_parts};
 use crate::scenario::vocabulary::{EventKind, Owner, PROPERTIES, StartKind, Type, Unit};
 use std::collections::BTreeSet;
 
-/// Words that begin a place, with what follows them.
-const PLACES: [(&str, &str); 9] = [
-    ("at", "at ${1:(0.5, 0)}"),
-    ("in", "in ${1:left.half}"),
-    ("ahead", "ahead of ${1:ball} by ${2:2m}"),
-    ("behind", "behind ${1:ball} by ${2:2m}"),
-    ("left", "left of ${1:ball} by ${2:2m}"),
-    ("right", "right of ${1:ball} by ${2:2m}"),
-    ("between", "between ${1:ball} and ${2:right.goal}"),
-    ("beyond", "beyond ${1:ball} by ${2:2m} from ${3:right.goal}"),
-    ("offset", "offset from ${1:ball} along ${2:90deg} by ${3:2m}"),
+/// What a place begins with, what it means, and what follows it.
+const PLACES: [(&str, &str, &str); 9] = [
+    ("at", "at this point", "at ${1:(0.5, 0)}"),
+    ("in", "somewhere in this region, drawn at reset", "in ${1:left.half}"),
+    ("ahead of", "nearer the opponents' goal than somebody", "ahead of ${1:ball} by ${2:2m}"),
+    ("behind", "nearer the own goal than somebody", "behind ${1:ball} by ${2:2m}"),
+    ("left of", "to the left of somebody, seen from the team", "left of ${1:ball} by ${2:2m}"),
+    ("right of", "to the right of somebody, seen from the team", "right of ${1:ball} by ${2:2m}"),
+    ("between", "on the line between two points", "between ${1:ball} and ${2:right.goal}"),
+    (
+        "beyond",
+        "behind somebody, seen from somewhere",
+        "beyond ${1:ball} by ${2:2m} from ${3:right.goal}",
+    ),
+    ("offset", "from a point along an angle", "offset from ${1:ball} along ${2:90deg} by ${3:2m}"),
 ];
 
 /// What the last event of a text may be.
@@ -36,7 +41,7 @@ impl Analysis {
         for UnfinishedStatement { block, text } in unfinished(before) {
             let parts = next_parts(block, text);
             if !parts.is_empty() {
-                if let Some(found) = self.settings(block, text) {
+                if let Some(found) = self.defaults(text).or_else(|| self.settings(block, text)) {
                     return found;
                 }
                 if is_place_in(block, text) {
@@ -50,6 +55,7 @@ impl Analysis {
 
     /// What may be read behind a text.
     fn parts(&self, parts: &[NextPart], block: &str, text: &str) -> Vec<Completion> {
+        let head = text.split_whitespace().next().unwrap_or_default();
         let last = text.split_whitespace().next_back().unwrap_or_default();
         let is_option = |key: &str| words_of(&[WordKind::Option("team")]).any(|it| it.text == key);
         // `difficulty: ` in a team has a value, `striker: ` a role.
@@ -59,11 +65,19 @@ impl Analysis {
         let mut found: Vec<Completion> = parts
             .iter()
             .flat_map(|part| match part {
-                NextPart::Keyword(name) => joining(name).into_iter().collect(),
+                NextPart::Keyword(name) => {
+                    let meant = joined(block, head, name).map(str::to_owned);
+                    let known = joining(name).into_iter();
+                    known
+                        .map(|it| Completion { doc: meant.clone().unwrap_or(it.doc), ..it })
+                        .collect()
+                }
                 NextPart::Place => PLACES
                     .iter()
-                    .filter_map(|(name, snippet)| {
-                        Some(Completion { snippet: (*snippet).to_owned(), ..joining(name)? })
+                    .map(|&(name, doc, snippet)| Completion {
+                        snippet: snippet.to_owned(),
+                        kind: CompletionKind::Keyword,
+                        ..word(name, doc, "a place")
                     })
                     .collect(),
                 NextPart::Event => words_of(&[WordKind::Event]).collect(),
@@ -72,6 +86,8 @@ impl Analysis {
                 NextPart::Type => words_of(&[WordKind::Type]).collect(),
                 NextPart::Act => words_of(&[WordKind::Act]).chain(self.after("behavior")).collect(),
                 NextPart::Unit if text.contains("limit ") => units_of_time(),
+                // Behind a blank only the units that are words are read.
+                NextPart::Unit if text.ends_with(' ') => long_units(),
                 NextPart::Unit => words_of(&[WordKind::Unit]).collect(),
                 NextPart::Name => self.named_after(text),
                 NextPart::Value if wants_role => Vec::new(),
@@ -82,8 +98,13 @@ impl Analysis {
                 NextPart::Value => self.conditions(),
             })
             .collect();
+        // A formation is drawn by `let`, and is what `formation:` and a kick-off ask for.
+        let may_be_formation = head == "let" || block == "kickoff" || text.contains("formation");
         let mut seen = BTreeSet::new();
-        found.retain(|it| seen.insert((it.text.clone(), it.doc.clone())));
+        found.retain(|it| {
+            (may_be_formation || it.detail != "a formation")
+                && seen.insert((it.text.clone(), it.doc.clone()))
+        });
         found
     }
 
@@ -131,6 +152,13 @@ impl Analysis {
         found.retain(|it| seen.insert((it.text.clone(), it.doc.clone())));
         found
     }
+}
+
+/// The units that stand behind a blank.
+fn long_units() -> Vec<Completion> {
+    words_of(&[WordKind::Unit])
+        .filter(|it| matches!(it.text.as_str(), "steps" | "episodes"))
+        .collect()
 }
 
 /// The units of durations.

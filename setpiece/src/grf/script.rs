@@ -25,6 +25,26 @@ const EPISODES: [i64; 2] = [2, 1];
 /// Episodes that must equal the first ones.
 const LATER: [i64; 4] = [3, 4, 5, 6];
 
+/// Why a script has no text.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GrfFault {
+    /// No function of it is a script, or it sets nothing that can be read.
+    #[error("nothing of it can be read")]
+    Empty,
+    /// Episodes take turns otherwise.
+    #[error(
+        "it tells more than even from odd episodes by `EpisodeNumber`; \
+         a text can alternate between two"
+    )]
+    Turns,
+    /// A team would get a keeper that the script doesn't give it.
+    #[error("the players of a team can't be read")]
+    LacksTeam,
+    /// More players than a team may have.
+    #[error("a team has more than {TEAM_MAX} players")]
+    Crowd,
+}
+
 /// A script that was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrfScript {
@@ -39,12 +59,16 @@ pub struct GrfScript {
 }
 
 impl GrfScript {
-    /// Reads a script; none if it sets nothing, or what no text can have.
-    pub fn read(text: &str) -> Option<GrfScript> {
+    /// Reads a script.
+    ///
+    /// # Errors
+    /// It sets nothing, or what no text can have.
+    pub fn read(text: &str) -> Result<GrfScript, GrfFault> {
         let lines = find::lines(text);
         let comments = find::comments(text, &lines);
         let nodes = PyNode::all(lines);
-        let at = nodes.iter().position(|node| find::is_script(&node.line))?;
+        let at = nodes.iter().position(|node| find::is_script(&node.line));
+        let at = at.ok_or(GrfFault::Empty)?;
         let run = |episode: i64| PyRun::of(&nodes, at, episode);
         let [even, odd] = EPISODES.map(run);
         let takes_turns = LATER.into_iter().all(|episode| {
@@ -56,8 +80,15 @@ impl GrfScript {
         };
         // A team without players would get a keeper.
         let is_lost = even.lacks_a_team() || odd.lacks_a_team();
-        if !takes_turns || is_lost || even.is_empty() || is_too_large(&even) || is_too_large(&odd) {
-            return None;
+        for (is_so, fault) in [
+            (even.is_empty(), GrfFault::Empty),
+            (!takes_turns, GrfFault::Turns),
+            (is_lost, GrfFault::LacksTeam),
+            (is_too_large(&even) || is_too_large(&odd), GrfFault::Crowd),
+        ] {
+            if is_so {
+                return Err(fault);
+            }
         }
         let mut ranges: Vec<_> = even.left_out().chain(odd.left_out()).collect();
         ranges.sort_by_key(|range| (range.start, std::cmp::Reverse(range.end)));
@@ -71,7 +102,7 @@ impl GrfScript {
             }
         }
         let done = |run: PyRun<'_>| run.finished();
-        Some(GrfScript { even: done(even), odd: done(odd), comments, left_out })
+        Ok(GrfScript { even: done(even), odd: done(odd), comments, left_out })
     }
 
     /// The text that says the same, in the layout of `setpiece fmt`. Comments above it have what

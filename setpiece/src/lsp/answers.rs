@@ -347,14 +347,23 @@ impl LanguageServer {
         if is_wanted(ActionKind::FixAll) {
             actions.extend(self.workspace.fix_all(&path));
         }
-        let preferred = actions.iter().position(|action| action.kind == ActionKind::Fix);
+        actions.retain(|action| action.refused.is_none() || self.shows_refused);
+        let preferred = actions
+            .iter()
+            .position(|action| action.kind == ActionKind::Fix && action.refused.is_none());
         let shown = |(at, action): (usize, &Action)| {
-            json!({
+            let mut shown = json!({
                 "title": action.title,
                 "kind": kind_of_action(action.kind),
                 "isPreferred": preferred == Some(at),
-                "edit": workspace_edit(&self.workspace, &action.edits, |path| self.uri(path)),
-            })
+            });
+            if let Some(reason) = &action.refused {
+                shown["disabled"] = json!({ "reason": reason });
+            } else {
+                let uri = |path: &Path| self.uri(path);
+                shown["edit"] = workspace_edit(&self.workspace, &action.edits, uri);
+            }
+            shown
         };
         Ok(actions.iter().enumerate().map(shown).collect())
     }

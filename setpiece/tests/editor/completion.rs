@@ -61,7 +61,11 @@ fn completion_knows_the_place() {
         (scenario("end ‸"), &["limit", "success", "failure", "when"], &["ball", "CM"]),
         (scenario("end success when ‸"), &["goal", "ball", "not", "elapsed"], &["ahead"]),
         (scenario("end limit 400 ‸"), &["steps"], &["pass", "ball"]),
-        (scenario("ball ‸"), &["at", "in", "ahead", "between"], &["striker", "pass"]),
+        (
+            scenario("ball ‸"),
+            &["at", "in", "ahead of", "left of", "between"],
+            &["striker", "pass", "left"],
+        ),
         (scenario("ball at ‸"), &["striker", "left", "centre"], &["completed", "by"]),
         (scenario("record n = ‸"), &["count", "max", "ball"], &["import"]),
         (scenario("record n = count of ‸"), &["pass", "goal"], &["import", "ahead"]),
@@ -126,6 +130,31 @@ fn completion_knows_what_an_option_may_be() {
         (scenario("kickoff left { kicking: ‸ }"), &["grf_kicking"], &["kicking", "ball"]),
         (scenario("agents { left: [striker, ‸] }"), &["striker"], &["switching"]),
         (scenario("start ‸"), &["corner", "kickoff"], &["normal", "kick_off"]),
+        (scenario("start kickoff { score: ‸"), &["[0, 0]"], &["ball", "far"]),
+        (scenario("start kickoff { elapsed: ‸"), &["far", "uniform"], &["ball", "press"]),
+        (scenario("world { drag: ‸"), &["far", "uniform"], &["ball", "striker", "grf_kicking"]),
+        (scenario("pitch { goal: ‸ }"), &["far"], &["ball", "striker"]),
+        (
+            scenario("team right { CB at (0, 0) { ai: if far > 1m then ‸"),
+            &["press", "bot", "lazy"],
+            &["striker", "distance", "far"],
+        ),
+        (
+            scenario("team right { CB at (0, 0) { ai: if far > 1m then press else ‸ } }"),
+            &["mark", "hold"],
+            &["striker", "ball"],
+        ),
+        (scenario("team right { CB at (0, 0) { ai: script ‸"), &["rhai"], &["and", "has", "in"]),
+        (scenario("param p: bool = ‸"), &["true", "false", "far"], &["ball", "striker"]),
+        (scenario("param p: team = ‸"), &["left", "right"], &["ball", "striker"]),
+        (scenario("param p: length = ‸ in 1m..3m"), &["far", "min"], &["uniform", "striker"]),
+        ("scenario a(p: bool = ‸".to_owned(), &["true", "false"], &["ball"]),
+        ("reward r(n: int = 1, w: number = ‸".to_owned(), &["max"], &["ball"]),
+        ("const far: length = ‸".to_owned(), &["min"], &["ball", "uniform"]),
+        (scenario("ball beyond centre by 2m from ‸"), &["striker", "left"], &["rhai"]),
+        (scenario("reward r { give 0.1 * ‸"), &["closing", "ball"], &["grf_kicking"]),
+        (scenario("team right { formation: choice(‸"), &["grf_kicking"], &[]),
+        (scenario("let shape = ‸"), &["grf_kicking"], &[]),
         ("formation f { ‸ }".to_owned(), &["CB"], &["difficulty"]),
         ("formation f extends ‸".to_owned(), &["grf_kicking"], &["academy"]),
         ("check \"c\" { play academy with ‸".to_owned(), &["bot", "run_and_shoot"], &["ball"]),
@@ -281,4 +310,45 @@ fn a_region_behind_in_an_inherited_name_behind_remove_and_a_file_of_a_folder() {
     };
     assert!(offered(at).contains(&"deeper/parts/two.pitch".to_owned()));
     assert_eq!(offered(at + "\"\nimport \"deeper/".len()), ["parts/two.pitch"]);
+}
+
+/// What is offered says what it means there, not what the word means elsewhere.
+#[test]
+fn a_word_is_offered_with_what_it_means_there() {
+    for (text, word, meaning) in [
+        (scenario("ball ‸"), "left of", "seen from the team"),
+        (scenario("ball ‸"), "in", "drawn at reset"),
+        (scenario("team right { CB ‸"), "when", "the player is there"),
+        (scenario("end success ‸"), "when", "the episode ends"),
+        (scenario("reward r { give 0.1 ‸"), "on", "paid in steps with one of these events"),
+        (scenario("reward r { give 0.1 on goal ‸"), "by", "whose deed"),
+        (scenario("start corner ‸"), "for", "the team that takes it"),
+        ("behavior b { do press ‸".to_owned(), "for", "how long the act lasts"),
+    ] {
+        let (mut workspace, path, at) = marked(&text);
+        let found = workspace.complete(&path, at);
+        let offered = found.iter().find(|it| it.text == word);
+        let offered = offered.unwrap_or_else(|| panic!("{text}: {found:?}"));
+        assert!(offered.doc.contains(meaning), "{text}: {offered:?}");
+    }
+    let (mut workspace, path, at) = marked(&scenario("reward r { give 0.1 ‸"));
+    let found = workspace.complete(&path, at);
+    assert!(!found.iter().any(|it| it.text == "m/s"), "a unit behind a blank: {found:?}");
+}
+
+#[test]
+fn a_script_is_named_by_its_file() {
+    for (line, file) in [
+        ("team right { CB at (0, 0) { ai: script ‸ } }", "\"press.rhai\""),
+        ("team right { CB at (0, 0) { ai: script \"‸\" } }", "press.rhai"),
+        ("reward script ‸", "\"press.rhai\""),
+        ("reward script \"pr‸", "press.rhai"),
+    ] {
+        let (mut workspace, path, at) = marked(&scenario(line));
+        workspace.set(&path.parent().unwrap().join("press.rhai"), "fn act(ctx, now) { 0 }");
+        let found: Vec<String> =
+            workspace.complete(&path, at).into_iter().map(|it| it.text).collect();
+        assert!(found.iter().any(|it| it == file), "{line}: {found:?}");
+        assert!(!found.iter().any(|it| it.contains(".pitch")), "{line}: {found:?}");
+    }
 }

@@ -104,12 +104,37 @@ fn lines_that_cannot_be_read_are_named() {
     }
 }
 
-/// A script that no text can express, or that stands in a comment, keeps its other helps.
+/// A script that no text can express is refused with the reason, and keeps its other helps.
 #[test]
-fn no_translation_is_offered_that_does_not_compile() {
+fn a_script_that_no_text_can_express_is_refused_with_the_reason() {
+    let turns = |condition: &str| {
+        let turning = format!(
+            "  if {condition}:\n    builder.SetBallPosition(0.1, 0)\n  else:\n    builder.SetBallPosition(0.2, 0)\n"
+        );
+        format!("{SCRIPT}{turning}")
+    };
+    let other_players =
+        "  if builder.EpisodeNumber() % 2 == 0:\n    builder.AddPlayer(0.5, 0, e_PlayerRole_CF)\n";
+    for (text, reason) in [
+        (SCRIPT.replace("0.62", "3"), "off the pitch"),
+        (SCRIPT.replace("400", "-1"), "-1"),
+        (turns("builder.EpisodeNumber() % 3 == 0"), "more than even from odd episodes"),
+        (format!("{SCRIPT}{other_players}"), "other players in odd than in even episodes"),
+    ] {
+        let at = text.find("builder.config").expect("a script");
+        let (_, actions) = actions("odd.pitch", &text, at);
+        let refused: Vec<_> = actions.iter().filter(|it| it.title.contains("script of")).collect();
+        let [refused] = refused.as_slice() else { panic!("{text}: {actions:?}") };
+        assert!(refused.edits.is_empty(), "{refused:?}");
+        let given = refused.refused.as_deref().expect("a reason");
+        assert!(given.contains(reason), "{given}");
+    }
+}
+
+/// What is no script, or stands in a comment, keeps its other helps.
+#[test]
+fn no_translation_is_offered_of_what_is_no_script() {
     for text in [
-        SCRIPT.replace("0.62", "3"),
-        SCRIPT.replace("400", "-1"),
         SCRIPT.replace("def build_scenario", "def build_scenery"),
         format!("/*\n{SCRIPT}*/\n{OTHER}"),
         format!("scenario s extends academy {{\n    script rhai \"\"\"\n{SCRIPT}\"\"\"\n}}\n"),

@@ -176,7 +176,8 @@ impl Reader<'_> {
             let followed = AFTER_ROLE.contains(&behind) && Role::from_name(word).is_none();
             let keyword =
                 nearest(word, context.keywords().iter().copied().chain(AFTER_ROLE.iter().copied()));
-            if like_role || counted || (followed && keyword.is_none()) {
+            let is_misplaced = starts && self.misplaced(context, word, at, None).is_some();
+            if like_role || counted || (followed && keyword.is_none() && !is_misplaced) {
                 return Some(fresh(Self::unknown_role(word, self.at(at))));
             }
         }

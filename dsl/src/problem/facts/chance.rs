@@ -2,7 +2,7 @@
 
 use super::{Fact, facts};
 use crate::problem::Code;
-use crate::problem::said::say;
+use crate::problem::said::{Elsewhere, say};
 use crate::source::Span;
 use setpiece_scenario::vocabulary::PitchFigure;
 
@@ -51,7 +51,8 @@ facts! {
         NoDrawHere { function: &'static str, is_constant: bool } =
             if *is_constant { Code::NotConstant } else { Code::WrongScope } =>
             say(format!("`{function}` draws at reset, not here"), "")
-                .help("draw it with a `let` of the scenario and use the name"),
+                .help("draw it with a `let` of the scenario and use the name")
+                .elsewhere(Elsewhere::Named),
         /// A draw of a behavior that belongs to no statement: it would happen in every step.
         NoDrawNow { function: &'static str } = Code::WrongScope =>
             say(format!("`{function}` draws when a statement is reached, not here"), "looked at again and again")

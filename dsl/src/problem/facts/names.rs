@@ -1,7 +1,7 @@
 //! Names that nothing has, that are declared twice, hide one another or lead in a circle.
 
 use super::facts;
-use crate::problem::said::{Said, say};
+use crate::problem::said::{Elsewhere, Said, say};
 use crate::problem::{Code, Guess};
 use crate::source::Span;
 
@@ -132,7 +132,8 @@ facts! {
         /// backticks.
         OfBlock { whose: String, option: String, block: &'static str } = Code::UnknownOption =>
             say(format!("{whose} has no option `{option}`"), format!("an option of `{block}`"))
-                .help(format!("write `{block} {{ {option}: … }}`")),
+                .help(format!("write `{block} {{ {option}: … }}`"))
+                .elsewhere(Elsewhere::Moved(block)),
         /// The ball has no mass of its own; `option`: what it was called.
         NoMass { whose: String, option: String } = Code::UnknownOption =>
             say(format!("{whose} has no option `{option}`"), "a ball's mass shows only in the air")
@@ -280,7 +281,11 @@ facts! {
             match is {
                 _ if said.help.is_some() => said,
                 Assigned::Value => said.help("only a `state` is assigned"),
-                _ => said.help(format!("declare it at the top: `state {name} = 0`")),
+                _ => {
+                    let statement = format!("state {name} = 0");
+                    said.help(format!("declare it at the top: `{statement}`"))
+                        .elsewhere(Elsewhere::OfBody(statement))
+                }
             }
         },
         /// A record reads a state that a reward doesn't have.

@@ -2,7 +2,7 @@
 
 use super::facts;
 use crate::problem::Code;
-use crate::problem::said::say;
+use crate::problem::said::{Elsewhere, Said, say};
 use crate::source::Span;
 use setpiece_scenario::PitchSize;
 use setpiece_scenario::vocabulary::{EventKind, PitchMeasure, Rule, Team};
@@ -16,7 +16,7 @@ facts! {
         /// A payment that no match can earn.
         NeverPays {
             why: Never,
-        } = Code::NeverPays => say("this `give` never pays", "").help(why.words()),
+        } = Code::NeverPays => why.add(say("this `give` never pays", "")),
         /// A receiver that is relative to the agent who is judged.
         ReceiverOfView { name: String, word: &'static str } = Code::WrongType => {
             let said = say(format!("`{word} {name}` says nothing: every agent is judged for itself"), "");
@@ -50,7 +50,7 @@ facts! {
             say(format!("an episode of `{scenario}` never ends"), "").help("write, for example, `end limit 400 steps`"),
         /// An ending whose condition no match meets.
         NeverComes { label: String, why: Never } = Code::NeverEnds =>
-            say(format!("the ending `{label}` never comes about"), "never holds").help(why.words()),
+            why.add(say(format!("the ending `{label}` never comes about"), "never holds")),
         /// An ending that holds only when an earlier one does, which names the outcome.
         Forestalled {
             label: String,
@@ -58,16 +58,20 @@ facts! {
             at: Span,
             is_inherited: bool,
         } = Code::NeverEnds =>
-            say(
+{
+            let said = say(
                 format!("the ending `{label}` never comes about: `{earlier}` holds whenever it does"),
                 "checked later",
             )
-            .at(at, "checked first, and names the outcome")
-            .help(if *is_inherited {
-                format!("take the other one out, `remove end {earlier}`, or call this one `{earlier}`, too")
+            .at(at, "checked first, and names the outcome");
+            if *is_inherited {
+                let out = format!("remove end {earlier}");
+                said.help(format!("take the other one out, `{out}`, or call this one `{earlier}`, too"))
+                    .elsewhere(Elsewhere::OfScenario(out))
             } else {
-                format!("write it above `{earlier}`, or leave one of them out")
-            }),
+                said.help(format!("write it above `{earlier}`, or leave one of them out"))
+            }
+        },
         /// Of several earlier endings one holds whenever it does.
         ForestalledTogether {
             label: String,
@@ -166,12 +170,29 @@ pub(crate) enum Because {
 }
 
 impl Never {
+    fn add(self, said: Said) -> Said {
+        let said = said.help(self.words());
+        match self {
+            Never::SwitchedOff(_, rule) => said.elsewhere(Elsewhere::Setting(
+                "rules",
+                rule.to_string(),
+                Never::switched_on(rule).to_owned(),
+            )),
+            _ => said,
+        }
+    }
+
+    /// What a rule is set to for its event to happen.
+    fn switched_on(rule: Rule) -> &'static str {
+        if rule == Rule::HalfTime { "1500 steps" } else { "on" }
+    }
+
     fn words(self) -> String {
         match self {
             Never::Nothing => "it pays 0: write another value, or leave it out".to_owned(),
             Never::SwitchedOff(event, rule) => {
-                let write = if rule == Rule::HalfTime { "1500 steps" } else { "on" };
-                format!("`{event}` never happens: write `rules {{ {rule}: {write} }}`")
+                let value = Never::switched_on(rule);
+                format!("`{event}` never happens: write `rules {{ {rule}: {value} }}`")
             }
             Never::CompletedToOpponent => {
                 "a pass is completed to a team mate: write `pass intercepted`, or name one"

@@ -176,7 +176,8 @@ class Replay:
 
         - `folder`: is made if it isn't there.
         - `form`: `"cdf"`, Common Data Format: `meta.json`, `tracking.jsonl`, `event.jsonl`; or
-          `"csv"`: `meta.json`, `tracking.csv`, `events.csv`. `setpiece.kloppy` reads both.
+          `"csv"`: `meta.json`, `tracking.csv`, `events.csv`. Both have `pitch.json`, and
+          `setpiece.kloppy` reads both.
 
         Raises `ParameterError` for another form, `FileError` if the files can't be written,
         `ReplayError` if this build diverges from the recording.

@@ -76,8 +76,8 @@ FIGURES = [
     "penalty_spot_distance",
     "circle_radius",
 ]
-"""What `meta.json` says of the pitch, metres, by the names that kloppy has for it. Files of other
-makers have the length and the width alone."""
+"""What `pitch.json` says of the pitch, metres, by the names that kloppy has for it. Without that
+file, kloppy's own figures stand."""
 
 SHOT = {
     "successful": ShotResult.GOAL,
@@ -150,9 +150,10 @@ def _file(folder: str | PathLike[str], what: str) -> Path:
 
 @dataclass
 class _Match:
-    """What `meta.json` says about the match."""
+    """What `meta.json` and `pitch.json` say about the match."""
 
     sheet: dict[str, Any]
+    figures: dict[str, float]
     teams: list[Team]
     players: dict[str, Player]
     periods: dict[str, Period]
@@ -160,6 +161,8 @@ class _Match:
     @classmethod
     def read(cls, folder: str | PathLike[str]) -> _Match:
         sheet = json.loads((Path(folder) / "meta.json").read_text(encoding="utf-8"))
+        pitch = Path(folder) / "pitch.json"
+        figures = json.loads(pitch.read_text(encoding="utf-8")) if pitch.is_file() else {}
         teams, players = [], {}
         for side, ground in (("home", Ground.HOME), ("away", Ground.AWAY)):
             given = sheet["teams"][side]
@@ -182,12 +185,11 @@ class _Match:
                 start_timestamp=_since_start(given["start_time"]),
                 end_timestamp=_since_start(given["end_time"]),
             )
-        return cls(sheet, teams, players, periods)
+        return cls(sheet, figures, teams, players, periods)
 
     def metadata(self, flags: DatasetFlag, events: list[Event] | None = None) -> Metadata:
-        venue = self.sheet["venue"]
-        length, width = venue["pitch_length"], venue["pitch_width"]
-        figures = {key: venue[key] for key in FIGURES if key in venue}
+        length, width = (self.sheet["venue"][key] for key in ("pitch_length", "pitch_width"))
+        figures = {key: self.figures[key] for key in FIGURES if key in self.figures}
         pitch = MetricPitchDimensions(
             x_dim=Dimension(-length / 2, length / 2),
             y_dim=Dimension(-width / 2, width / 2),

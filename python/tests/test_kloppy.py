@@ -21,8 +21,8 @@ from setpiece.kloppy import load_event, load_tracking  # noqa: E402
 
 X_SCALE_M, Y_SCALE_M = 54.4, 83.6
 FILES = {
-    "cdf": ["meta.json", "tracking.jsonl", "event.jsonl"],
-    "csv": ["meta.json", "tracking.csv", "events.csv"],
+    "cdf": ["meta.json", "tracking.jsonl", "event.jsonl", "pitch.json"],
+    "csv": ["meta.json", "tracking.csv", "events.csv", "pitch.json"],
 }
 
 

@@ -30,9 +30,10 @@ const FRAME_MS: u32 = 1000 / FRAME_RATE;
 /// The form of the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrackingForm {
-    /// Common Data Format: `meta.json`, `tracking.jsonl`, `event.jsonl`.
+    /// Common Data Format: `meta.json`, `tracking.jsonl`, `event.jsonl`; and `pitch.json`, which the
+    /// format has no place for.
     Cdf,
-    /// Tables: `tracking.csv`, `events.csv`, and the same `meta.json`.
+    /// Tables: `tracking.csv`, `events.csv`, and the same `meta.json` and `pitch.json`.
     Csv,
 }
 
@@ -168,11 +169,13 @@ impl Tracking {
                 ("meta.json", cdf::meta(self)),
                 ("tracking.jsonl", cdf::tracking(self)),
                 ("event.jsonl", cdf::events(self)),
+                ("pitch.json", cdf::pitch(&self.pitch)),
             ],
             TrackingForm::Csv => vec![
                 ("meta.json", cdf::meta(self)),
                 ("tracking.csv", csv::tracking(self)),
                 ("events.csv", csv::events(self)),
+                ("pitch.json", cdf::pitch(&self.pitch)),
             ],
         };
         let mut paths = Vec::new();

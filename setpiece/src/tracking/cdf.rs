@@ -51,7 +51,11 @@ pub(super) fn meta(tracking: &Tracking) -> String {
             "whistles": halves.iter().flat_map(CdfHalf::whistles).collect::<Vec<_>>(),
         },
         "teams": {"home": side(Team::Left), "away": side(Team::Right)},
-        "venue": venue(&tracking.pitch),
+        "venue": {
+            "id": "setpiece",
+            "pitch_length": 2.0 * tracking.pitch.half_length(),
+            "pitch_width": 2.0 * tracking.pitch.half_width(),
+        },
         "officials": [{"id": REFEREE, "type": "main_referee"}],
         "meta": {
             "video": null,
@@ -66,14 +70,11 @@ pub(super) fn meta(tracking: &Tracking) -> String {
     format!("{sheet:#}\n")
 }
 
-/// The pitch, metres. The format has its length and width; what it doesn't have, `setpiece.kloppy`
-/// reads.
-fn venue(pitch: &PitchSize) -> Value {
+/// The goals and boxes of the pitch, metres. The strict validator of the format accepts no further
+/// keys in `meta.json`, so they have a file of their own, which `setpiece.kloppy` reads.
+pub(super) fn pitch(pitch: &PitchSize) -> String {
     let twice = |measure| 2.0 * pitch.measure(measure);
-    json!({
-        "id": "setpiece",
-        "pitch_length": twice(PitchMeasure::HalfLength),
-        "pitch_width": twice(PitchMeasure::HalfWidth),
+    let sheet = json!({
         "goal_width": twice(PitchMeasure::GoalHalfWidth),
         "goal_height": pitch.measure(PitchMeasure::GoalHeight),
         "penalty_area_length": pitch.measure(PitchMeasure::BoxDepth),
@@ -82,7 +83,8 @@ fn venue(pitch: &PitchSize) -> Value {
         "six_yard_width": twice(PitchMeasure::SixYardHalfWidth),
         "penalty_spot_distance": pitch.measure(PitchMeasure::PenaltySpot),
         "circle_radius": pitch.measure(PitchMeasure::Circle),
-    })
+    });
+    format!("{sheet:#}\n")
 }
 
 /// A half, and its first and last frame.

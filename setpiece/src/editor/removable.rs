@@ -12,9 +12,8 @@ use crate::files::FileLoader;
 /// `end`.
 pub(super) fn removed(before: &str) -> Option<(&str, usize)> {
     let (rest, what) = before.trim_end().rsplit_once(char::is_whitespace)?;
-    let rest = rest.trim_end();
-    let is_behind = before.ends_with(char::is_whitespace) && rest.ends_with("remove");
-    is_behind.then_some((what, rest.len() - "remove".len()))
+    let statement = rest.trim_end().strip_suffix("remove")?;
+    before.ends_with(char::is_whitespace).then_some((what, statement.len()))
 }
 
 impl Analysis {

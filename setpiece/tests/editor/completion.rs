@@ -79,6 +79,8 @@ fn completion_knows_the_place() {
         ("behavior b { do ‸ }".to_owned(), &["press", "hold"], &["ball"]),
         (scenario("end limit 40‸"), &["steps", "m/s"], &["pass"]),
         (scenario("// a ‸"), &[], &["ball"]),
+        // The first words of a file.
+        ("x = ‸".to_owned(), &[], &["scoring"]),
         (scenario("/* a ‸ */"), &[], &["ball"]),
         (scenario("// }\n    ‸"), &["ball", "team"], &["scenario"]),
         (scenario("reward scoring as \"}\"\n    ‸"), &["ball", "team"], &["scenario"]),

@@ -30,8 +30,8 @@ const FRAME_MS: u32 = 1000 / FRAME_RATE;
 /// The form of the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrackingForm {
-    /// Common Data Format: `meta.json`, `tracking.jsonl`, `event.jsonl`; and `pitch.json`, which the
-    /// format has no place for.
+    /// Common Data Format: `meta.json`, `tracking.jsonl`, `event.jsonl`; and `pitch.json`, for
+    /// which the format has no place.
     Cdf,
     /// Tables: `tracking.csv`, `events.csv`, and the same `meta.json` and `pitch.json`.
     Csv,

@@ -41,7 +41,7 @@ impl Analysis {
             }
         }
         nested.reverse();
-        // Nobody grows a selection so often, and an editor takes each of them as a part of the next.
+        // Nobody grows a selection so often, and an editor takes each as a part of the next.
         if nested.len() > LEVELS {
             nested.drain(LEVELS - 1..nested.len() - 1);
         }

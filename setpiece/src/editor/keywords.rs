@@ -173,11 +173,11 @@ pub(super) const KEYWORDS: &[Keyword] = keywords! {
         "with" "who plays; or how likely a requirement is";
     }
     Within "place" {
-        "ahead" "ahead of somebody, seen from the team" ;
+        "ahead" "ahead of somebody, as they face or attack" ;
         "along" "the direction of an offset";
         "at" "at a point";
         "away" "away from a point";
-        "behind" "behind somebody, seen from the team";
+        "behind" "behind somebody, as they face or attack";
         "between" "between two points";
         "beyond" "beyond somebody, seen from somewhere";
         "by" "how far; or whose deed an event is";

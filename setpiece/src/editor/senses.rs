@@ -32,8 +32,8 @@ const SENSES: &[Sense] = senses! {
     "place" {
         place_at "at" "at this point";
         place_in "in" "somewhere in this region, drawn at reset";
-        relative "left" "to the left of somebody, seen from the team";
-        relative "right" "to the right of somebody, seen from the team";
+        relative "left" "to the left of somebody, as they face or attack";
+        relative "right" "to the right of somebody, as they face or attack";
         relative "of" "from which player or point";
         relative "by" "how far";
         between "and" "the other point";

@@ -14,10 +14,14 @@ use std::collections::BTreeSet;
 const PLACES: [(&str, &str, &str); 9] = [
     ("at", "at this point", "at ${1:(0.5, 0)}"),
     ("in", "somewhere in this region, drawn at reset", "in ${1:left.half}"),
-    ("ahead of", "nearer the opponents' goal than somebody", "ahead of ${1:ball} by ${2:2m}"),
-    ("behind", "nearer the own goal than somebody", "behind ${1:ball} by ${2:2m}"),
-    ("left of", "to the left of somebody, seen from the team", "left of ${1:ball} by ${2:2m}"),
-    ("right of", "to the right of somebody, seen from the team", "right of ${1:ball} by ${2:2m}"),
+    ("ahead of", "ahead of somebody, as they face or attack", "ahead of ${1:ball} by ${2:2m}"),
+    ("behind", "behind somebody, as they face or attack", "behind ${1:ball} by ${2:2m}"),
+    ("left of", "to the left of somebody, as they face or attack", "left of ${1:ball} by ${2:2m}"),
+    (
+        "right of",
+        "to the right of somebody, as they face or attack",
+        "right of ${1:ball} by ${2:2m}",
+    ),
     ("between", "on the line between two points", "between ${1:ball} and ${2:right.goal}"),
     (
         "beyond",

@@ -318,7 +318,7 @@ fn a_region_behind_in_an_inherited_name_behind_remove_and_a_file_of_a_folder() {
 #[test]
 fn a_word_is_offered_with_what_it_means_there() {
     for (text, word, meaning) in [
-        (scenario("ball ‸"), "left of", "seen from the team"),
+        (scenario("ball ‸"), "left of", "as they face or attack"),
         (scenario("ball ‸"), "in", "drawn at reset"),
         (scenario("team right { CB ‸"), "when", "the player is there"),
         (scenario("end success ‸"), "when", "the episode ends"),

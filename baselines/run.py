@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import statistics
 import sys
@@ -74,12 +75,13 @@ def results(runs: Iterable[Run]) -> dict[str, list[dict[str, Any]]]:
     return found
 
 
-def spread(values: list[float], digits: int = 2) -> str:
+def spread(values: list[float], digits: int = 2, unit: str = "") -> str:
     """Returns the median of some runs, and the least and greatest if there are several."""
-    middle = f"{statistics.median(values):.{digits}f}"
-    if len(values) == 1:
-        return middle
-    return f"{middle} ({min(values):.{digits}f} to {max(values):.{digits}f})"
+    middle, least, most = (
+        "never" if value == math.inf else f"{value:.{digits}f}{unit}"
+        for value in (statistics.median(values), min(values), max(values))
+    )
+    return middle if len(values) == 1 else f"{middle} ({least} to {most})"
 
 
 def reached(found: dict[str, Any], score: float = GOOD) -> float | None:
@@ -95,11 +97,8 @@ def reached(found: dict[str, Any], score: float = GOOD) -> float | None:
 def row(found: list[dict[str, Any]]) -> list[str]:
     """Returns the cells of an entry."""
     settings = found[0]["settings"]
-    good = [reached(one) for one in found]
-    there = [steps / 1e6 for steps in good if steps is not None]
-    when = f"{statistics.median(there):.1f} M" if len(there) == len(good) else "not reached"
-    if 0 < len(there) < len(good):
-        when = f"in {len(there)} of {len(good)} runs"
+    good = [math.inf if (steps := reached(one)) is None else steps / 1e6 for one in found]
+    when = spread(good, 2, " M") if min(good) < math.inf else "never"
     seconds = [
         sum(spent for what, spent in one["seconds"].items() if what != "wall") for one in found
     ]

@@ -6,9 +6,9 @@
 //!
 //! - [`movement`] (with `stride` and [`pace`]), [`separation`] and [`mod@frame`] move bodies.
 //! - [`reach`] computes who is at the ball first.
-//! - [`touch`] (with `dribble`, `dribble_motion` and `first_touch`), [`duel`], [`slide`], [`kick`]
-//!   (with [`pass`] and [`shot`]) and [`keeper`] play the ball, which may also [`bounce`] off a
-//!   body. [`contact`] decides what that means.
+//! - [`touch`] (with `dribble`, `dribble_motion` and `first_touch`), [`past`], [`duel`], [`slide`],
+//!   [`kick`] (with [`pass`] and [`shot`]) and [`keeper`] (with `save_motion`) play the ball, which
+//!   may also [`bounce`] off a body. [`contact`] decides what that means.
 //! - [`referee`], [`offside`] and [`foul`] let the [`whistle`] stop play, [`advantage`] lets it
 //!   run, and [`mod@restart`] resumes it.
 //! - [`set_piece`] and [`lineup`] decide who stands where, and [`switching`] which player each
@@ -41,6 +41,7 @@ pub mod offside;
 pub mod pace;
 pub mod pass;
 pub mod pass_target;
+pub mod past;
 mod poke;
 pub mod possession;
 pub mod reach;
@@ -48,6 +49,7 @@ pub mod recent;
 pub mod referee;
 pub mod report;
 pub mod restart;
+mod save_motion;
 pub mod separation;
 pub mod set_piece;
 pub mod shot;

@@ -77,12 +77,12 @@ def test_a_row_has_the_median_the_least_and_the_greatest(run: Any) -> None:
         "3",
         "0.80 (0.30 to 0.90)",
         "0.81 (0.31 to 0.91)",
-        "in 2 of 3 runs",
+        "3.00 M (2.00 M to never)",
         "1.0 (1.0 to 2.0)",
         "1,000",
     ]
-    assert run.row([one, two])[5] == "2.5 M"
-    assert run.row([three])[3:6] == ["0.30", "0.31", "not reached"]
+    assert run.row([one, two])[5] == "2.50 M (2.00 M to 3.00 M)"
+    assert run.row([three])[3:6] == ["0.30", "0.31", "never"]
 
 
 def test_evaluations_while_training_say_when_a_score_is_reached(run: Any) -> None:
@@ -92,7 +92,7 @@ def test_evaluations_while_training_say_when_a_score_is_reached(run: Any) -> Non
     }
     checked["settings"] = {"scenario": "mine", "levels": "examples/course.pitch"}
     assert run.row([checked])[0] == "`examples/course.pitch`"
-    assert run.row([checked])[5] == "0.9 M"
+    assert run.row([checked])[5] == "0.90 M"
 
 
 def test_an_unknown_run_is_named(run: Any, capsys: pytest.CaptureFixture[str]) -> None:

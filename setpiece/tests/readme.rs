@@ -78,9 +78,10 @@ fn its_consoles_are_what_is_printed() {
     let text = std::fs::read_to_string(readme()).unwrap();
     let sample = "cargo run --release -- run ";
     let behind = text.find(sample).expect("README runs a scenario") + sample.len();
-    let name = text[behind..].lines().next().unwrap();
-    let line = format!("{sample}{name}\n```\n");
-    let [results, _] = printed(&["run", name], folder.path());
+    let given = text[behind..].lines().next().unwrap();
+    let line = format!("{sample}{given}\n```\n");
+    let args: Vec<&str> = ["run"].into_iter().chain(given.split(' ')).collect();
+    let [results, _] = printed(&args, folder.path());
     hold(&line, &results);
 
     std::fs::write(folder.path().join("corner_routine.pitch"), SLIPS).unwrap();

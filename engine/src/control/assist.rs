@@ -76,8 +76,9 @@ pub fn meeting(game: &Match, id: PlayerId, wish: Vec2) -> Option<(Vec2, f32)> {
     let along = (player.pos - ball).dot(way);
     let nearest = ball + way * along;
     let comes = {
-        let at =
-            |seconds: f32| game.play.forecast.at(game.tick + (100.0 * seconds) as u32).truncate();
+        let at = |seconds: f32| {
+            game.play.forecast.at(game.tick.saturating_add((100.0 * seconds) as u32)).truncate()
+        };
         (at(soonest_s + 0.1) - at(soonest_s)).normalize_or(ahead)
     };
     let top = PACE * player.body.speed_top_mps;

@@ -159,7 +159,6 @@ pub fn note(game: &mut Match, by: PlayerId, touch: Touch) {
         Touch::Sprang if game.play.offside & team_bits(by.team().other()) != 0 => game.play.offside,
         Touch::Sprang | Touch::Played => offside::positions(game, by),
     };
-    game.play.save = [None; 2];
 }
 
 /// A team's players, one bit each.

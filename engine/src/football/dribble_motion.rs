@@ -156,6 +156,16 @@ const COURSE_TICKS: [u32; 2] = [12, 18];
 const ROLLS_MPS: f32 = 2.0;
 /// The sides to which a motion is made.
 const SIDES: [f32; 2] = [1.0, -1.0];
+/// Which share of the way to the ball a body is drawn. Forwards it comes at most `FORWARD_M` in a
+/// tick, less the faster it goes on (`FORWARD_MPS`, `FORWARDS`), and loses `FORWARD_LOST_M`. An
+/// opponent nearer than `PRESSED_M`, metres, leaves as little as `PRESSED` of it. (GRF's.)
+const DRAWN: f32 = 0.6;
+const FORWARD_M: f32 = 0.025;
+const FORWARD_MPS: f32 = 6.0;
+const FORWARDS: f32 = 0.6;
+const FORWARD_LOST_M: f32 = 0.02;
+const PRESSED_M: [f32; 2] = [0.6, 1.2];
+const PRESSED: f32 = 0.7;
 /// By how much a sprinter's touch strays, radians. Fitted to how far sprinters get off their line.
 const STRAY_RAD: f32 = 0.006;
 /// How far to one side a standing player begins a touch, metres, and by which angle every ball goes
@@ -216,6 +226,7 @@ pub(super) fn start(game: &mut Match, id: PlayerId, motion: &DribbleMotion, aim:
         MotionEnd::Bent => (BENT_MPS, false),
     };
     let now = game.tick as i32;
+    let [steps_before, steps_after] = steps(game, id, motion);
     let lunge = Lunge {
         at: now + motion.ticks,
         out: motion.ticks as u8,
@@ -228,6 +239,8 @@ pub(super) fn start(game: &mut Match, id: PlayerId, motion: &DribbleMotion, aim:
         at_dmps: matches!(motion.out, MotionEnd::On)
             .then(|| (motion.at_mps(player.vel.length()) * 10.0).round() as u8),
         wish,
+        steps_before,
+        steps_after,
     };
     let leads = left_leads(player, asks(game, id), motion, run, now);
     let stands = player.vel.length_squared() < DRIBBLES_FROM_MPS * DRIBBLES_FROM_MPS;
@@ -239,6 +252,44 @@ pub(super) fn start(game: &mut Match, id: PlayerId, motion: &DribbleMotion, aim:
     player.body.ready_at = lunge.until();
     player.body.lunge = Some(lunge);
     true
+}
+
+/// How far the body moves besides its run in each tick of a motion before the touch, and after it,
+/// world metres. It leans to the ball and comes back, and is drawn to where the ball will be.
+fn steps(game: &Match, id: PlayerId, motion: &DribbleMotion) -> [Vec2; 2] {
+    let player = game.player(id);
+    let (pace, run) = (player.vel.length(), run(player));
+    let ticks = motion.ticks as f32;
+    let leans_m = match motion.out {
+        MotionEnd::On => {
+            (motion.mean_mps(pace) - 0.5 * (pace + motion.at_mps(pace))) * ticks * 0.01
+        }
+        _ => 0.0,
+    };
+    let off = |side: f32| {
+        let (touch, ball) = motion.touch(game, id, side);
+        ball - touch.made_for
+    };
+    let [one, other] = SIDES.map(off);
+    let off = if one.length_squared() <= other.length_squared() { one } else { other };
+    let mut drawn = leg::drawn(off, DRAWN);
+    let out = motion.touch(game, id, 0.0).0.out.x;
+    if drawn.x > 0.0 {
+        let most = FORWARD_M * (1.0 - math::pow((out / FORWARD_MPS).min(1.0), FORWARDS)) * ticks;
+        drawn.x = (drawn.x - FORWARD_LOST_M).clamp(0.0, most);
+    }
+    let near_m = nearest_rival_m(game, id);
+    drawn *= math::mix(PRESSED, 1.0, math::share(near_m, PRESSED_M[0], PRESSED_M[1]));
+    let leans = run * leans_m;
+    let drawn = run * drawn.x + run.perp() * drawn.y;
+    [(leans + drawn) / ticks, -leans / (motion.lasts - motion.ticks) as f32]
+}
+
+/// How far away the nearest opponent is, metres.
+fn nearest_rival_m(game: &Match, id: PlayerId) -> f32 {
+    let from = game.player(id).pos;
+    let rivals = game.team(id.team().other());
+    rivals.fold(f32::MAX, |near, (_, rival)| near.min(rival.pos.distance_squared(from))).sqrt()
 }
 
 /// Whether the left foot leads in a motion: in a turn, that of its side.
@@ -304,6 +355,11 @@ impl DribbleMotion {
         leg::meets(&touch, ball, reach, leg::freshness(game, id, self.ticks))
     }
 
+    /// How fast the player is on average until the touch, m/s, for their pace now.
+    fn mean_mps(&self, pace: f32) -> f32 {
+        self.mean[0] + self.mean[1] * pace
+    }
+
     /// How fast the player is at the touch, m/s, for their pace now.
     fn at_mps(&self, pace: f32) -> f32 {
         self.end[0] + self.end[1] * pace
@@ -319,14 +375,15 @@ impl DribbleMotion {
             MotionEnd::Bent => BENT_MPS,
         };
         let ball = reach::expected(game, id, self.ticks as u32).truncate();
-        let way_m = (self.mean[0] + self.mean[1] * pace) * self.ticks as f32 * 0.01;
+        let way_m = self.mean_mps(pace) * self.ticks as f32 * 0.01;
         let place = ball - player.pos - run * way_m;
         let touch = MotionTouch {
             ticks: self.ticks,
             made_for: Vec2::new(self.ball_m[0], side * self.ball_m[1]),
             pace,
-            at_mps: self.at_mps(pace),
-            out_mps,
+            at: Vec2::new(self.at_mps(pace), 0.0),
+            out: Vec2::new(out_mps, 0.0),
+            ends: Vec2::X,
         };
         (touch, Vec2::new(place.dot(run), run.perp_dot(place)))
     }
@@ -494,15 +551,27 @@ pub(super) fn waits(game: &Match, id: PlayerId) -> bool {
 
 /// The velocity that a motion's touch gives the ball: the way that its player wanted, m/s.
 pub(super) fn touched(game: &mut Match, id: PlayerId, lunge: &Lunge) -> Vec3 {
+    let to = out(game.player(id), lunge);
+    sent(game, id, &Sending { wish: lunge.wish, to, rest: lunge.back })
+}
+
+/// How a player sends a ball on.
+pub(super) struct Sending {
+    /// The velocity that they want, world m/s.
+    pub(super) wish: Vec2,
+    /// The velocity with which they come out of their step, world m/s.
+    pub(super) to: Vec2,
+    /// Ticks until then.
+    pub(super) rest: u8,
+}
+
+/// The velocity of a ball that a player sends on, m/s. One that isn't theirs yet may be awkward.
+pub(super) fn sent(game: &mut Match, id: PlayerId, sending: &Sending) -> Vec3 {
     let player = *game.player(id);
     let to_ball = game.ball.pos.truncate() - player.pos;
     let owns = possession::has_ball(game, id);
-    let carry = Carry {
-        wish: lunge.wish,
-        to: out(&player, lunge),
-        rest: lunge.back,
-        first: game.last_touch != Some(id),
-    };
+    let Sending { wish, to, rest } = *sending;
+    let carry = Carry { wish, to, rest, first: game.last_touch != Some(id) };
     let velocity = carry::touched(&player, to_ball, &carry, owns, dribble::minds_lines(game, id));
     let velocity = carry::as_skilled(game, id, velocity, carry.wish.length());
     let sprints = carry.wish.length_squared() > SPRINTS_FROM_MPS * SPRINTS_FROM_MPS;

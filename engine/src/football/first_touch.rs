@@ -3,6 +3,7 @@
 use crate::football::{contact, dribble, leg, noise};
 use crate::state::event::Events;
 use crate::state::play::ticks_since;
+use crate::state::player::Pose;
 use crate::state::{Match, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::vocabulary::Stat;
@@ -44,7 +45,11 @@ pub(super) fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     let ball = game.ball;
     let meeting = (ball.vel - player.vel.extend(0.0)).length();
     let taken_from_rival = game.play.pass.is_some_and(|pass| pass.by.team() != id.team());
-    if taken_from_rival || game.play.shot.is_some() {
+    // A ball off a keeper that dives comes as a surprise; chosen.
+    let off_hands = game.last_touch.is_some_and(|last| {
+        last.team() != id.team() && matches!(game.player(last).body.pose, Pose::Diving | Pose::Down)
+    });
+    if taken_from_rival || off_hands || game.play.shot.is_some() {
         // A faster ball from an opponent is harder to read.
         let reaction = player.skill(Stat::Reaction);
         let chance = (1.25 - 0.028 * meeting)

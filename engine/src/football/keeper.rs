@@ -1,41 +1,78 @@
-//! The keeper's hands: saves, catches, holding the ball and letting it go.
+//! The keeper's hands: reaching for the ball, catches, holding it and letting it go.
 //!
-//! Decides whether the keeper reaches a ball and holds it. `control::bot::keeper` decides where the
-//! keeper stands.
+//! A keeper tries every few ticks whether some motion of the hands meets the ball where it will be
+//! (`save_motion`), and then commits to it. `control::bot::keeper` decides where they stand.
 
-use crate::football::{contact, forecast, foul, noise, report, touch};
+use crate::football::pace::DT;
+use crate::football::{
+    contact, forecast, foul, leg, noise, possession, reach, report, save_motion, touch,
+};
+use crate::math;
 use crate::state::event::Events;
 use crate::state::play::{Save, ticks_since};
 use crate::state::player::Pose;
-use crate::state::{Match, PlayerId};
+use crate::state::{Match, Player, PlayerId};
 use glam::{Vec2, Vec3};
 use setpiece_scenario::vocabulary::{
     EventKind, GameMode, PitchMeasure, Qualifier, Role, Rule, Stat,
 };
 
-/// How high the keeper's hands reach, metres.
-const HANDS_M: f32 = 2.55;
-/// A slow ball this near is picked up, metres.
-const PICK_M: f32 = 1.0;
-/// How often a keeper takes the ball off a dribbler's feet. Fitted to how many dribblers run past
-/// keepers.
-const BRAVE: f32 = 0.14;
 /// How long a keeper may hold the ball, ticks. Laws.
 const HOLD_TICKS: u32 = 600;
-/// A ball that comes nearer to the keeper's middle than this hits the keeper, metres.
-const BODY_M: f32 = 0.4;
-/// Shares of the balls in reach that a keeper without skill saves: any, at once, and more per
-/// second left. Fitted to how many goals agents' and bots' shots score.
-const SAVES: [f32; 3] = [0.5, 0.45, 0.7];
-/// A ball at least this easy can be held (`HOLDS_FROM`, GRF's); `HOLDS` is how often it then is.
-/// `SLOWS_MPS2`: how a flying ball slows, m/s²; chosen.
+/// The keeper reaches for a ball that will be in the box `BOX_TICKS` ahead, and within `FAR_M` and
+/// `NEAR_M` of them `FAR_TICKS` and `NEAR_TICKS` ahead, metres. (GRF's.)
+const BOX_TICKS: u32 = 16;
+const FAR_TICKS: u32 = 40;
+const FAR_M: f32 = 20.0;
+const NEAR_TICKS: u32 = 20;
+const NEAR_M: f32 = 10.0;
+/// They don't reach for one that gets away from them within `AWAY_TICKS` and is further than
+/// `AWAY_M`. (GRF's.)
+const AWAY_TICKS: u32 = 8;
+const AWAY_M: f32 = 2.0;
+/// Up to how many times the keeper's own time to the ball a rival's time lets them push it away
+/// that doesn't go for goal, and lets them use their hands at all once they have it. A time counts
+/// as `LATE_S` longer. (GRF's.)
+const PUSHES_TO: f32 = 1.3;
+const HANDLES_TO: f32 = 3.4;
+const LATE_S: f32 = 0.2;
+/// Within these distances of the ball a keeper who isn't first at it tries again after so many
+/// ticks, metres. (GRF's.)
+const TRIES: [(f32, u32); 2] = [(5.0, 5), (10.0, 8)];
+/// The same for one who is first at a ball this near, at one further off, and for the first of
+/// their team. (GRF's.)
+const FIRST_M: f32 = 3.0;
+const FIRST_TICKS: [u32; 3] = [2, 3, 4];
+/// The ticks of a stride, after which everybody may try. (GRF's.)
+const STRIDE_TICKS: u32 = 25;
+/// A ball can be held that is at least this easy, 0..1. One as fast as `HARD_MPS` relative to the
+/// keeper is as hard as can be; so is one just touched by a rival, for so many seconds without and
+/// with full reaction, by this power. (GRF's.)
 const HOLDS_FROM: f32 = 0.3;
-const HOLDS: f32 = 0.85;
-const SLOWS_MPS2: f32 = 8.0;
-/// Shortest time of a dive, seconds; chosen.
-const DIVE_S: f32 = 0.1;
-/// Slower balls are picked up, not saved, m/s.
-const SHOT_MPS: f32 = 7.0;
+const HARD_MPS: f32 = 40.0;
+const SUDDEN_S: [f32; 2] = [1.2, 0.8];
+const SUDDEN: f32 = 0.6;
+/// How far above or below the hands a ball may be that they touch, metres. (GRF's.)
+const HIGH_OFF_M: f32 = 1.0;
+/// The way of a ball that is pushed away: against its own, along the keeper's, out of the goal, and
+/// at random to a side. (GRF's.)
+const AGAINST: f32 = 0.1;
+const ALONG: f32 = 2.0;
+const OUT_MPS: f32 = 4.0;
+/// Its speed: shares of its own and of the keeper's; and up, m/s. How much of its spin it loses.
+/// (GRF's.)
+const KEPT: f32 = 0.3;
+const TAKEN: f32 = 2.5;
+const UP_MPS: f32 = 1.2;
+const SPIN_LOST: f32 = 0.2;
+/// How long a keeper takes to get up from the ground, ticks. Measured of GRF's motions.
+const RISE_TICKS: i32 = 76;
+/// Balls bound for goal: the ticks within which the ball must cross the line, the ticks over which
+/// its course is read, and the distance from which it worries a keeper, metres. (GRF's.)
+const BOUND_TICKS: u32 = 400;
+const COURSE_TICKS: u32 = 80;
+const SEEN_TICKS: u32 = 25;
+const BOUND_M: f32 = 32.0;
 
 /// Lets both keepers use their hands.
 pub fn use_hands(game: &mut Match, events: &mut Events) {
@@ -50,219 +87,188 @@ pub fn use_hands(game: &mut Match, events: &mut Events) {
         return;
     }
     for team in game.teams() {
-        let side = team.side() as f32;
-        // Only a ball in the keeper's own end matters.
-        if game.ball.pos.x * side > -20.0 {
-            continue;
-        }
         let keeper = game.team(team).find(|(_, player)| player.role == Role::GK).map(|(id, _)| id);
-        let Some(id) = keeper.filter(|&id| touch::may_handle(game, id)) else { continue };
-        save(game, events, id);
-        if game.play.hands.is_none() {
-            pick_up(game, events, id);
+        let Some(id) = keeper.filter(|&id| touch::may_handle(game, id)) else {
+            game.play.save[team.index()] = None;
+            continue;
+        };
+        match game.play.save[team.index()] {
+            Some(save) => go_on(game, events, id, save),
+            None if tries(game, id) => begin(game, id),
+            None => {}
         }
     }
 }
 
-/// Plans and makes a save.
-fn save(game: &mut Match, events: &mut Events, id: PlayerId) {
-    let team = id.team();
-    let index = team.index();
-    if game.play.save[index].is_none() {
-        game.play.save[index] = plan(game, id);
+/// Whether a keeper reaches for the ball now if their hands meet it.
+fn tries(game: &Match, id: PlayerId) -> bool {
+    let (player, team) = (game.player(id), id.team());
+    let free = player.is_up()
+        && player.body.lunge.is_none()
+        && !player.body.swings()
+        && game.tick as i32 >= player.body.ready_at;
+    let at = |ticks: u32| game.play.forecast.at(game.tick + ticks).truncate();
+    if !free
+        || !foul::in_box(&game.pitch, at(BOX_TICKS), team)
+        || at(FAR_TICKS).distance(player.pos) > FAR_M
+        || !game.tick.is_multiple_of(every(game, id))
+        || comes_from_mate(game, id)
+    {
+        return false;
     }
-    let Some(save) = game.play.save[index] else { return };
-    if save.at_tick == u32::MAX || game.tick < save.from_tick {
-        return;
-    }
+    let expected = |ticks: u32| reach::expected(game, id, ticks).truncate();
+    let soon = player.pos + player.vel * (AWAY_TICKS as f32 * 0.01);
+    let away = expected(AWAY_TICKS).distance(player.pos) > AWAY_M
+        && expected(AWAY_TICKS).distance(soon) > expected(0).distance(player.pos);
+    expected(NEAR_TICKS).distance(player.pos) <= NEAR_M && !away
+}
+
+/// Whether a teammate has the ball, or played it to the keeper on purpose.
+fn comes_from_mate(game: &Match, id: PlayerId) -> bool {
+    let mate = |other: Option<PlayerId>| {
+        other.is_some_and(|other| other != id && other.team() == id.team())
+    };
+    mate(game.controller())
+        || game.rule(Rule::BackPass) && mate(game.last_touch) && mate(game.play.kicked_by)
+}
+
+/// Ticks between two attempts of a keeper. They try their hands before they kick.
+fn every(game: &Match, id: PlayerId) -> u32 {
     let player = game.player(id);
-    if game.tick < save.at_tick {
-        let left = (save.at_tick - game.tick) as f32 * 0.01;
-        let way = save.point - player.pos;
-        let most = if save.reaches { 8.0 } else { 5.0 };
-        if player.body.pose == Pose::Up && way.length() > 0.5 {
-            let ticks = ((save.at_tick - game.tick) + 35).min(120) as u8;
-            game.players[id.index()].body.strike_pose(Pose::Diving, ticks);
-        }
-        game.players[id.index()].vel = (way / left.max(0.05)).clamp_length_max(most);
+    if player.body.kick.is_some() {
+        return 1;
+    }
+    let ball = game.play.forecast.at(game.tick + 10).truncate();
+    let away_m = (player.pos + player.vel * 0.1).distance(ball);
+    let [near, far, of_team] = FIRST_TICKS;
+    if game.owner.or_else(|| reach::first(game)) == Some(id) {
+        return if away_m < FIRST_M { near } else { far };
+    }
+    if game.play.chaser[id.team().index()] == Some(id) {
+        return of_team;
+    }
+    TRIES.iter().find(|(metres, _)| away_m < *metres).map_or(STRIDE_TICKS, |(_, ticks)| *ticks)
+}
+
+/// Commits a keeper to the motion whose hands meet the ball, if there is one.
+fn begin(game: &mut Match, id: PlayerId) {
+    let rival = game.play.chaser[id.team().other().index()];
+    let rival_s = rival.map_or(f32::MAX, |rival| game.player(rival).body.meet_s);
+    let calm = (rival_s + LATE_S) / (game.player(id).body.meet_s + LATE_S);
+    if calm >= HANDLES_TO && possession::has_ball(game, id) {
         return;
     }
-    let near = player.pos.distance_squared(game.ball.pos.truncate()) < 2.9 * 2.9;
-    game.play.save[index] = Some(Save { at_tick: u32::MAX, ..save });
-    if save.reaches && near && game.ball.pos.z < HANDS_M + 0.3 {
-        meet_shot(game, events, id, save.holds);
-    }
+    let only_holds = calm > PUSHES_TO && bound_for_goal(game, id).is_none();
+    let Some(chosen) = save_motion::find(game, id, only_holds) else { return };
+    let motion = chosen.motion;
+    let lies = if motion.falls { motion.lasts - motion.ticks + RISE_TICKS } else { 0 };
+    let save = Save {
+        from: game.tick,
+        saw: reach::seen_until(game, id),
+        at: game.tick + motion.ticks as u32,
+        place: chosen.place,
+        hands: chosen.hands,
+        high_m: chosen.high_m,
+        spot: chosen.spot,
+        vel: chosen.vel,
+        holds: motion.holds,
+        lies: lies as u8,
+    };
+    game.play.save[id.team().index()] = Some(save);
+    let now = game.tick as i32;
+    let player = &mut game.players[id.index()];
+    player.body.strike_pose(Pose::Diving, motion.lasts as u8);
+    player.body.kick = None;
+    player.body.ready_at = now + motion.lasts;
+    go_to(player, &save, motion.ticks as u32);
 }
 
-/// Balls this far above the crossbar still count as dangerous, metres; chosen.
-const OVER_BAR_M: f64 = 0.4;
-/// The share of the keeper's own speed that a parried ball takes along, besides three tenths of its
-/// own. (GRF's.)
-const PARRIED: f32 = 2.5;
-
-/// The plan of a keeper who has nothing to save.
-const IDLE: Save = Save {
-    at_tick: u32::MAX,
-    from_tick: u32::MAX,
-    point: Vec2::ZERO,
-    reaches: false,
-    holds: false,
-};
-
-/// Judges whether the ball goes into the goal and whether the keeper reaches it. None while it is
-/// too far away to tell.
-fn plan(game: &mut Match, id: PlayerId) -> Option<Save> {
-    let team = id.team();
-    let side = team.side() as f32;
-    let speed = game.ball.vel.length();
-    let ours = game.last_touch.is_some_and(|last| last == id)
-        || game.play.kicked_by.is_some_and(|last| last.team() == team && game.rule(Rule::BackPass));
-    if speed < SHOT_MPS || game.ball.vel.x * side > -3.0 || ours {
-        return Some(IDLE);
-    }
-    let goal_x = -game.goal().x * side;
-    let player = *game.player(id);
-    // Balls this far beside the goal still count as dangerous; a keeper who reads them better
-    // ignores more (GRF's).
-    let reading = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
-    let panic = game.measure(PitchMeasure::GoalHalfWidth) * (1.02 + 0.5 * (1.0 - reading));
-    let reaction = 0.15 + 0.12 * (1.0 - player.skill(Stat::Reaction));
-    let since =
-        game.last_touch.map_or(0, |last| ticks_since(game.tick, game.player(last).body.touched_at));
-    let react_s = (reaction - since as f32 * 0.01).max(0.02);
-    let path = || game.play.forecast.from(game.tick);
-    let past = |point: Vec3| (point.x - goal_x) * side < 0.0;
-    let above = (game.pitch.goal_height() + OVER_BAR_M) as f32;
-    // A forecast that ends before the goal line can't tell yet.
-    let goal = path().position(|(_, point)| past(point))?;
-    let enters =
-        path().nth(goal).is_some_and(|(_, point)| point.y.abs() < panic && point.z < above);
-    if !enters {
-        return Some(IDLE);
-    }
-    let mut best: Option<(f32, f32, Vec3)> = None;
-    let mut weigh = |time_s: f32, point: Vec3| {
-        if foul::in_box(&game.pitch, point.truncate(), team) {
-            consider(&player, react_s, time_s, point, &mut best);
-        }
-    };
-    let mut before: Option<Vec3> = None;
-    for (time_s, point) in path().take(goal + 1) {
-        if let Some(last) = before {
-            weigh(time_s - 0.025, (last + point) * 0.5);
-        }
-        weigh(time_s, point);
-        before = Some(point);
-    }
-    let Some((ratio, time_s, point)) = best else { return Some(IDLE) };
-    let able = 0.5 * player.skill(Stat::Reaction) + 0.5 * player.skill(Stat::DefensivePositioning);
-    let skill = SAVES[0] + (1.0 - SAVES[0]) * able;
-    let spare = (time_s - react_s - DIVE_S).max(0.0);
-    let timely = (SAVES[1] + SAVES[2] * spare).min(0.96);
-    let chance = if point.truncate().distance(player.pos) < BODY_M {
-        0.95
-    } else if ratio < 1.0 {
-        (1.0 - 0.15 * ratio * ratio) * timely * skill
-    } else {
-        0.0
-    };
-    let reaches = noise::happens(game, chance);
-    // A ball that is fast at the hand, or was just struck, can't be held. (GRF's.)
-    let at_hand = (game.ball.vel.length() - SLOWS_MPS2 * time_s).max(0.0);
-    let window_s = 1.2 - 0.4 * player.skill(Stat::Reaction);
-    let lately = (1.0 - (since as f32 * 0.01 + time_s) / window_s).clamp(0.0, 1.0);
-    let easy = (1.0 - at_hand / 40.0).max(0.0) * (1.0 - libm::powf(lately, 0.6));
-    let holds = noise::happens(game, if easy < HOLDS_FROM { 0.0 } else { HOLDS });
-    Some(Save {
-        at_tick: game.tick + ((time_s * 100.0) as u32).max(1),
-        from_tick: game.tick + (react_s * 100.0) as u32,
-        point: point.truncate(),
-        reaches,
-        holds,
-    })
+/// Moves a keeper's body so that it is at its place when the hands meet the ball.
+fn go_to(player: &mut Player, save: &Save, ticks: u32) {
+    player.vel = (save.spot - player.pos) / (ticks as f32 * DT);
 }
 
-/// Weighs a point of the ball's path in the box: which share of the keeper's reach it takes.
-fn consider(
-    player: &crate::state::Player,
-    react_s: f32,
-    time_s: f32,
-    point: Vec3,
-    best: &mut Option<(f32, f32, Vec3)>,
-) {
-    if point.z > HANDS_M {
+/// Goes on with a motion, until the hands meet the ball.
+fn go_on(game: &mut Match, events: &mut Events, id: PlayerId, save: Save) {
+    let left = save.at.saturating_sub(game.tick);
+    let player = &mut game.players[id.index()];
+    if left > 0 && player.body.pose == Pose::Diving {
+        go_to(player, &save, left);
         return;
     }
-    let spare = (time_s - react_s).max(0.0);
-    let high = (point.z - 1.6).max(0.0) * 0.7;
-    let reach = (0.9 + spare.min(0.5) * 4.5 + (spare - 0.5).max(0.0) * 4.0 - high).max(0.2);
-    let ratio = point.truncate().distance(player.pos) / reach;
-    if best.is_none_or(|(least, _, _)| ratio < least) {
-        *best = Some((ratio, time_s, point));
+    game.play.save[id.team().index()] = None;
+    if player.body.pose != Pose::Diving {
+        return;
+    }
+    player.vel = save.vel;
+    if save.lies > 0 {
+        player.body.strike_pose(Pose::Down, save.lies);
+    }
+    let ball = game.ball.pos;
+    let level = (ball.z - save.high_m).abs() < HIGH_OFF_M;
+    let missed = leg::missed_by(ball.distance(save.place));
+    if let Some(missed) =
+        missed.filter(|_| level && foul::in_box(&game.pitch, ball.truncate(), id.team()))
+    {
+        meet(game, events, id, save.holds, missed);
     }
 }
 
-/// Meets the ball with the hands: holds it or pushes it away.
-fn meet_shot(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool) {
-    let shot = game.play.shot.take();
-    if let Some(shot) = shot.filter(|shot| shot.by.team() != id.team()) {
+/// Meets the ball with the hands: holds it or pushes it away. `missed`: how much of its own way the
+/// ball keeps.
+fn meet(game: &mut Match, events: &mut Events, id: PlayerId, holds: bool, missed: f32) {
+    let shot = game.play.shot.take_if(|shot| shot.by.team() != id.team());
+    if let Some(shot) = shot {
         events.push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
         report::did(game, events, EventKind::Save, id, Some(shot.by));
     }
-    if holds && foul::in_box(&game.pitch, game.ball.pos.truncate(), id.team()) {
+    if holds && can_hold(game, id) {
         take(game, events, id);
         return;
     }
     report::did(game, events, EventKind::Parry, id, shot.map(|shot| shot.by));
     contact::sprang(game, events, id);
     let side = id.team().side() as f32;
-    let (speed, own) = (game.ball.vel.length(), game.player(id).vel);
+    let own = game.player(id).vel;
+    let (before, flat) = (game.ball.vel, game.ball.vel.truncate());
     let aside = Vec2::new(0.0, (2.0 * noise::roll(game) - 1.0) * side);
-    let way = game.ball.vel.truncate() * -0.1 + own * 2.0 + Vec2::new(4.0 * side, 0.0) + aside;
-    let away = way.normalize_or_zero() * (0.3 * speed + PARRIED * own.length());
-    game.ball.vel = away.extend(1.2);
-    game.ball.spin = Vec3::ZERO;
-    game.players[id.index()].body.ready_at = game.tick as i32 + 45;
+    let way = flat * -AGAINST + own * ALONG + Vec2::new(OUT_MPS * side, 0.0) + aside;
+    let away = way.normalize_or_zero() * (KEPT * flat.length() + TAKEN * own.length());
+    game.ball.vel = away.extend(UP_MPS).lerp(before, missed);
+    game.ball.spin *= 1.0 - SPIN_LOST * (1.0 - missed);
     forecast::renew(game);
 }
 
-/// Picks up a near and slow ball.
-fn pick_up(game: &mut Match, events: &mut Events, id: PlayerId) {
+/// Whether a keeper can hold the ball that their hands meet: it isn't too fast, and a rival hasn't
+/// just touched it. (GRF's.)
+fn can_hold(game: &Match, id: PlayerId) -> bool {
     let player = game.player(id);
-    let ball = game.ball.pos;
-    let flat = ball.truncate();
-    let near = player.pos.distance_squared(flat);
-    let team = id.team();
-    if near > PICK_M * PICK_M
-        || ball.z > HANDS_M - 0.2
-        || player.body.pose == Pose::Down
-        || !foul::in_box(&game.pitch, flat, team)
-    {
-        return;
+    let mps = (game.ball.vel - player.vel.extend(0.0)).length();
+    let slow = 1.0 - (mps / HARD_MPS).min(1.0);
+    let rivals = game.team(id.team().other());
+    let since = rivals.map(|(_, rival)| ticks_since(game.tick, rival.body.touched_at)).min();
+    let window_s = math::mix(SUDDEN_S[0], SUDDEN_S[1], player.skill(Stat::Reaction));
+    let sudden = 1.0 - since.map_or(1.0, |ticks| (ticks as f32 * DT / window_s).min(1.0));
+    slow * (1.0 - math::pow(sudden, SUDDEN)) >= HOLDS_FROM
+}
+
+/// Where a ball that is bound for the keeper's goal crosses the line, own frame y, metres. A ball
+/// dribbled towards the goal counts too. A keeper who reads the game better minds fewer balls that
+/// go beside it. (GRF's.)
+pub fn bound_for_goal(game: &Match, id: PlayerId) -> Option<f32> {
+    let (player, line) = (game.player(id), game.goal().x);
+    let side = id.team().side() as f32;
+    let at = |ticks: u32| game.play.forecast.at(game.tick + ticks).truncate() * side;
+    let (ball, soon) = (at(0), at(COURSE_TICKS));
+    let way = soon - ball;
+    let rolls_in = at(BOUND_TICKS).x < -line && way.x < 0.0;
+    if !rolls_in || (player.pos * side).distance(at(SEEN_TICKS)) > BOUND_M {
+        return None;
     }
-    if (game.tick as i32) < player.body.ready_at || game.last_touch == Some(id) {
-        return;
-    }
-    let back_pass =
-        game.rule(Rule::BackPass) && game.play.kicked_by.is_some_and(|last| last.team() == team);
-    let mate = game.controller().is_some_and(|owner| owner.team() == team);
-    if back_pass || mate {
-        return;
-    }
-    let speed = (game.ball.vel - player.vel.extend(0.0)).length();
-    let rival = game.controller().filter(|owner| owner.team() != team);
-    let brave = if rival.is_some() { BRAVE } else { 1.0 };
-    let chance = (1.25 - speed / 22.0).clamp(0.1, 1.0) * brave * (0.6 + 0.4 * player.body.level);
-    if noise::happens(game, chance) {
-        if let Some(shot) = game.play.shot.take().filter(|shot| shot.by.team() != team) {
-            events
-                .push(contact::of_shot(game, EventKind::Shot, shot).qualified(Qualifier::OnTarget));
-            report::did(game, events, EventKind::Save, id, Some(shot.by));
-        }
-        take(game, events, id);
-    } else {
-        game.players[id.index()].body.ready_at = game.tick as i32 + 30;
-    }
+    let y = ball.y + way.y * (-line - ball.x) / way.x;
+    let reads = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
+    let minds_m = game.measure(PitchMeasure::GoalHalfWidth) * (1.02 + 0.5 * (1.0 - reads));
+    (y.abs() <= minds_m).then_some(y)
 }
 
 /// Takes the ball into the hands.
@@ -274,7 +280,6 @@ pub fn take(game: &mut Match, events: &mut Events, id: PlayerId) {
     game.play.hands = Some((id, game.tick));
     game.play.offside = 0;
     let player = &mut game.players[id.index()];
-    player.vel *= 0.2;
     player.body.kick = None;
     player.body.dribble = Vec2::ZERO;
     player.body.mind.decide_at_step = game.step + 8;
@@ -294,9 +299,6 @@ fn hold(game: &mut Match, id: PlayerId) {
     let inside = Vec2::new(x, player.pos.y.clamp(-aside, aside));
     player.pos += (inside - player.pos).clamp_length_max(0.08);
     player.body.facing = Vec2::new(side, 0.0);
-    if player.body.pose == Pose::Diving {
-        player.body.strike_pose(Pose::Down, 30);
-    }
     let vel = player.vel;
     let mut at = player.pos + player.body.facing * 0.35;
     // The keeper doesn't carry a ball over the line that was caught in front of it.

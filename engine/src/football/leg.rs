@@ -1,4 +1,4 @@
-//! Where a motion meets the ball.
+//! Where a motion of a leg, or of a keeper's hands, meets the ball.
 //!
 //! A motion is made for a ball at one place beside the body. The real one may be some way off that
 //! place: far behind it but hardly ahead of it, and further along the run than beside it. A long
@@ -30,9 +30,11 @@ const FRONT_M: f32 = 0.1;
 const SMOOTH: [f32; 2] = [0.7, 0.4];
 /// What that adds to the reach: the motion's place, the ball's, both together.
 const EASE: [f32; 3] = [1.0, 0.6, 0.8];
-/// The width of the reach beside the run: of who stands, and how much less at a sprint.
+/// The width of the reach beside the run, or beside the way in which one who stands ends: of who
+/// stands, and how much less at a sprint.
 const WIDTH: [f32; 2] = [0.6, 0.3];
-/// By how much the speeds before, at and after the touch pull the reach back.
+/// By how much the velocities before, at and after the touch pull the reach back; less in a motion
+/// that doesn't lead on.
 const BEHIND: [f32; 3] = [0.1, 0.2, 0.7];
 /// The share of a reach that a motion uses, how much of the extra reach is pulled back, and what is
 /// allowed on top, metres.
@@ -42,11 +44,15 @@ const SLACK_M: f32 = 0.02;
 
 /// How far above or below its place a motion meets the ball, metres, and what the heights of both
 /// take off that, per metre and at most. (GRF's.)
-const UP_M: f32 = 0.22;
+pub(super) const UP_M: f32 = 0.22;
 const HIGHER: [[f32; 2]; 2] = [[0.3, 0.2], [0.4, 0.3]];
 /// The height of a ball on the grass, and up to which a ball counts as low, metres. (GRF's.)
 pub(super) const GRASS_M: f32 = 0.11;
 const LOW_M: f32 = 0.5;
+/// Up to how far off its place a ball doesn't draw a body, and how far off it a body stays, metres.
+/// (GRF's.)
+const UNDRAWN_M: f32 = 0.02;
+const OFF_M: f32 = 0.2;
 /// How far off its place the ball may be when the foot arrives, metres. (GRF's.)
 const MISSED_M: f32 = 0.4;
 
@@ -56,10 +62,13 @@ pub(super) struct MotionTouch {
     pub(super) ticks: i32,
     /// The place of the ball that it is made for, metres from the body.
     pub(super) made_for: Vec2,
-    /// The player's speed now, at the touch and after it, m/s.
+    /// The player's speed now, m/s.
     pub(super) pace: f32,
-    pub(super) at_mps: f32,
-    pub(super) out_mps: f32,
+    /// The velocity at the touch and at the end, m/s.
+    pub(super) at: Vec2,
+    pub(super) out: Vec2,
+    /// The way of the player at its end, unit.
+    pub(super) ends: Vec2,
 }
 
 /// What a motion is for decides how far it reaches.
@@ -80,6 +89,9 @@ pub(super) const SLIDE: Reach = Reach { factor: 0.2, more_m: 0.0 };
 /// The reach of the touches of a dribble, and what a player who is about to kick has of it.
 pub(super) const DRIBBLE: Reach = Reach { factor: 1.0, more_m: 0.0 };
 pub(super) const BEFORE_A_KICK: Reach = Reach { factor: 0.3, more_m: 0.0 };
+
+/// The reach of a keeper's hands.
+pub(super) const HANDS: Reach = Reach { factor: 1.8, more_m: 0.4 };
 
 /// The share of their reach that a player has at a touch some ticks ahead.
 pub(super) fn freshness(game: &Match, id: PlayerId, ticks: i32) -> f32 {
@@ -103,7 +115,8 @@ pub(super) fn meets(touch: &MotionTouch, ball: Vec2, reach: Reach, fresh: f32) -
         1.0 - math::mix(far, math::ease(far), smooth)
     };
     let (planned, real) = (ease(touch.made_for, SMOOTH[0]), ease(ball, SMOOTH[1]));
-    let mean = 0.5 * (touch.pace + touch.out_mps);
+    let run = Vec2::new(touch.pace, 0.0);
+    let mean = 0.5 * (run + touch.out).length();
     let slow = 1.0 - (mean / SPRINT_MPS).min(1.0);
     let width = WIDTH[0] - WIDTH[1] * math::pow((touch.pace / SPRINT_MPS).min(1.0), SOONER);
     let radius_m = reach.factor
@@ -112,10 +125,12 @@ pub(super) fn meets(touch: &MotionTouch, ball: Vec2, reach: Reach, fresh: f32) -
         * (1.0 + EASE[0] * planned + EASE[1] * real + EASE[2] * planned * real + slow)
         / libm::sqrtf(width);
     let more_m = reach.more_m * fresh;
-    let mps = BEHIND[0] * touch.pace + BEHIND[1] * touch.at_mps + BEHIND[2] * touch.out_mps;
-    let back = libm::sqrtf((mps / SPRINT_MPS).min(1.0));
-    let centre = Vec2::new(-back * (radius_m + PULLED * more_m) * SHARE, 0.0);
-    let off = (ball - touch.made_for) / Vec2::new(1.0, width);
+    let pull = BEHIND[0] * run + BEHIND[1] * touch.at + BEHIND[2] * touch.out;
+    let back = libm::sqrtf((pull.length() / SPRINT_MPS).min(1.0)) * (0.75 + 0.25 * touch.ends.x);
+    let centre = pull.normalize_or_zero() * (-back * (radius_m + PULLED * more_m) * SHARE);
+    let axis = if touch.pace > 0.0 { Vec2::X } else { touch.ends };
+    let off = ball - touch.made_for;
+    let off = axis * off.dot(axis) + axis.perp() * (axis.perp_dot(off) / width);
     off.distance(centre) <= (radius_m + more_m) * SHARE + SLACK_M
 }
 
@@ -128,19 +143,37 @@ fn in_time_m(ticks: i32) -> f32 {
 /// Whether a ball at this height is met by a motion at another, metres. `low_m`: how much further
 /// off a low ball may be.
 pub(super) fn is_high_enough(ball_m: f32, motion_m: f32, low_m: f32) -> bool {
+    let low_m = if ball_m < LOW_M { low_m } else { 0.0 };
+    heights_apart_m(ball_m, motion_m) - low_m < UP_M
+}
+
+/// How far a ball at this height counts as being above or below the one that a motion is made for,
+/// metres.
+pub(super) fn heights_apart_m(ball_m: f32, motion_m: f32) -> f32 {
     let eased =
         |height: f32, [per_m, most]: [f32; 2]| 1.0 - ((height - GRASS_M) * per_m).clamp(0.0, most);
-    let apart = (ball_m - motion_m).abs() * eased(motion_m, HIGHER[0]) * eased(ball_m, HIGHER[1]);
-    let low_m = if ball_m < LOW_M { low_m } else { 0.0 };
-    apart - low_m < UP_M
+    (ball_m - motion_m).abs() * eased(motion_m, HIGHER[0]) * eased(ball_m, HIGHER[1])
 }
 
 /// How much of its own way a ball keeps that has come off the place where a foot arrives now, 0..1.
 /// None if the foot misses it. (GRF's.) The height doesn't count: forecasts of bounces are too
 /// coarse.
 pub(super) fn missed_share(game: &Match, place: Vec3) -> Option<f32> {
-    let off = game.ball.pos.truncate().distance(place.truncate()) / MISSED_M;
+    missed_by(game.ball.pos.truncate().distance(place.truncate()))
+}
+
+/// How much of its own way a ball keeps that is this far off the place of a touch, metres.
+pub(super) fn missed_by(off_m: f32) -> Option<f32> {
+    let off = off_m / MISSED_M;
     (off < 1.0).then(|| math::smooth(math::smooth(off)))
+}
+
+/// How far a body moves to a ball that is this far off the place that a touch is made for, metres.
+/// It comes nearer by `drawn` of the way, but stays `OFF_M` off: from a nearer ball it moves away.
+/// (GRF's.)
+pub(super) fn drawn(off: Vec2, drawn: f32) -> Vec2 {
+    let off_m = off.length();
+    off.normalize_or_zero() * (drawn * (off_m - UNDRAWN_M).max(0.0)).min(off_m - OFF_M)
 }
 
 #[cfg(test)]
@@ -152,8 +185,9 @@ mod tests {
         ticks: 17,
         made_for: Vec2::new(0.54, 0.14),
         pace: 7.64,
-        at_mps: 6.04,
-        out_mps: 3.36,
+        at: Vec2::new(6.04, 0.0),
+        out: Vec2::new(3.36, 0.0),
+        ends: Vec2::X,
     };
 
     #[test]

@@ -5,9 +5,7 @@
 
 use crate::football::dribble::{LIES_MPS, SOLE_M};
 use crate::football::dribble_motion;
-use crate::football::pace::{
-    ARRIVAL_PER_S, DRIBBLES_FROM_MPS, DT, SPRINT_MPS, SPRINTS_FROM_MPS, WALKS_FROM_MPS,
-};
+use crate::football::pace::{ARRIVAL_PER_S, DRIBBLES_FROM_MPS, DT, SPRINT_MPS, SPRINTS_FROM_MPS};
 use crate::football::stride::{self, Four, NO_POINT};
 use crate::rows::{ROWS, WIDTH};
 use crate::state::player::{Intent, Pose, Swing};
@@ -17,9 +15,6 @@ use glam::Vec2;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::Stat;
 
-/// How much faster than their run the body of a dribbler is who reaches for the ball, m/s. Measured
-/// of GRF's motions.
-const REACHES_MPS: f32 = 0.4;
 /// A player who wants to stand stops for a ball this near, metres, and lays it where they stop.
 const STOPPING_M: f32 = 1.1;
 
@@ -255,10 +250,7 @@ fn commits(player: &mut Player, now: i32) -> bool {
             }
             _ => carry_ball(player, lunge.wish, to, lunge.until() - now),
         }
-        let walks = player.vel.length_squared() > WALKS_FROM_MPS * WALKS_FROM_MPS;
-        if now < lunge.at && walks && !lunge.brakes {
-            player.pos += player.vel.normalize_or_zero() * (REACHES_MPS * DT);
-        }
+        player.pos += if now < lunge.at { lunge.steps_before } else { lunge.steps_after };
         return true;
     }
     if let Some(plan) = &mut player.body.kick

@@ -23,6 +23,9 @@ const SPACING_S: f32 = SPACING_TICKS as f32 * 0.01;
 const REACH_M: f32 = 0.28;
 const FOOT_M: f32 = 0.1;
 const TOP_SHARE: f32 = 0.94;
+/// A ball that comes this far from one point of a forecast to the next may pass a player between
+/// them, metres.
+const FAST_M: f32 = 2.0 * REACH_M;
 /// Seconds until a player runs another way. (GRF's.)
 const CHANGES_S: f32 = 0.7;
 /// A player who reaches the ball sooner than this is at it: seconds, and from how near, metres.
@@ -80,6 +83,12 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     // From one point to the next, the ball and the player can close at most this distance.
     let per_closing_m =
         1.0 / (way.forecast.stride_m() + speed.max(player.vel.length()) * SPACING_S);
+    let fast = way.forecast.stride_m() > FAST_M;
+    let off = |point: usize| {
+        let changing_s = time_s(point, way.offset_s).clamp(0.0, CHANGES_S);
+        let run_s = changing_s - changing_s * changing_s * (0.5 / CHANGES_S);
+        way.forecast.point(point).truncate() - foot - player.vel * run_s
+    };
     let mut row = start / WIDTH;
     while row * WIDTH < end {
         let [x, y] = way.forecast.row(row);
@@ -90,12 +99,28 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
         let run_s = changing_s - changed_s;
         let radius = is(REACH_M) + is(speed) * (changed_s + time_s - changing_s);
         let (dx, dy) = (x - at_x - vel_x * run_s, y - at_y - vel_y * run_s);
-        let reached = (dx * dx + dy * dy).simd_le(radius * radius).to_bitmask();
+        // How far back, as a share of the way from the point before, the ball is nearest.
+        let mut back = f32x4::ZERO;
+        let (mut near_x, mut near_y) = (dx, dy);
+        if fast {
+            let ([x0, x1, x2, _], [y0, y1, y2, _]) = (dx.to_array(), dy.to_array());
+            let before = (row * WIDTH).checked_sub(1).map_or(Vec2::new(x0, y0), off);
+            let to_x = f32x4::new([before.x, x0, x1, x2]) - dx;
+            let to_y = f32x4::new([before.y, y0, y1, y2]) - dy;
+            let way_m2 = (to_x * to_x + to_y * to_y).fast_max(is(f32::MIN_POSITIVE));
+            let share = (-(dx * to_x + dy * to_y) / way_m2).fast_max(f32x4::ZERO);
+            // Not further back than now.
+            back = share.fast_min(f32x4::ONE).fast_min(time_s * is(1.0 / SPACING_S));
+            (near_x, near_y) = (dx + to_x * back, dy + to_y * back);
+        }
+        let reached = (near_x * near_x + near_y * near_y).simd_le(radius * radius).to_bitmask();
         let reached = reached & (way.playable >> (row * WIDTH)) as u32;
         if reached != 0 {
-            let first = row * WIDTH + reached.trailing_zeros() as usize;
-            let (point, time_s) =
-                (way.forecast.point(first).truncate(), time_s.to_array()[first % WIDTH]);
+            let lane = reached.trailing_zeros() as usize;
+            let (first, back) = (row * WIDTH + lane, back.to_array()[lane]);
+            let point = way.forecast.point(first).truncate();
+            let point = point.lerp(way.forecast.point(first.saturating_sub(1)).truncate(), back);
+            let time_s = (time_s.to_array()[lane] - back * SPACING_S).max(0.0);
             return (point, if time_s < AT_ONCE_S { at_once_s(player, point) } else { time_s });
         }
         // Skips rows in which the player can't have come near enough.
@@ -141,6 +166,11 @@ fn delay_ticks(player: &Player, driven: bool) -> i32 {
 pub fn has_seen(game: &Match, id: PlayerId) -> bool {
     let (since, toucher) = last_touch(game);
     toucher == Some(id) || since >= delay_ticks(game.player(id), game.is_driven(id))
+}
+
+/// The tick up to which a player has seen the touches of the ball.
+pub fn seen_until(game: &Match, id: PlayerId) -> i32 {
+    game.tick as i32 - delay_ticks(game.player(id), game.is_driven(id))
 }
 
 /// Where a player expects the ball after this many ticks: on its earlier path, as long as they

@@ -357,8 +357,9 @@ impl SwingMotion {
             ticks: self.ticks,
             made_for: Vec2::new(ahead_m, side * aside_m),
             pace,
-            at_mps: self.end_mps(pace),
-            out_mps: self.out_mps,
+            at: Vec2::new(self.end_mps(pace), 0.0),
+            out: Vec2::new(self.out_mps, 0.0),
+            ends: Vec2::X,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! One tick of 10 ms, in order.
 
 use crate::football::{
-    advantage, duel, forecast, keeper, kick, movement, possession, reach, referee, report,
+    advantage, duel, forecast, keeper, kick, movement, past, possession, reach, referee, report,
     separation, slide, touch, whistle,
 };
 use crate::laps::Phase;
@@ -35,7 +35,9 @@ pub fn advance(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
     let near = touch::near(game);
     let about = touch::about(game);
     duel::contest(game, events, busy.legs, about);
-    touch::play_ball(game, events, near, about);
+    if !touch::play_ball(game, events, near, about) {
+        past::off_body(game, events);
+    }
     scratch.laps().end(Phase::Play);
     if !game.dead {
         let before = game.ball.pos;
@@ -70,7 +72,6 @@ fn move_ball(game: &mut Match, events: &mut Events, scratch: &mut Scratch) {
             Some(id) => event.by(id),
             None => event,
         });
-        game.play.save = [None; 2];
     }
 }
 

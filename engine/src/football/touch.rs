@@ -48,10 +48,10 @@ pub(super) fn about(game: &Match) -> Squad {
 }
 
 /// Lets a player who can and wants to play the ball do so, at most one touch per tick. `near`: who
-/// may be in reach.
-pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad, about: Squad) {
+/// may be in reach. True unless the ball runs on untouched.
+pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad, about: Squad) -> bool {
     if game.dead || game.play.hands.is_some() || game.play.set_piece.is_some() {
-        return;
+        return true;
     }
     dribble_motion::begin(game, near, about);
     let ball = game.ball.pos;
@@ -77,18 +77,21 @@ pub fn play_ball(game: &mut Match, events: &mut Events, near: Squad, about: Squa
                 && !dribble_motion::waits(game, id)
                 && dribble::touch(game, events, id)
             {
-                return;
+                return true;
             }
         } else if nearest.is_none_or(|(best, _)| distance < best) && wants_ball(game, id) {
             nearest = Some((distance, id));
         }
     }
-    let Some((distance, id)) = nearest else { return };
+    let Some((distance, id)) = nearest else { return false };
     let near = libm::sqrtf(distance);
     let contested = owner.is_some_and(|rival| rival.team() != id.team());
-    if !contested && near <= first_touch::reach_m(game, id) && !game.player(id).body.swings() {
+    let takes =
+        !contested && near <= first_touch::reach_m(game, id) && !game.player(id).body.swings();
+    if takes {
         first_touch::take(game, events, id);
     }
+    takes
 }
 
 /// Whether a player would reach for a ball that a rival has.

@@ -3,7 +3,7 @@
 use setpiece_scenario::container::HeadError;
 
 /// The version of snapshots that this build takes and restores.
-pub const SNAPSHOT_VERSION: u32 = 25;
+pub const SNAPSHOT_VERSION: u32 = 26;
 
 /// Why a snapshot can't be taken, restored or begun from.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

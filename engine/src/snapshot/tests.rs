@@ -33,8 +33,18 @@ fn busy() -> Match {
     game.play.pending = Some(restart);
     game.play.advantage = Some(Advantage { by: id, victim: id, restart, tick: 0 });
     (game.play.pass, game.play.shot) = (flight, flight);
-    game.play.save[0] =
-        Some(Save { at_tick: 0, from_tick: 0, point: spot, reaches: true, holds: true });
+    game.play.save[0] = Some(Save {
+        from: 0,
+        saw: 0,
+        at: 0,
+        place: spot.extend(1.0),
+        hands: spot,
+        high_m: 1.0,
+        spot,
+        vel: spot,
+        holds: true,
+        lies: 0,
+    });
     game.play.acting[0].played = Some(Action::Idle);
     let body = &mut game.players[0].body;
     body.intent = Intent::Go(spot, 1.0);

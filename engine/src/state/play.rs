@@ -4,7 +4,7 @@ use super::PlayerId;
 use super::player::{KickKind, NEVER};
 use super::recent::Recent;
 use crate::physics::Forecast;
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use setpiece_scenario::Others;
 use setpiece_scenario::pitch::PLAYERS_MAX;
 use setpiece_scenario::vocabulary::{Action, GameMode, Team};
@@ -75,7 +75,7 @@ pub struct Play {
     pub acting: [Acting; PLAYERS_MAX],
     /// The slot of each team that is next in turn to get a player.
     pub next_slot: [u8; 2],
-    /// The keeper's plan against the ball on its way.
+    /// Each team's keeper's hands that are on their way to the ball.
     pub save: [Option<Save>; 2],
 }
 
@@ -157,19 +157,29 @@ pub struct Received {
     pub length_m: f32,
 }
 
-/// A keeper's plan against a ball on its way.
+/// A keeper's hands on their way to the ball.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Save {
-    /// The tick at which the ball meets the keeper's hands.
-    pub at_tick: u32,
-    /// The tick at which the keeper moves.
-    pub from_tick: u32,
-    /// Where, in the ground plane.
-    pub point: Vec2,
-    /// Whether the keeper will get there.
-    pub reaches: bool,
-    /// Whether the keeper will hold the ball.
+    /// The tick at which the keeper began.
+    pub from: u32,
+    /// The tick up to which they had seen the touches of the ball then.
+    pub saw: i32,
+    /// The tick at which the hands meet the ball.
+    pub at: u32,
+    /// Where the ball is expected then, world metres.
+    pub place: Vec3,
+    /// Where the hands are then, world metres from the body.
+    pub hands: Vec2,
+    /// How high they are then, metres.
+    pub high_m: f32,
+    /// Where the keeper's body is then, world metres.
+    pub spot: Vec2,
+    /// Its velocity then, m/s.
+    pub vel: Vec2,
+    /// Whether the hands can hold the ball.
     pub holds: bool,
+    /// For how many ticks the keeper lies on the ground afterwards; 0 if they stay up.
+    pub lies: u8,
 }
 
 impl Play {

@@ -287,6 +287,10 @@ pub struct Lunge {
     pub at_dmps: Option<u8>,
     /// The velocity that they wanted when it began, world m/s.
     pub wish: Vec2,
+    /// How far the body moves besides its run in each tick before the touch, world metres.
+    pub steps_before: Vec2,
+    /// The same after the touch.
+    pub steps_after: Vec2,
 }
 
 impl Lunge {

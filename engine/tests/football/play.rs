@@ -294,6 +294,8 @@ fn a_leg_far_from_the_ball_is_drawn_back_in_its_time() {
         out_dmps: 0,
         at_dmps: None,
         wish: Vec2::X,
+        steps_before: Vec2::ZERO,
+        steps_after: Vec2::ZERO,
     };
     bench.game.players[far.index()].body.lunge = Some(lunge);
     bench.step(Action::BuiltinAi);

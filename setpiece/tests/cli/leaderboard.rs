@@ -2,8 +2,8 @@
 
 use super::{fails, folder, json, text_of, write};
 
-/// Four a side for half a minute: who plays all outfield players shows who they are.
-const SHORT: &str = "scenario short extends 5_vs_5 { end limit 30s }";
+/// Four a side for a minute and a half: who plays all outfield players shows who they are.
+const SHORT: &str = "scenario short extends 5_vs_5 { end limit 90s }";
 
 fn board(others: &[&str]) -> serde_json::Value {
     let folder = folder();

@@ -3,20 +3,18 @@
 
 use crate::control::bot::send::send;
 use crate::control::bot::{TeamView, on_ball, press};
+use crate::football::keeper::bound_for_goal;
 use crate::football::pace::{RUN_MPS, SPRINT_MPS};
+use crate::football::reach;
 use crate::math::share;
 use crate::state::player::{Intent, Pose};
 use crate::state::{Match, Player, PlayerId};
 use glam::Vec2;
 use setpiece_scenario::PitchSize;
-use setpiece_scenario::vocabulary::{PitchMeasure, Stat};
 
 /// Beyond this own frame x, metres on the usual pitch, a keeper without teammates plays as the only
 /// player; chosen.
 const STRAYED_M: f64 = -15.0;
-/// Beyond this own frame x, metres on the usual pitch, a keeper goes only for a ball that no
-/// opponent can contest; chosen.
-const FAR_OUT_M: f64 = -30.0;
 /// How far ahead a keeper predicts the ball, ticks. (GRF's.)
 const LOOK_TICKS: u32 = 60;
 /// How far ahead a keeper predicts opponents, seconds. (GRF's.)
@@ -30,19 +28,14 @@ const UP_SHARE: f32 = 0.3;
 /// From how far the opponent on the ball and a second one shoot, metres. (GRF's.)
 const RIVAL_SHOOTS_M: f32 = 20.0;
 const SECOND_SHOOTS_M: f32 = 24.0;
-/// Balls bound for goal. (GRF's.) The course is read over `COURSE_TICKS`. The other values: the
-/// ticks within which the ball must cross the line, the distance from which it worries a keeper,
-/// and how far in front of the line the keeper meets it, metres.
-const COURSE_TICKS: u32 = 80;
-const BOUND_TICKS: u32 = 400;
-const BOUND_M: f32 = 32.0;
+/// How far in front of the goal line a keeper meets a ball bound for goal, and above which height
+/// they let it go by, metres. (GRF's.)
 const BEFORE_LINE_M: f32 = 0.4;
+const HIGH_M: f32 = 2.5;
 /// The starting speed of a keeper who keeps facing the ball, m/s, and what they gain per step.
 /// Measured.
 const SIDLES_MPS: f32 = 3.5;
 const GAINS_MPS: f32 = 0.5;
-/// The lead that the keeper needs there, seconds; chosen.
-const FAR_LEAD_S: f32 = 3.0;
 
 /// Decides for a keeper without the ball. False if they should go for it like anyone else.
 pub fn stands(game: &mut Match, view: &TeamView, id: PlayerId) -> bool {
@@ -61,7 +54,7 @@ pub fn stands(game: &mut Match, view: &TeamView, id: PlayerId) -> bool {
         && game
             .controller()
             .is_some_and(|rival| rival.team() != view.team && press::is_sooner(game, id, rival));
-    if called || steals || comes_out(game, view, id) {
+    if called || steals || comes_out(game, view, id, lone) {
         let body = &mut game.players[id.index()].body;
         body.intent = Intent::Ball(SPRINT_MPS);
         body.dribble = Vec2::ZERO;
@@ -116,28 +109,23 @@ fn post(game: &Match, view: &TeamView, id: PlayerId) -> (Vec2, f32) {
     (spot, if back && on_line { RUN_MPS } else { SPRINT_MPS })
 }
 
-/// The nearest point on the path of a ball bound for goal, own frame; none for any other ball. A
-/// ball dribbled towards the goal counts too. (GRF's.)
+/// The nearest point on the path of a ball bound for goal, own frame; none for any other ball. The
+/// keeper runs to the goal line if the ball will be too high for them there. (GRF's.)
 fn in_the_way(game: &Match, view: &TeamView, id: PlayerId) -> Option<Vec2> {
+    let y = bound_for_goal(game, id)?;
     let (player, goal) = (game.player(id), game.goal());
-    let at = |ticks: u32| game.play.forecast.at(game.tick + ticks).truncate() * view.side;
-    let (ball, soon) = (at(1), at(COURSE_TICKS));
-    let way = soon - ball;
-    let rolls_in = at(BOUND_TICKS).x < -goal.x && way.x < 0.0;
-    if !rolls_in || (player.pos * view.side).distance(at(25)) > BOUND_M {
-        return None;
-    }
-    let y = ball.y + way.y * (-goal.x - ball.x) / way.x;
-    let reads = 0.6 * player.skill(Stat::DefensivePositioning) + 0.4 * player.skill(Stat::Vision);
-    if y.abs() > game.measure(PitchMeasure::GoalHalfWidth) * (1.02 + 0.5 * (1.0 - reads)) {
-        return None;
-    }
+    let at = |ticks: u32| game.play.forecast.at(game.tick + ticks);
+    let ball = at(1).truncate() * view.side;
     let line = Vec2::new(-goal.x, y);
     let end = line + (ball - line).normalize_or_zero() * BEFORE_LINE_M;
     let course = end - ball;
-    let own = (player.pos + player.vel * 0.05) * view.side - ball;
-    let share = (own.dot(course) / course.length_squared().max(1e-3)).clamp(0.0, 1.0);
-    let spot = ball + course * share;
+    let share = |place: Vec2| (place - ball).dot(course) / course.length_squared().max(1e-3);
+    let own = share((player.pos + player.vel * 0.05) * view.side);
+    let per_s = share(at(1 + 100).truncate() * view.side);
+    if per_s > 1e-4 && at(1 + (100.0 * own / per_s).max(0.0) as u32).z > HIGH_M {
+        return Some(end);
+    }
+    let spot = ball + course * own.clamp(0.0, 1.0);
     Some(Vec2::new(spot.x.max(0.2 - goal.x), spot.y))
 }
 
@@ -183,35 +171,16 @@ fn second_danger(game: &Match, view: &TeamView, id: PlayerId, rival: PlayerId, l
     open * nearer * 0.7
 }
 
-/// Whether a free ball is the keeper's: it was passed to them, or they surely reach it before the
-/// others. The required lead depends on where the ball is: out of the box hands don't help and the
-/// goal is empty. A keeper without teammates has nobody else.
-fn comes_out(game: &Match, view: &TeamView, id: PlayerId) -> bool {
-    if game.controller().is_some() {
-        return false;
-    }
-    if game.play.pass.is_some_and(|pass| pass.to == Some(id)) {
-        return true;
-    }
-    let player = game.player(id);
-    let meet = player.body.meet * view.side;
-    let rivals = TeamView::soonest(game, view.team.other());
-    let mates = game
-        .team(view.team)
-        .filter(|(mate, _)| *mate != id)
-        .fold(f32::MAX, |least, (_, p)| least.min(p.body.meet_s));
-    let lone = game.team(view.team).count() == 1;
-    let (line, pitch) = (game.goal().x, &game.pitch);
-    let edge = line - game.measure(PitchMeasure::BoxDepth) + 1.0;
-    let aside = (pitch.measure(PitchMeasure::BoxHalfWidth) - 0.65) as f32;
-    let in_box = meet.x < -edge && meet.y.abs() < aside;
-    let far_out = meet.x < pitch.along(FAR_OUT_M) as f32;
-    let lead_s = match (lone, in_box, far_out) {
-        (true, ..) => -0.05,
-        (_, true, _) => 0.25,
-        (_, _, true) => 0.8,
-        _ => FAR_LEAD_S,
+/// Whether a free ball is the keeper's: it was passed to them, or they are first at it, and it
+/// isn't bound for goal. (GRF's.) A keeper without teammates has nobody else.
+fn comes_out(game: &Match, view: &TeamView, id: PlayerId, lone: bool) -> bool {
+    let passed = || game.play.pass.is_some_and(|pass| pass.to == Some(id));
+    let first = || {
+        if lone {
+            game.player(id).body.meet_s <= TeamView::soonest(game, view.team.other())
+        } else {
+            reach::first(game) == Some(id)
+        }
     };
-    let theirs_first = player.body.meet_s + lead_s >= rivals;
-    !theirs_first && (player.body.meet_s < mates + 0.3 || in_box && view.ball.x < 11.0 - line)
+    game.controller().is_none() && (passed() || first()) && bound_for_goal(game, id).is_none()
 }

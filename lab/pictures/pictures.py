@@ -23,7 +23,7 @@ SMALL = (317, 207)
 """A panel of four, pixels."""
 UPRIGHT = (210, 246)
 LARGE = (511, 553)
-EPISODES = 200
+EPISODES = 1_000
 """How many are searched for a moment."""
 LEAST = 0.015
 """Payments that get a ring."""

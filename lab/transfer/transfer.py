@@ -43,9 +43,9 @@ decodes the maps of both games. The real game is EnvPool's, with 19 actions and 
   1,000 episodes score 0.97.
 - The policies of this table were trained in earlier builds, most of them before the touches of a dribble became
   motions. The scores here are of this build.
-- The policies in the box (`baselines/policies`), trained on numbers in this build, keep more. In 60 episodes of the real
-  game that of `academy_3_vs_1_with_keeper` scores 0.80 with its likeliest actions and 0.85 with drawn ones (here 0.93),
-  and that of `academy_run_to_score_with_keeper` 0.57 and 0.60 (here 0.97).
+- The policies in the box (`baselines/policies`), trained on numbers in this build, keep more. In 60 episodes of the
+  real game that of `academy_3_vs_1_with_keeper` scores 0.80 with its likeliest actions and 0.85 with drawn ones (here
+  0.93), and that of `academy_run_to_score_with_keeper` 0.57 and 0.60 (here 0.97).
 
 """
 DIFFERENCES = """

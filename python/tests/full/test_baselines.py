@@ -253,7 +253,9 @@ def test_a_checkpoint_of_other_settings_is_refused(
 
 def test_a_team_learns(mappo: Any) -> None:
     """Two players: the score of a policy that has learnt nothing is about 0.05."""
-    settings = mappo.Settings(scenario="multi_pass_and_shoot_with_keeper", steps=1_000_000, seed=100)
+    settings = mappo.Settings(
+        scenario="multi_pass_and_shoot_with_keeper", steps=1_000_000, seed=100
+    )
     training = mappo.Training(settings)
     assert training.agents == 2
     before = training.evaluate(100, drawn=False).mean()

@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import box
 import compare
 import trained
 from options import is_match, parse
@@ -43,9 +44,12 @@ decodes the maps of both games. The real game is EnvPool's, with 19 actions and 
   1,000 episodes score 0.97.
 - The policies of this table were trained in earlier builds, most of them before the touches of a dribble became
   motions. The scores here are of this build.
-- The policies in the box (`baselines/policies`), trained on numbers in this build, keep more. In 60 episodes of the
-  real game that of `academy_3_vs_1_with_keeper` scores 0.80 with its likeliest actions and 0.85 with drawn ones (here
-  0.93), and that of `academy_run_to_score_with_keeper` 0.57 and 0.60 (here 0.97).
+
+"""
+BOXED = """
+The policies in the box (`baselines/policies`) see numbers, `simple115v2`. Those of `academy_3_vs_1_with_keeper` and
+`academy_run_to_score_with_keeper` were trained in this build, the others in the one before. `box.py` plays
+them where the package `gfootball` is installed. "here" is the score of their likeliest actions on their cards.
 
 """
 DIFFERENCES = """
@@ -131,7 +135,9 @@ def write_page() -> None:
     """Writes the page from the stored results."""
     records = trained.stored()
     policies = trained.table(records) if records else "No policy has been trained yet.\n"
-    PAGE.write_text(HEAD + policies + DIFFERENCES + RULES + compare.sections())
+    PAGE.write_text(
+        HEAD + policies + BOXED + box.stored() + DIFFERENCES + RULES + compare.sections()
+    )
 
 
 def main(argv: list[str]) -> None:

@@ -118,15 +118,27 @@ pub fn load_with(
     // Only runnable scenarios; bases that others extend aren't useful suggestions.
     let known = list();
     let names = || known.iter().map(|entry| entry.name.as_str());
-    // A truncated name has a low similarity, but its beginning is enough, with or without
-    // underscores.
-    let joined = |name: &str| name.replace('_', "");
-    let begun = || {
-        let beginning = joined(name_or_path);
-        names().find(|name| beginning.len() >= BEGUN_LEAST && joined(name).starts_with(&beginning))
-    };
-    let similar = nearest(name_or_path, names()).or_else(begun).map(str::to_owned);
+    let similar = nearest(name_or_path, names()).or_else(|| begun(name_or_path, names()));
+    let similar = similar.map(str::to_owned);
     Err(Error::Unknown { name: name_or_path.to_owned(), similar })
+}
+
+/// The name whose beginning was given, with or without underscores. A slip is allowed if more than
+/// one word was given, for many names begin with the same one.
+fn begun<'a>(given: &str, names: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
+    let joined = |name: &str| name.replace('_', "");
+    let beginning = joined(given);
+    if beginning.len() < BEGUN_LEAST {
+        return None;
+    }
+    let words = given.split('_').count();
+    let cut = |name: &str| name.split('_').take(words).collect::<Vec<_>>().join("_");
+    let alike = || {
+        let cuts: Vec<_> = names.clone().map(cut).collect();
+        let near = nearest(given, cuts.iter().map(String::as_str).filter(|_| words > 1))?;
+        names.clone().find(|name| cut(name) == near)
+    };
+    names.clone().find(|name| joined(name).starts_with(&beginning)).or_else(alike)
 }
 
 /// Loads a `.pitch` or a compiled file; its first bytes show which it is.

@@ -191,6 +191,15 @@ mod tests {
     };
 
     #[test]
+    fn a_body_is_drawn_to_a_ball_that_is_far_off_and_away_from_a_near_one() {
+        // Measured: 0.23 m behind the place draws back by 0.03 m, 0.02 m ahead of it by 0.18 m.
+        assert!((drawn(Vec2::new(-0.23, 0.0), 0.6).x + 0.03).abs() < 1e-3);
+        assert!((drawn(Vec2::new(0.02, 0.0), 0.6).x + 0.18).abs() < 1e-3);
+        assert!((drawn(Vec2::new(1.0, 0.0), 0.6).x - 0.588).abs() < 1e-3);
+        assert_eq!(drawn(Vec2::ZERO, 0.6), Vec2::ZERO);
+    }
+
+    #[test]
     fn a_sprinter_shoots_a_ball_that_is_no_further_than_the_motion_is_made_for() {
         // Measured: its place is 1.82 m ahead of the start, 1.86 m is too far, 1.77 near enough.
         let ball = |ahead: f32| Vec2::new(0.54 + ahead - 1.82, 0.0);

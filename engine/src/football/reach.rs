@@ -99,19 +99,10 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
         let run_s = changing_s - changed_s;
         let radius = is(REACH_M) + is(speed) * (changed_s + time_s - changing_s);
         let (dx, dy) = (x - at_x - vel_x * run_s, y - at_y - vel_y * run_s);
-        // How far back, as a share of the way from the point before, the ball is nearest.
-        let mut back = f32x4::ZERO;
-        let (mut near_x, mut near_y) = (dx, dy);
+        let (mut back, mut near_x, mut near_y) = (f32x4::ZERO, dx, dy);
         if fast {
-            let ([x0, x1, x2, _], [y0, y1, y2, _]) = (dx.to_array(), dy.to_array());
-            let before = (row * WIDTH).checked_sub(1).map_or(Vec2::new(x0, y0), off);
-            let to_x = f32x4::new([before.x, x0, x1, x2]) - dx;
-            let to_y = f32x4::new([before.y, y0, y1, y2]) - dy;
-            let way_m2 = (to_x * to_x + to_y * to_y).fast_max(is(f32::MIN_POSITIVE));
-            let share = (-(dx * to_x + dy * to_y) / way_m2).fast_max(f32x4::ZERO);
-            // Not further back than now.
-            back = share.fast_min(f32x4::ONE).fast_min(time_s * is(1.0 / SPACING_S));
-            (near_x, near_y) = (dx + to_x * back, dy + to_y * back);
+            let before = (row * WIDTH).checked_sub(1).map(off);
+            (back, [near_x, near_y]) = nearest([dx, dy], before, time_s);
         }
         let reached = (near_x * near_x + near_y * near_y).simd_le(radius * radius).to_bitmask();
         let reached = reached & (way.playable >> (row * WIDTH)) as u32;
@@ -137,6 +128,20 @@ pub fn meeting(player: &Player, way: &Way<'_>) -> (Vec2, f32) {
     let (last, time_s) = (way.forecast.point(end - 1).truncate(), time_s(end - 1, way.offset_s));
     let lacks_m = last.distance(at) - speed * (time_s - 0.5 * CHANGES_S);
     (last, time_s + (lacks_m / speed).max(0.0))
+}
+
+/// How far back from four points, as a share of the way from the point before each, a ball is
+/// nearest, and where it is then, all seen from a player. `before`: the point before the first;
+/// `time_s`: when the ball is at the points: it is followed no further back than to now.
+fn nearest([dx, dy]: [f32x4; 2], before: Option<Vec2>, time_s: f32x4) -> (f32x4, [f32x4; 2]) {
+    let ([x0, x1, x2, _], [y0, y1, y2, _]) = (dx.to_array(), dy.to_array());
+    let before = before.unwrap_or(Vec2::new(x0, y0));
+    let to_x = f32x4::new([before.x, x0, x1, x2]) - dx;
+    let to_y = f32x4::new([before.y, y0, y1, y2]) - dy;
+    let way_m2 = (to_x * to_x + to_y * to_y).fast_max(f32x4::splat(f32::MIN_POSITIVE));
+    let share = (-(dx * to_x + dy * to_y) / way_m2).fast_max(f32x4::ZERO);
+    let back = share.fast_min(f32x4::ONE).fast_min(time_s * f32x4::splat(1.0 / SPACING_S));
+    (back, [dx + to_x * back, dy + to_y * back])
 }
 
 /// The time of a player who is already at the ball; nearer means less. (GRF's.)

@@ -4,11 +4,12 @@ use crate::Bench;
 use crate::layouts::{Layout, drawn};
 use glam::{Vec2, Vec3};
 use setpiece_engine::football::restart::place;
-use setpiece_engine::football::{contact, foul, keeper, offside};
-use setpiece_engine::physics::Ball;
+use setpiece_engine::football::{contact, foul, keeper, offside, past};
+use setpiece_engine::physics::{Ball, Conditions, Forecast};
 use setpiece_engine::state::PlayerId;
 use setpiece_engine::state::play::Restart;
 use setpiece_engine::state::player::Pose;
+use setpiece_scenario::PitchSize;
 use setpiece_scenario::vocabulary::{Action, EventKind, GameMode, Qualifier, Role, Rule, Team};
 
 /// A match of eleven against eleven with some rules changed.
@@ -267,6 +268,32 @@ fn a_shot_at_the_keepers_chest_does_not_go_through() {
         goals += u32::from(bench.game.score[0]);
     }
     assert!(goals < 30, "{goals} of 200 went through the defender");
+}
+
+#[test]
+fn a_ball_that_gets_past_the_first_at_it_comes_off_them() {
+    // Ticks since a rival touched it, how far beside the player it is, metres, and whether it comes
+    // off them.
+    for (since, aside_m, comes_off) in [(30, 0.3, true), (30, 0.7, false), (10, 0.3, false)] {
+        let mut bench = bench(&[], 0);
+        let (striker, keeper) = (PlayerId(2), PlayerId(11));
+        let game = &mut bench.game;
+        game.tick += 1_000;
+        game.players[keeper.index()].pos = Vec2::new(30.0, 0.0);
+        game.players[striker.index()].body.touched_at = game.tick as i32 - since;
+        game.last_touch = Some(striker);
+        (game.owner, game.play.chaser) = (None, [None, Some(keeper)]);
+        game.ball = Ball {
+            pos: Vec3::new(30.1, aside_m, 0.8),
+            vel: Vec3::new(30.0, 0.0, 0.0),
+            spin: Vec3::ZERO,
+        };
+        game.play.forecast =
+            Forecast::of(&game.ball, &PitchSize::USUAL, &Conditions::USUAL, game.tick);
+        past::off_body(game, &mut bench.events);
+        assert_eq!(bench.game.last_touch == Some(keeper), comes_off, "{since} {aside_m}");
+        assert_eq!(bench.game.ball.vel.x < 15.0, comes_off, "{}", bench.game.ball.vel);
+    }
 }
 
 #[test]

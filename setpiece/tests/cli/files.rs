@@ -4,13 +4,10 @@ use super::{CLOSE, fails, folder, setpiece, text, text_of, write};
 
 #[test]
 fn a_name_or_file_that_is_not_there_is_one_clear_error() {
-    fails(&["run", "academy_3_vs_1"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
-    fails(
-        &["run", "academy_3_vs_1_with_keper"],
-        1,
-        &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"],
-    );
-    fails(&["run", "academy_3_vs1"], 1, &["SP0005", "did you mean `academy_3_vs_1_with_keeper`?"]);
+    for name in ["3_vs_1", "3_vs_1_with_keper", "3_vs1", "3_v_1"] {
+        let meant = "did you mean `academy_3_vs_1_with_keeper`?";
+        fails(&["run", &format!("academy_{name}")], 1, &["SP0005", meant]);
+    }
     let stderr = fails(&["run", "academ"], 1, &["SP0005"]);
     assert!(!stderr.contains("`academy`"), "a base that nobody plays: {stderr}");
     fails(&["run", "nothing/of/the/kind.pitch"], 1, &["SP0001"]);

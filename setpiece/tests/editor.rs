@@ -22,7 +22,7 @@ mod naming;
 mod preview;
 
 use setpiece::editor::text::Lines;
-use setpiece::editor::{ActionKind, FoldedKind, LensKind, RenameError, Workspace};
+use setpiece::editor::{FoldedKind, LensKind, RenameError, Workspace};
 use std::path::{Path, PathBuf};
 
 /// A scenario to ask about; `name` follows a line of comment.

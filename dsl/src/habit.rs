@@ -6,7 +6,7 @@ mod rewrite;
 mod row;
 mod table;
 
-use names::NAMES;
+use names::{NAMES, TYPES};
 use pest::Parser;
 use plans::PLANS;
 use rewrite::{FoundPart, MatchedPart, PartKind, rewrites};
@@ -69,6 +69,11 @@ pub(crate) enum Begins {
 /// What to write for a name that nothing has.
 pub(crate) fn of_name(name: &str) -> Option<String> {
     NAMES.iter().find_map(|habit| habit.at(&[], &[name], true)).map(|found| found.help)
+}
+
+/// The type that another language calls by a name.
+pub(crate) fn of_type(name: &str) -> Option<&'static str> {
+    TYPES.iter().find_map(|(theirs, ours)| theirs.contains(&name).then_some(*ours))
 }
 
 /// What to write where the tokens of a statement stop making sense at one of them; the unreadable

@@ -44,3 +44,19 @@ pub(super) const NAMES: &[Habit] = &[
     ),
     row(Name, "end", "`end` is an event only after `on`: `give 1 on end`"),
 ];
+
+/// Types of other languages, and ours.
+pub(super) const TYPES: &[(&[&str], &str)] = &[
+    (&["float", "double", "real", "num", "f32", "f64"], "number"),
+    (&["integer", "i32", "uint", "count"], "int"),
+    (&["boolean", "flag", "switch"], "bool"),
+    (&["probability", "share", "chance", "ratio"], "percent"),
+    (&["distance", "metre", "metres", "meter", "meters"], "length"),
+    (&["time", "seconds", "steps", "step", "second"], "duration"),
+    (&["velocity", "pace"], "speed"),
+    (&["degrees", "radians", "direction"], "angle"),
+    (&["position", "place", "location", "coordinate"], "point"),
+    (&["area", "zone"], "region"),
+    (&["str", "text"], "string"),
+    (&["players", "list", "array"], "set"),
+];

@@ -343,6 +343,7 @@ pub(super) const HABITS: &[Habit] = &[
     row(Team, "^ | if", "a player stands there on a condition: `CM at (0.1, 0) when …`"),
     row(Behavior, "^ | when", "in a behavior write `if … { … }`"),
     row(Anywhere, "| if … else", "write `if c then a else b`"),
+    row(Scenario, "end … when … | if", "a condition goes on with `and`: write `and …`"),
     row(Scenario, "end … | if", "write `when …`"),
     row(Scenario, "rounds 9 | on¦until¦if", "write `rounds {1} when …`"),
     // Who comes on bears the name of who goes off.

@@ -13,7 +13,8 @@ use crate::scene::of_match;
 use crate::tracking::Tracking;
 use setpiece_engine::batch::{EpisodeError, EpisodeSummary, Policy, STEPS_MAX};
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece_engine::state::PlayerId;
+use setpiece_engine::state::{Match, PlayerId};
+use setpiece_engine::step::hand_over;
 use setpiece_render::Scene;
 use setpiece_render::scene::Pitch;
 use setpiece_scenario::Scenario;
@@ -55,7 +56,7 @@ pub struct Profile {
     pub terms: Vec<(String, f64)>,
     /// How often each action was pressed, the most frequent first.
     pub actions: Vec<(Action, u64)>,
-    /// Where players of its teams touched the ball.
+    /// Where the players that it controlled at the time touched the ball.
     pub touches: Vec<[f32; 2]>,
     /// Their passes.
     pub passes: Vec<ProfilePass>,
@@ -101,7 +102,7 @@ pub fn profile(
         .map_err(Error::Environment)?;
     let mut policy = options.agent.fit(&environment)?.player();
     let names = environment.term_names().to_vec();
-    let teams: Vec<Team> = environment.roster().agents.iter().map(|(team, _)| *team).collect();
+    let is_left = environment.roster().agents.iter().any(|(team, _)| *team == Team::Left);
     let mut found = Profile {
         scenario: scenario.name.clone(),
         agent: options.agent.name().to_owned(),
@@ -119,10 +120,13 @@ pub fn profile(
     };
     let (mut summaries, mut scratch) = (Vec::new(), Scratch::default());
     let mut counts = [0; Action::FULL_SET];
+    let mut controlled = Vec::new();
     for index in 0..options.episodes {
+        controlled.clear();
         let replay =
-            play(&mut environment, &mut policy, (options.seed, index), &mut scratch, |it| {
-                look(it, &teams, &mut found, &mut counts);
+            play(&mut environment, &mut policy, (options.seed, index), &mut scratch, |it, own| {
+                look(it, own, &mut found, &mut counts);
+                controlled.push(own);
             })?;
         if index == 0 {
             let mut scene = Scene::default();
@@ -131,7 +135,10 @@ pub fn profile(
         }
         let tracking = Tracking::of(&replay)?;
         for event in &tracking.events {
-            let Some(by) = event.by.filter(|by| teams.contains(&by.team())) else { continue };
+            // Frame n is the end of step n.
+            let step = (event.frame as usize).checked_sub(1);
+            let own = step.and_then(|step| controlled.get(step)).copied().unwrap_or_default();
+            let Some(by) = event.by.filter(|by| own.contains(*by)) else { continue };
             let at = ahead(by, event.at);
             match (event.kind, event.end) {
                 ("pass", Some((to, _))) => found.passes.push(ProfilePass {
@@ -146,7 +153,7 @@ pub fn profile(
         summaries.push(EpisodeSummary::of(&environment));
         after();
     }
-    let side = if teams.contains(&Team::Left) { 1.0 } else { -1.0 };
+    let side = if is_left { 1.0 } else { -1.0 };
     summarise(&mut found, &summaries, &names, &counts, side);
     Ok(found)
 }
@@ -157,13 +164,39 @@ fn ahead(by: PlayerId, [x, y]: [f32; 2]) -> [f32; 2] {
     [side * x, side * y]
 }
 
-/// Plays an episode and records it; `look` is called after each step, before the next begins.
+/// The players that agents control in a step, one bit each.
+#[derive(Clone, Copy, Debug, Default)]
+struct ControlledPlayers(u32);
+
+impl ControlledPlayers {
+    /// Those of the step that comes next.
+    fn next(environment: &Environment) -> ControlledPlayers {
+        let of = |game: &Match| {
+            let players = game.agents.iter().filter_map(|slot| slot.player);
+            ControlledPlayers(players.fold(0, |bits, id| bits | 1 << id.0))
+        };
+        if environment.steps() > 0 {
+            return of(environment.state());
+        }
+        // An episode's first step hands the ball's player over to an agent.
+        let mut game = environment.state().clone();
+        hand_over(&mut game);
+        of(&game)
+    }
+
+    fn contains(self, id: PlayerId) -> bool {
+        self.0 & (1 << id.0) != 0
+    }
+}
+
+/// Plays an episode and records it; `look` is called after each step, before the next begins, with
+/// the players that agents controlled in it.
 fn play(
     environment: &mut Environment,
     policy: &mut impl Policy,
     (seed, index): (u64, u64),
     scratch: &mut Scratch,
-    mut look: impl FnMut((&Environment, &[Action])),
+    mut look: impl FnMut((&Environment, &[Action]), ControlledPlayers),
 ) -> Result<Replay, Error> {
     let fault = |why| Error::Episode(Box::new(why));
     environment.reset(Some(seed), Some(index)).map_err(|why| fault(EpisodeError::Draw(why)))?;
@@ -176,8 +209,9 @@ fn play(
             *action = policy.act(environment, agent);
             recorder.note(*action, None);
         }
+        let own = ControlledPlayers::next(environment);
         environment.step(&actions, scratch).map_err(|why| fault(EpisodeError::Step(why)))?;
-        look((environment, &actions));
+        look((environment, &actions), own);
         if environment.is_running() && environment.steps() >= STEPS_MAX {
             return Err(fault(EpisodeError::Endless(STEPS_MAX)));
         }
@@ -188,7 +222,7 @@ fn play(
 /// Counts the actions and touches of a step.
 fn look(
     (environment, actions): (&Environment, &[Action]),
-    teams: &[Team],
+    own: ControlledPlayers,
     found: &mut Profile,
     counts: &mut [u64; Action::FULL_SET],
 ) {
@@ -198,7 +232,7 @@ fn look(
         }
     }
     for event in environment.events().iter().filter(|event| event.kind == EventKind::Touch) {
-        if let Some(by) = event.by.filter(|by| teams.contains(&by.team())) {
+        if let Some(by) = event.by.filter(|by| own.contains(*by)) {
             found.touches.push(ahead(by, [event.at.x, event.at.y]));
         }
     }

@@ -17,6 +17,9 @@ const GOOD: &str = "#ffd166";
 const BAD: &str = "#ef476f";
 /// The radius of a goal and of another shot, metres.
 const SHOT_M: [f64; 2] = [1.5, 0.9];
+/// Whose touches, passes and shots are shown.
+const WHOSE: &str = "Touches, passes and shots are those of the players that the agent controls at \
+    the time. Teammates that it doesn't control are left out.";
 const STYLE: &str = "
 :root { color-scheme: light dark; }
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }
@@ -39,7 +42,8 @@ pub fn page(profile: &Profile) -> String {
     let mut html = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n\
-         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p class=\"dim\">{1}</p>\n",
+         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p class=\"dim\">{1}</p>\n\
+         <p>{WHOSE}</p>\n",
         escaped(&title),
         escaped(&about(profile))
     );

@@ -42,6 +42,30 @@ fn the_page_shows_every_pass_and_shot_and_how_episodes_end() {
     assert!(goals > 0 && (scored - 2.0..=scored).contains(&(goals as f64)), "{goals} of {scored}");
 }
 
+/// The bot scores with the others; the agent stands elsewhere and does nothing.
+#[test]
+fn what_teammates_do_is_not_the_agents() {
+    let folder = folder();
+    let drill = "scenario mine {
+        ball at (40m, 0m)
+        team left { GK at (-50m, 0m) far: CB at (-30m, 20m) CF at (39m, 0m) CM at (35m, 5m) }
+        team right { GK at (50m, 0m) }
+        agents { left: [far] }
+        end success scored when goal by left
+        end limit 10s
+    }";
+    let drill = super::write(folder.path(), "mine.pitch", drill);
+    let (line, page) = profiled("idle", &drill, "10");
+    assert!(page.contains("<td>scored (success)</td>"), "{page}");
+    assert_eq!(["touches", "passes", "shots"].map(|word| count(&line, word)), [0; 3], "{line}");
+    assert!(page.contains("players that the agent controls"), "{page}");
+    let own = drill.replace("mine", "own");
+    let text = std::fs::read_to_string(&drill).unwrap().replace("[far]", "all");
+    std::fs::write(&own, text).unwrap();
+    let (line, _) = profiled("bot", &own, "10");
+    assert!(count(&line, "shots") >= 5 && count(&line, "touches") > 10, "{line}");
+}
+
 #[test]
 fn the_page_needs_nothing_else_and_is_the_same_again() {
     let (line, page) = profiled("baseline", "academy_empty_goal_close", "5");

@@ -147,6 +147,8 @@ pub enum PolicyFault {
         /// The shape of what it returns.
         found: Vec<usize>,
     },
+    /// It returns logits that are no numbers, whatever it sees.
+    NotNumbers,
 }
 
 impl From<NetworkFault> for PolicyFault {
@@ -180,6 +182,7 @@ impl std::fmt::Display for PolicyFault {
                     None => write!(f, "it sees {shape} numbers, which `{scenario}` doesn't show"),
                 }
             }
+            PolicyFault::NotNumbers => f.write_str("it returns logits that are no numbers (NaN)"),
             PolicyFault::Actions { found } => {
                 write!(f, "it returns {found:?}; expected the logits of 19 or 20 actions, [1, 19]")
             }

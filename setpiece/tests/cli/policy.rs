@@ -15,10 +15,11 @@ struct Linear {
     favourite: usize,
     operator: &'static str,
     metadata: &'static [(&'static str, &'static str)],
+    weight: f32,
 }
 
 const LINEAR: Linear =
-    Linear { inputs: 115, actions: 19, favourite: 0, operator: "Gemm", metadata: &[] };
+    Linear { inputs: 115, actions: 19, favourite: 0, operator: "Gemm", metadata: &[], weight: 0.0 };
 
 /// A field of the format: its number and its bytes.
 fn field(number: u64, bytes: impl AsRef<[u8]>) -> Vec<u8> {
@@ -58,7 +59,7 @@ impl Linear {
         let n = self.actions as u64;
         let mut bias = vec![0.0; self.actions];
         bias[self.favourite] = 1.0;
-        let weights = vec![0.0; self.inputs as usize * self.actions];
+        let weights = vec![self.weight; self.inputs as usize * self.actions];
         let inputs = ["observation", "weights", "bias"].map(|name| field(1, name)).concat();
         let node = [inputs, field(2, "logits"), field(3, "last"), field(4, self.operator)].concat();
         let graph = [
@@ -174,6 +175,8 @@ fn files_that_are_no_policies_are_reported() {
         &of(Linear { operator: "Conv", ..LINEAR }),
         &["`last` (Conv) can't be computed", "expected pictures"],
     );
+    let diverged = Linear { weight: f32::NAN, ..LINEAR };
+    refused("nan.onnx", &of(diverged), &["it returns logits that are no numbers (NaN)"]);
     for said in ["0", "often", "-1", "1.5", "4000000000"] {
         let metadata = Box::leak(Box::new([("repeat", said)]));
         let bytes = of(Linear { metadata, ..LINEAR });

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece._errors import FileError, FormatError, ParameterError
-from setpiece._native import BASELINES, baseline_file
+from setpiece._native import Scenario, baseline_file
 from setpiece._optional import need
 from setpiece._options import check_path
 from setpiece._spaces import OBSERVATIONS
@@ -179,17 +179,14 @@ def onnx_policy(path: str | PathLike[str]) -> OnnxPolicy:
     return _policy(fspath(path), fspath(path))
 
 
-def baseline_policy(scenario: str) -> OnnxPolicy:
+def baseline_policy(scenario: Scenario) -> OnnxPolicy:
     """Returns the policy that a scenario comes with, or raises `ParameterError`."""
-    model = baseline_file(scenario)
-    if model is None:
-        raise ParameterError(
-            f"the scenario `{scenario}` has no baseline",
-            name="opponents",
-            code="SP0024",
-            help=f"these have one: `{'`, `'.join(BASELINES)}`",
-        )
-    return _policy(f"baseline/{scenario}.onnx", model)
+    try:
+        name, model = baseline_file(scenario)
+    except ParameterError as error:
+        error.name = "opponents"
+        raise
+    return _policy(f"baseline/{name}.onnx", model)
 
 
 def _policy(path: str, model: str | bytes) -> OnnxPolicy:

@@ -115,12 +115,12 @@ class Table:
         agents: Sequence[AgentInfo],
         opponents: Mapping[str, Opponent],
         n_actions: int,
-        scenario: str,
+        scenario: Scenario,
         what: str = "opponent",
     ) -> None:
         """Seats opponents; `what` they are called in errors.
 
-        `scenario` is its name, which has the policy of `"baseline"`.
+        `scenario` is what they play, which may have the policy of `"baseline"`.
         """
         self.n_agents, self.n_actions = len(agents), n_actions
         owner = _owners(agents, read_opponents(opponents))

@@ -264,7 +264,7 @@ class Suite:
         )
         agents = batch.agents
         sides: dict[str, Opponent] = {SIDES[agent.team]: policy for agent in agents}
-        table = Table(agents, sides, ACTION_SETS["v2"], scenario.name, "policy")
+        table = Table(agents, sides, ACTION_SETS["v2"], scenario, "policy")
         crowd = Crowd(table, n)
         for kind in table.observations:
             batch.look(*kind)

@@ -186,7 +186,7 @@ def test_the_command_plays_the_episodes_of_python(
 @pytest.mark.parametrize("name", BASELINES)
 def test_a_policy_in_the_box_plays_the_same_everywhere(tmp_path: Path, name: str) -> None:
     file = tmp_path / "policy.onnx"
-    file.write_bytes(baseline_file(name) or b"")
+    file.write_bytes(baseline_file(setpiece.load(name))[1])
     boxed, opened = (
         setpiece.evaluate(policy, name, episodes=50, observation="egocentric").rows[0].digest
         for policy in ("baseline", file)

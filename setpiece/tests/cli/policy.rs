@@ -225,6 +225,80 @@ fn a_scenario_without_a_baseline_says_which_have_one() {
     fails(&["run", "11_vs_11_easy_stochastic", "--agent", "baseline"], 1, &words);
 }
 
+/// A policy belongs to players and a start, not to a name.
+#[test]
+fn the_baseline_is_that_of_the_players_and_the_start() {
+    let folder = folder();
+    let digest = |name: &str, text: &str| {
+        let path = write(folder.path(), "mine.pitch", text);
+        let args = ["run", &path, "--scenario", name, "-n", "5", "-a", "baseline"];
+        json(&[&args[..], &["--format", "json"]].concat())["digest"].clone()
+    };
+    let extends = |change: &str| format!("scenario mine extends {DRILL} {{ {change} }}");
+    let usual = digest_of_baseline();
+    let library = concat!(env!("CARGO_MANIFEST_DIR"), "/../stdlib-scenarios/academy");
+    let library = std::fs::read_to_string(format!("{library}/{DRILL}.pitch")).unwrap();
+    assert_eq!(digest(DRILL, &library), usual);
+    assert_eq!(digest("mine", &extends("reward fast { give -0.01 }")), usual);
+    // The limit is a number of the start program.
+    for change in [
+        "end success near when ball.x > 0.8",
+        "end limit 30s",
+        "end limit 1s",
+        "param difficulty = 0.9",
+        "team right { difficulty: 0.3 }",
+        "let far = uniform(1m, 2m)",
+    ] {
+        digest("mine", &extends(change));
+    }
+}
+
+fn digest_of_baseline() -> serde_json::Value {
+    json(&["run", DRILL, "-n", "5", "-a", "baseline", "--format", "json"])["digest"].clone()
+}
+
+#[test]
+fn another_scenario_of_the_same_name_has_no_baseline() {
+    let folder = folder();
+    let refused = |change: &str, what: &str| {
+        let text = format!("scenario {DRILL} extends academy {{ {change} }}");
+        let path = write(folder.path(), "mine.pitch", text);
+        let words = ["SP0024", "isn't the library's of this name", what, "--agent FILE.onnx"];
+        fails(&["run", &path, "--agent", "baseline"], 1, &words);
+    };
+    let players = "team left { GK at (-1.011, 0) CM at (0.6066, 0) CM at (0.7077, 0.2033) \
+        CM at (0.7077, -0.2033) }";
+    let (right, ball) = ("team right { GK at (1.011, 0) CB at (0.7583, 0) }", "ball at (0.62, 0)");
+    refused(&format!("{ball} {right} team left {{ CM at (0.6, 0) }}"), "the number of players");
+    let moved = players.replace("0.6066", "0.5");
+    refused(&format!("{ball} {right} {moved}"), "player 2 (the left CM)");
+    refused(&format!("ball at (0.6, 0) {players} {right}"), "the ball's start");
+    refused(&format!("{ball} {players} {right} rules {{ offside: on }}"), "the rules");
+}
+
+#[test]
+fn every_entry_of_a_suite_without_a_baseline_is_reported_at_once() {
+    let folder = folder();
+    let suite = "suite some {
+        academy_empty_goal_close for 2 episodes
+        academy_corner for 1000000 episodes
+        academy_empty_goal for 2 episodes
+        5_vs_5 for 2 episodes
+    }";
+    let suite = write(folder.path(), "some.pitch", suite);
+    let words = [
+        "SP0024",
+        "2 of 4 entries have no baseline: `academy_corner`, `5_vs_5`",
+        "`academy_empty_goal_close`",
+    ];
+    let played = setpiece(&["run", &suite, "-a", "baseline"]);
+    assert!(played.stdout.is_empty());
+    fails(&["run", &suite, "-a", "baseline"], 1, &words);
+    fails(&["run", &suite, "-a", "idle", "--beside", "baseline"], 1, &words);
+    let all = setpiece(&["run", "academy", "-a", "baseline"]);
+    assert!(text(&all.stderr).contains("6 of 11 entries have no baseline"), "{all:?}");
+}
+
 #[test]
 fn a_check_is_played_with_the_baseline() {
     let folder = folder();

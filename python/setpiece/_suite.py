@@ -237,6 +237,8 @@ class Suite:
         if isinstance(policy, str) and not is_onnx(policy) and not policy.endswith(".rhai"):
             name = check_word("agent", policy, AGENTS)
             n_threads = check_threads(threads, 1_024)
+            # Reported before anything is played.
+            self._native.check(name, options.reward_names)
             return name, lambda at: self._native.play(at, name, options.reward_names, n_threads)
         if is_word(policy):
             raise ParameterError(

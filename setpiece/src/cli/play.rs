@@ -23,6 +23,7 @@ use crate::run::faults::faulty_terms;
 use crate::run::{RunOptions, Summary, first_error, run, summarise};
 use crate::scenario::plan::{PlannedEpisodes, Plans, Played, Suite};
 use crate::scenario::{Bindings, Scenario};
+use crate::suite::refuse_unplayable;
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
 use std::ffi::OsStr;
@@ -242,6 +243,8 @@ fn run_plans(plans: &Plans, args: &RunArgs, out: &Out) -> Result<u8, Error> {
         physics: args.playing.physics(),
         ..EnvironmentOptions::default()
     };
+    let entries: Vec<_> = plans.suites.iter().flat_map(|suite| suite.entries.clone()).collect();
+    refuse_unplayable(&entries, &environment, &args.agents())?;
     for suite in &plans.suites {
         run_suite(suite, &environment, args, out)?;
     }

@@ -8,7 +8,11 @@ mod sameness;
 use crate::agent::NetworkPolicy;
 use crate::error::{BaselineFault, Error};
 use crate::load::load;
+use setpiece_dsl::CompileOutcome;
+use setpiece_dsl::problem::{DryRun, Problem};
+use setpiece_dsl::source::Span;
 use setpiece_scenario::Scenario;
+use setpiece_scenario::plan::Check;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -62,6 +66,25 @@ pub fn baseline_file(scenario: &Scenario) -> Result<BaselineFile, Error> {
         why,
         known: baselines().map(str::to_owned).collect(),
     })
+}
+
+/// The checks of a text whose agent is the policy of a scenario that has none.
+pub(crate) fn unplayable(outcome: &CompileOutcome) -> Vec<Problem> {
+    let checks = outcome.plans.iter().flat_map(|plans| &plans.checks);
+    let played = checks.zip(&outcome.check_agents).filter(|(check, _)| check.agent == BASELINE);
+    let problem = |(check, place): (&Check, &Option<Span>)| {
+        let Error::NoBaseline { scenario, why, known } =
+            baseline_file(&check.episodes.played.scenario).err()?
+        else {
+            return None;
+        };
+        let differs = match why {
+            BaselineFault::Differs { what } => Some(what),
+            BaselineFault::Unlike => None,
+        };
+        Some(Problem::of_dry_run((*place)?, DryRun::NoBaseline { scenario, differs, known }))
+    };
+    played.filter_map(problem).collect()
 }
 
 /// The library's scenario of a policy.

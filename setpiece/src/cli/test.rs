@@ -10,7 +10,7 @@ use crate::dsl::problem::Code;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::EnvironmentOptions;
 use crate::evaluate::{JudgedExpectation, bindings, judge, play, record};
-use crate::files::pitch_files;
+use crate::files::{pitch_files, refuse_folder};
 use crate::level::Level;
 use crate::measure::shown;
 use crate::plans::load_plans;
@@ -19,6 +19,9 @@ use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Where the worst episodes are written, unless another folder is named.
+const FAILED: &str = "failed-checks";
 
 #[derive(Args, Debug)]
 pub(crate) struct TestArgs {
@@ -37,9 +40,9 @@ pub(crate) struct TestArgs {
     /// The output format
     #[arg(long, value_enum, default_value_t = TestFormat::Text)]
     format: TestFormat,
-    /// Where the worst episodes of failed checks are written
-    #[arg(short, long, value_name = "DIR", default_value = "failed-checks")]
-    output: PathBuf,
+    /// Where the worst episodes of failed checks are written [default: failed-checks]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -93,6 +96,10 @@ struct Worst {
 pub(crate) fn test(args: &TestArgs, out: &Out) -> Result<u8, Error> {
     if let Some(agent) = &args.agent {
         agent.check()?;
+    }
+    // Checks that hold write nothing: the usual folder needn't be writable.
+    if let Some(folder) = &args.output {
+        refuse_folder(folder)?;
     }
     let (mut played, mut broken) = (Vec::new(), false);
     let mut taken = BTreeSet::new();
@@ -240,9 +247,10 @@ fn keep(
 ) -> Result<Worst, Error> {
     let episodes = &check.episodes;
     let replay = record(episodes, &EnvironmentOptions::default(), agent, check.over_params, index)?;
-    let path = args.output.join(format!("{name}-{index}.pitchr"));
-    std::fs::create_dir_all(&args.output).map_err(|why| Error::File {
-        path: args.output.clone(),
+    let folder = args.output.as_deref().unwrap_or(Path::new(FAILED));
+    let path = folder.join(format!("{name}-{index}.pitchr"));
+    std::fs::create_dir_all(folder).map_err(|why| Error::File {
+        path: folder.to_owned(),
         why: crate::error::FileFault::Write(why.to_string()),
     })?;
     crate::files::write(&path, replay.to_bytes()?)?;

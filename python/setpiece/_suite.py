@@ -51,7 +51,8 @@ class SuiteRow:
     """How a policy did in an entry of a suite.
 
     - `entry`: the scenario, and the parameters that differ from their defaults.
-    - `success_rate`: with Wilson's interval; the means have those of a bootstrap.
+    - `success_rate`: with Wilson's interval, as a `mean_score` of nothing but 0 and 1; the other
+      means have those of a bootstrap.
     - `mean_score`: goals of the left team less those of the right.
     - `mean_return`: of an agent. `mean_length_s`: seconds.
     - `digest`: the fingerprint of all episodes' final states.

@@ -3,6 +3,7 @@
 use super::agent::AgentParser;
 use super::common::{FAULT, FINE};
 use super::out::{Out, StyledText};
+use super::playing::ThreadsArg;
 use crate::Error;
 use crate::agent::ChosenAgent;
 use crate::drawing::Paint;
@@ -15,7 +16,7 @@ use crate::level::Level;
 use crate::measure::shown;
 use crate::plans::load_plans;
 use crate::scenario::plan::Check;
-use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
+use clap::{Args, ValueEnum};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -34,9 +35,8 @@ pub(crate) struct TestArgs {
     /// Who plays, instead of the agent that a check names
     #[arg(short, long, value_parser = AgentParser)]
     agent: Option<ChosenAgent>,
-    /// Threads; the results don't depend on them [default: one per core]
-    #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: ThreadsArg,
     /// The output format
     #[arg(long, value_enum, default_value_t = TestFormat::Text)]
     format: TestFormat,
@@ -168,7 +168,6 @@ fn free_name(path: &Path, check: &Check, taken: &mut BTreeSet<String>) -> String
 ///
 /// - `name`: what its replays are called.
 fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<PlayedCheck, Error> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let named = ChosenAgent::from_name(&check.agent).unwrap_or(Agent::Bot.into());
     let agent = args.agent.clone().unwrap_or(named);
     let begin = Instant::now();
@@ -180,7 +179,7 @@ fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<Played
         &EnvironmentOptions::default(),
         &agent,
         check.over_params,
-        args.threads.map_or(cores, usize::from),
+        args.threads.count(),
         || bar.inc(1),
     );
     bar.finish_and_clear();

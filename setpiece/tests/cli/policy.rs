@@ -81,6 +81,11 @@ impl Linear {
     }
 }
 
+/// A policy that always shoots.
+pub(crate) fn shooting(folder: &Path) -> String {
+    Linear { favourite: 12, ..LINEAR }.write(folder)
+}
+
 fn digest(agent: &str, others: &[&str]) -> serde_json::Value {
     let args = ["run", DRILL, "-n", "5", "--seed", "3", "--format", "json", "--agent", agent];
     json(&[&args[..], others].concat())["digest"].clone()

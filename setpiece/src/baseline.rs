@@ -8,6 +8,7 @@ mod sameness;
 use crate::agent::NetworkPolicy;
 use crate::error::{BaselineFault, Error};
 use crate::load::load;
+use serde::Deserialize;
 use setpiece_dsl::CompileOutcome;
 use setpiece_dsl::problem::{DryRun, Problem};
 use setpiece_dsl::source::Span;
@@ -21,6 +22,52 @@ pub const BASELINE: &str = "baseline";
 
 /// The name and bytes of every policy, sorted by name.
 const POLICIES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/policies.rs"));
+
+/// The name and text of every policy's card.
+const CARDS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/cards.rs"));
+
+/// What the card of a policy says of it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct BaselineCard {
+    /// How it was measured, with its mean score.
+    pub score: CardScore,
+    /// What it does and its weaknesses, drawn from its episodes.
+    #[serde(default)]
+    pub words: CardWords,
+}
+
+/// A measured score and its 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub struct CardScore {
+    /// How many episodes were played.
+    pub episodes: u64,
+    /// The mean.
+    pub mean: f64,
+    /// The lower end of the interval.
+    pub low: f64,
+    /// The upper end.
+    pub high: f64,
+}
+
+/// The words of a card, in sentences.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+pub struct CardWords {
+    /// What the policy does.
+    #[serde(default)]
+    pub does: String,
+    /// How its episodes end otherwise.
+    #[serde(default)]
+    pub weaknesses: String,
+}
+
+impl BaselineFile {
+    /// Its card; none if the box has none that can be read.
+    pub fn card(&self) -> Option<BaselineCard> {
+        let is_own = |name: &str| name.strip_suffix(".json") == Some(self.scenario);
+        let (_, text) = CARDS.iter().find(|(name, _)| is_own(name))?;
+        serde_json::from_str(text).ok()
+    }
+}
 
 /// A policy in the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

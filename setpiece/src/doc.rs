@@ -1,5 +1,6 @@
 //! The documentation of a scenario, as Markdown.
 
+use crate::baseline::{CardScore, baseline_file};
 use crate::load::Loaded;
 use setpiece_engine::start::Drawn;
 use setpiece_scenario::pitch::to_normalised;
@@ -28,8 +29,25 @@ pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String
     rules(&mut page, start);
     pitch(&mut page, scenario, start);
     world(&mut page, scenario, start);
+    baseline(&mut page, scenario);
     page.truncate(page.trim_end().len());
     page + "\n"
+}
+
+/// The card of the policy in the box, if the scenario has one.
+fn baseline(page: &mut String, scenario: &Scenario) {
+    let Some(card) = baseline_file(scenario).ok().and_then(|file| file.card()) else { return };
+    let CardScore { episodes, mean, low, high } = card.score;
+    let _ = writeln!(
+        page,
+        "## Baseline\n\n`--agent baseline` plays it: mean score {mean:.2} [{low:.2}, {high:.2}] of \
+         {episodes} episodes.\n"
+    );
+    for words in [card.words.does, card.words.weaknesses] {
+        if !words.is_empty() {
+            let _ = writeln!(page, "{words}\n");
+        }
+    }
 }
 
 /// A row of a table.

@@ -215,6 +215,12 @@ fn every_policy_in_the_box_is_small_and_plays_as_its_card_says() {
         };
         let (boxed, file) = (run("baseline"), run(&path.to_string_lossy()));
         assert_eq!(boxed["digest"], file["digest"], "{name}");
+        // `doc` shows what the card says.
+        let page = text(&setpiece(&["doc", name]).stdout);
+        for words in ["does", "weaknesses"] {
+            let words = card["words"][words].as_str().unwrap();
+            assert!(!words.is_empty() && page.contains(words), "{name}: {page}");
+        }
         // Half of it, so that not every change of the game needs new policies.
         let score =
             boxed["score"]["left"].as_f64().unwrap() - boxed["score"]["right"].as_f64().unwrap();

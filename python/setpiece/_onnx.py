@@ -97,7 +97,9 @@ class OnnxPolicy:
 
     def _logits(self, given: dict[Any, NDArray[Any]]) -> NDArray[Any]:
         """Returns what the model computes of its inputs, logits `(n, 19)` or `(n, 20)`."""
-        shown = {one.name: np.asarray(rows, TYPES[one.type]) for one, rows in given.items()}
+        shown: dict[str, NDArray[Any]] = {
+            one.name: np.asarray(rows, TYPES[one.type]) for one, rows in given.items()
+        }
         try:
             logits = np.asarray(self.session.run(None, shown)[0])
         except Exception as error:

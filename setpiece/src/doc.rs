@@ -9,8 +9,8 @@ use setpiece_scenario::{Ai, Others, Param, Reward, Scenario, Team};
 use std::fmt::Write as _;
 
 /// Describes a scenario: title, description, parameters, players of one start, rewards, endings,
-/// records, rules, the pitch, the world. `picture` is the path of a picture of that start, relative
-/// to the page.
+/// records, the policy in the box, rules, the pitch, the world. `picture` is the path of a picture
+/// of that start, relative to the page.
 pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String {
     let scenario = &*loaded.scenario;
     let mut page = format!("# {}\n\n", scenario.name);
@@ -26,10 +26,10 @@ pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String
     rewards(&mut page, scenario);
     endings(&mut page, loaded, start);
     measured(&mut page, scenario);
+    baseline(&mut page, scenario);
     rules(&mut page, start);
     pitch(&mut page, scenario, start);
     world(&mut page, scenario, start);
-    baseline(&mut page, scenario);
     page.truncate(page.trim_end().len());
     page + "\n"
 }

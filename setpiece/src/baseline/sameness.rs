@@ -15,7 +15,7 @@ use std::mem::discriminant;
 /// Parameters, difficulty, rewards, endings with the limit, agents, the observation, and who plays
 /// players without an agent may differ.
 pub(super) fn difference(one: &Scenario, other: &Scenario) -> Option<String> {
-    let mut pair = Pair { sides: [one, other].map(Side::of), known: BTreeMap::new() };
+    let mut pair = Pair { sides: [one, other].map(StartProgram::of), known: BTreeMap::new() };
     if one.players.len() != other.players.len() {
         let counts = [one, other].map(|it| it.players.len());
         return Some(format!("the number of players, {} instead of {}", counts[0], counts[1]));
@@ -53,14 +53,14 @@ pub(super) fn difference(one: &Scenario, other: &Scenario) -> Option<String> {
 
 /// A scenario's start program.
 #[derive(Clone, Copy)]
-struct Side<'a> {
+struct StartProgram<'a> {
     program: &'a Program,
     params: &'a [Param],
 }
 
-impl Side<'_> {
-    fn of(scenario: &Scenario) -> Side<'_> {
-        Side { program: &scenario.start.program, params: &scenario.params }
+impl StartProgram<'_> {
+    fn of(scenario: &Scenario) -> StartProgram<'_> {
+        StartProgram { program: &scenario.start.program, params: &scenario.params }
     }
 
     fn instr(&self, reg: Reg) -> Option<&Instr> {
@@ -70,7 +70,7 @@ impl Side<'_> {
 
 /// Two start programs, and which of their registers are known to be the same or not.
 struct Pair<'a> {
-    sides: [Side<'a>; 2],
+    sides: [StartProgram<'a>; 2],
     known: BTreeMap<(Reg, Reg), bool>,
 }
 
@@ -188,8 +188,10 @@ impl Pair<'_> {
         let (Some(first), Some(second)) = (side.instr(one), known.instr(other)) else {
             return false;
         };
-        let name = |side: Side<'_>, at: u32| side.params.get(at as usize).map(|it| it.name.clone());
-        let table = |side: Side<'_>, at: u32| side.program.tables.get(at as usize).cloned();
+        let name = |side: StartProgram<'_>, at: u32| {
+            side.params.get(at as usize).map(|it| it.name.clone())
+        };
+        let table = |side: StartProgram<'_>, at: u32| side.program.tables.get(at as usize).cloned();
         let is_same = match (first, second) {
             (Instr::Param(first), Instr::Param(second)) => {
                 name(side, *first) == name(known, *second)

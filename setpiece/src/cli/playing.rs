@@ -42,11 +42,11 @@ impl OneEpisode {
 /// What is played, and who plays it.
 #[derive(Args, Debug)]
 pub(crate) struct Playing {
+    #[command(flatten)]
+    what: PlayedArgs,
     /// Who controls the agents
     #[arg(short, long, value_parser = AgentParser, default_value = "bot")]
     agent: ChosenAgent,
-    #[command(flatten)]
-    what: PlayedArgs,
 }
 
 impl Deref for Playing {

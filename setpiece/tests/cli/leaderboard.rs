@@ -52,7 +52,7 @@ fn equals_share_the_wins() {
         let [low, high] = ["low", "high"].map(|end| agent["elo"][end].as_f64().unwrap());
         assert!(low <= 1_000.0 && 1_000.0 <= high, "{board}");
     }
-    // They can be told apart.
+    // Each has a name of its own.
     assert_eq!(board["pairs"][0]["agents"].to_string(), r#"["bot","bot (2)"]"#);
     let shown = text_of(&args);
     assert!(shown.contains("20 matches of each pair, 4 players each, seed 0"), "{shown}");

@@ -84,6 +84,8 @@ class OnnxPolicy:
         if self.mask is not None and masks is not None:
             given[self.mask] = masks[:, : self.mask.shape[1]]
         n = len(observation)
+        if n == 0:
+            return np.zeros(0, np.int64)
         parts = (
             [slice(at, at + 1) for at in range(n)] if self.given.shape[:1] == [1] else [slice(n)]
         )

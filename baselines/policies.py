@@ -130,15 +130,14 @@ def words(figures: dict[str, Any], repeat: int) -> dict[str, str]:
     """Returns the words for the figures of a profile; a decision lasts `repeat` steps."""
     n = figures["episodes"]
     passes, shots, touches = figures["passes"], figures["shots"], figures["touches"]
-    steps = sum(figures["actions"].values())
+    steps, length_s = sum(figures["actions"].values()), figures["length_s"]["value"]
     most = list(figures["actions"].items())
     most = sorted(most, key=lambda one: -one[1])[:3]
     pressed = ", ".join(f"`{name}` {count / steps:.0%}" for name, count in most)
     ends = sorted(figures["ends"], key=lambda end: -end["count"])
     won = sum(end["count"] for end in ends if end["verdict"] == "success")
     does = [
-        f"It succeeds in {won / n:.0%} of {n} episodes, which last {figures['length_s']['value']:.1f} s "
-        f"on average.",
+        f"It succeeds in {won / n:.1%} of {n} episodes, which last {length_s:.1f} s on average.",
         f"It decides {steps / repeat / n:.1f} times an episode; the actions are mostly {pressed}.",
         f"Its players touch the ball {len(touches) / n:.1f} times an episode, "
         f"pass {len(passes) / n:.2f} times and shoot {len(shots) / n:.2f} times.",

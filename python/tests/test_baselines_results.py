@@ -138,7 +138,7 @@ def test_the_words_of_a_card_are_drawn_from_figures(policies: Any) -> None:
     }
     said = policies.words(figures, 4)
     assert said["does"] == (
-        "It succeeds in 75% of 4 episodes, which last 5.2 s on average. It decides 10.0 times an "
+        "It succeeds in 75.0% of 4 episodes, which last 5.2 s on average. It decides 10.0 times an "
         "episode; the actions are mostly `right` 50%, `shot` 38%, `idle` 12%. Its players touch "
         "the ball 1.0 times an episode, pass 0.25 times and shoot 0.75 times. Of its touches, "
         "25% are on the left, 50% are in the middle, 25% are on the right. Half of its shots come "

@@ -13,7 +13,9 @@ use std::{env, fs, io};
 fn main() -> io::Result<()> {
     embed(&folder("stdlib-scenarios", "../stdlib-scenarios")?, &["pitch", "rhai"], "stdlib.rs")?;
     embed(&folder("errors", "../docs/errors")?, &["md"], "pages.rs")?;
-    embed_bytes(&folder("policies", "../baselines/policies")?, "onnx", "policies.rs")?;
+    let policies = folder("policies", "../baselines/policies")?;
+    embed_bytes(&policies, "onnx", "policies.rs")?;
+    embed(&policies, &["json"], "cards.rs")?;
     let page = folder("studio", "../studio/dist")?;
     println!("cargo:rerun-if-changed={}", page.display());
     println!("cargo:rustc-env=SETPIECE_STUDIO_PAGE={}", page.display());

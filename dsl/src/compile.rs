@@ -57,6 +57,8 @@ pub struct CompileOutcome {
     pub scenario: Option<Scenario>,
     /// The file's suites, checks and curricula, exactly when no problem is an error.
     pub plans: Option<Plans>,
+    /// Where each of the checks names its agent, if it does.
+    pub check_agents: Vec<Option<Span>>,
     /// Everything that was found, by file, place and code.
     pub problems: Vec<Problem>,
     /// The syntax tree of the root.
@@ -139,7 +141,8 @@ pub fn compile(
     };
     compilation.scenarios(&candidates, wanted, &casting);
     let nothing = nothing();
-    let plans = if has_plans { compilation.plans(items, &nothing) } else { Plans::default() };
+    let (plans, check_agents) =
+        if has_plans { compilation.plans(items, &nothing) } else { Default::default() };
     compilation.alone(items, &nothing);
     let Compilation { mut lowered, played, mut problems, unused, .. } = compilation;
     behavior::report_names(items, &mut problems);
@@ -170,6 +173,7 @@ pub fn compile(
         behaviors,
         scenario,
         plans: (!failed).then_some(plans),
+        check_agents,
         index: library.index.and_then(|index| index.into_inner().ok()).unwrap_or_default(),
         problems,
         tree: library.files.into_iter().next().map(Arc::unwrap_or_clone),
@@ -225,13 +229,17 @@ impl<'a> Compilation<'a> {
         }
     }
 
-    /// Compiles the suites, checks and curricula of some items; `nothing` is a scenario that says
-    /// nothing.
-    fn plans(&mut self, items: &'a [Item], nothing: &'a ScenarioItem) -> Plans {
+    /// Compiles the suites, checks and curricula of some items, and finds where each check names
+    /// its agent; `nothing` is a scenario that says nothing.
+    fn plans(
+        &mut self,
+        items: &'a [Item],
+        nothing: &'a ScenarioItem,
+    ) -> (Plans, Vec<Option<Span>>) {
         let (library, scripts, effort) = (self.library, self.scripts, self.effort);
         let flat = flatten(library, nothing, &mut Vec::new());
         let world = World::new(library, &flat, Mirror::Off, &[], scripts, effort);
-        let plans = plan::Planner::new(&world, &mut |item, doc, ai| {
+        let (plans, check_agents) = plan::Planner::new(&world, &mut |item, doc, ai| {
             self.played.insert(item.name.span);
             let known = self.lowered.get(&item.name.span).map(|(scenario, _)| scenario.clone());
             let scenario = known.unwrap_or_else(|| {
@@ -249,7 +257,7 @@ impl<'a> Compilation<'a> {
         .plans(items);
         self.problems.extend(world.problems.take());
         self.unused.use_all(world.used.take());
-        plans
+        (plans, check_agents)
     }
 
     /// Compiles one scenario.

@@ -66,7 +66,8 @@ def make(
       - a `Policy`: with its own observation, for one agent or a batch of them;
       - an object with the `predict` of Stable-Baselines3, called with a batch;
       - the path of an `.onnx` file: see `setpiece.onnx_policy`;
-      - `"baseline"`: the policy that the scenario comes with, if it has one.
+      - `"baseline"`: the policy of the library's scenario with the same players and start, if it
+        has one.
 
       Every agent sees itself attacking towards +x. An opponent that fails raises `OpponentError`.
     - `observation`: what an agent sees; `env.observation_layout` describes its layout.

@@ -78,9 +78,7 @@ def match_of(scenario: Scenario, options: EnvOptions) -> Match:
     native = _native.Environment(scenario, options)
     agents, table = native.agents, None
     if options.opponents is not None:
-        table = Table(
-            agents, options.opponents, _native.ACTION_SETS[options.action_set], scenario.name
-        )
+        table = Table(agents, options.opponents, _native.ACTION_SETS[options.action_set], scenario)
         agents = [agents[at] for at in table.mine]
         for kind in table.observations:
             native.look(*kind)

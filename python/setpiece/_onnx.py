@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike, fspath
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from setpiece._errors import FileError, FormatError, ParameterError
-from setpiece._native import BASELINES, baseline_file
+from setpiece._native import Scenario, baseline_file
 from setpiece._optional import need
 from setpiece._options import check_path
 from setpiece._spaces import OBSERVATIONS
@@ -29,6 +31,9 @@ MASK = "mask"
 
 REPEAT = "repeat"
 """The key of a model's metadata that says how many steps a decision lasts."""
+
+REPEAT_MAX = 1_000
+"""The most steps that a decision lasts."""
 
 OBSERVATION, SCALE, STACK = "observation", "scale", "stack"
 """The keys that say what a model sees: the name, whether it is scaled, how many at once."""
@@ -61,35 +66,93 @@ class OnnxPolicy:
     ) -> NDArray[np.int64]:
         """Returns the actions of greatest logit, int64 `(n,)`, for observations `(n, …)`.
 
-        A model with masks takes those of the actions too, `(n, 19)` or more.
+        A model with masks takes those of the actions too, `(n, 19)` or more. Raises `FormatError`
+        if the model sees another shape, can't be computed or returns something else.
         """
         if self.masks and masks is None:
             raise ParameterError(f"`{self.path}` takes masks of the actions too", name="masks")
+        observation = np.asarray(observation)
+        if not _fits(observation.shape[1:], self.given.shape[1:]):
+            found, wanted = _shape(observation.shape[1:]), _shape(self.given.shape[1:])
+            raise fault(
+                self.path,
+                f"it sees {wanted} numbers, and is shown {found}",
+                "name what it sees: `setpiece.Policy(FILE, observation=…)`, or the key "
+                f"`{OBSERVATION}` of the file's metadata",
+            )
         given = {self.given: observation}
         if self.mask is not None and masks is not None:
             given[self.mask] = masks[:, : self.mask.shape[1]]
         n = len(observation)
+        if n == 0:
+            return np.zeros(0, np.int64)
         parts = (
             [slice(at, at + 1) for at in range(n)] if self.given.shape[:1] == [1] else [slice(n)]
         )
         logits = np.concatenate(
-            [
-                self.session.run(
-                    None,
-                    {
-                        one.name: np.asarray(rows[part], TYPES[one.type])
-                        for one, rows in given.items()
-                    },
-                )[0]
-                for part in parts
-            ]
+            [self._logits({one: rows[part] for one, rows in given.items()}) for part in parts]
         )
-        if logits.ndim != 2 or logits.shape[1] not in ACTION_COUNTS:
-            raise FormatError(
-                f"`{self.path}` returns {logits.shape}; expected logits (batch, 19) or (batch, 20)"
-            )
+        if np.isnan(logits).any():
+            raise fault(self.path, NAN)
         actions: NDArray[np.int64] = logits.argmax(axis=1)
         return actions
+
+    def _logits(self, given: dict[Any, NDArray[Any]]) -> NDArray[Any]:
+        """Returns what the model computes of its inputs, logits `(n, 19)` or `(n, 20)`."""
+        shown: dict[str, NDArray[Any]] = {
+            one.name: np.asarray(rows, TYPES[one.type]) for one, rows in given.items()
+        }
+        try:
+            logits = np.asarray(self.session.run(None, shown)[0])
+        except Exception as error:
+            raise fault(self.path, f"it can't be computed: {_first_line(error)}") from error
+        n = len(next(iter(shown.values())))
+        if logits.dtype.kind != "f" or logits.shape not in [(n, count) for count in ACTION_COUNTS]:
+            found = f"{list(logits.shape)} of {logits.dtype}"
+            raise fault(
+                self.path,
+                f"it returns {found}; expected the logits of 19 or 20 actions, [{n}, 19]",
+            )
+        return logits
+
+    def try_out(self) -> None:
+        """Computes the model once, if its input has a known shape; raises `FormatError`."""
+        shape = self.given.shape[1:]
+        if not all(isinstance(length, int) for length in shape):
+            return
+        nan = True
+        # What is undefined for one observation may not be for another.
+        for number in (0.0, 0.5):
+            given = {self.given: np.full((1, *shape), number)}
+            if self.mask is not None:
+                given[self.mask] = np.ones((1, self.mask.shape[1]))
+            nan = nan and bool(np.isnan(self._logits(given)).any())
+        if nan:
+            raise fault(self.path, NAN)
+
+
+NAN = "it returns logits that are no numbers (NaN)"
+
+
+def fault(path: str, why: str, help: str | None = None) -> FormatError:
+    """Builds the error for a policy that can't be played, as the command words it."""
+    return FormatError(f"the policy `{path}` can't be played: {why}", code="SP0023", help=help)
+
+
+def _fits(found: tuple[int, ...], wanted: Sequence[Any]) -> bool:
+    """Whether a shape is that of an input, whose free axes aren't integers."""
+    return len(found) == len(wanted) and all(
+        not isinstance(length, int) or length == known
+        for known, length in zip(found, wanted, strict=True)
+    )
+
+
+def _shape(lengths: Sequence[Any]) -> str:
+    return " by ".join(str(length) if isinstance(length, int) else "n" for length in lengths) or "0"
+
+
+def _first_line(error: Exception) -> str:
+    return (str(error).splitlines() or [type(error).__name__])[0]
 
 
 def onnx_policy(path: str | PathLike[str]) -> OnnxPolicy:
@@ -114,21 +177,20 @@ def onnx_policy(path: str | PathLike[str]) -> OnnxPolicy:
     # Reported before what a file that isn't there would need.
     need("onnxruntime", "onnx", "a policy from an `.onnx` file")
     if not file.is_file():
-        raise FileError(f"there is no file `{fspath(path)}`", path=fspath(path))
+        if file.is_dir():
+            raise FileError(f"`{fspath(path)}` is a directory", path=fspath(path), code="SP0006")
+        raise FileError(f"there is no file `{fspath(path)}`", path=fspath(path), code="SP0001")
     return _policy(fspath(path), fspath(path))
 
 
-def baseline_policy(scenario: str) -> OnnxPolicy:
+def baseline_policy(scenario: Scenario) -> OnnxPolicy:
     """Returns the policy that a scenario comes with, or raises `ParameterError`."""
-    model = baseline_file(scenario)
-    if model is None:
-        raise ParameterError(
-            f"the scenario `{scenario}` has no baseline",
-            name="opponents",
-            code="SP0024",
-            help=f"these have one: `{'`, `'.join(BASELINES)}`",
-        )
-    return _policy(f"baseline/{scenario}.onnx", model)
+    try:
+        name, model = baseline_file(scenario)
+    except ParameterError as error:
+        error.name = "opponents"
+        raise
+    return _policy(f"baseline/{name}.onnx", model)
 
 
 def _policy(path: str, model: str | bytes) -> OnnxPolicy:
@@ -139,28 +201,35 @@ def _policy(path: str, model: str | bytes) -> OnnxPolicy:
     try:
         session = runtime.InferenceSession(model, options, providers=["CPUExecutionProvider"])
     except Exception as error:
-        raise FormatError(f"`{path}` is no ONNX model that can be run: {error}") from error
+        # Bytes of something else can't be decoded; those of nothing have no graph.
+        is_other = type(error).__name__ == "InvalidProtobuf" or not _has_graph(model)
+        why = "" if is_other else f" that `onnxruntime` runs: {_first_line(error)}"
+        help = "`torch.onnx.export` writes one"
+        raise fault(path, f"it is no ONNX model{why}", help) from error
     inputs = session.get_inputs()
     masks = [one for one in inputs if one.name == MASK and one.shape[1:] in ([19], [20])]
     shown = [one for one in inputs if one not in masks]
     if len(shown) != 1 or any(one.type not in TYPES for one in inputs):
-        found = ", ".join(f"{one.name}: {one.type}" for one in inputs)
-        raise FormatError(
-            f"`{path}` has the inputs {found}; expected one, and perhaps a `{MASK}`: "
-            f"{', '.join(TYPES)}"
+        found = "`, `".join(f"{one.name}: {one.type}" for one in inputs)
+        raise fault(
+            path,
+            f"expected one input, and perhaps a `{MASK}`; found `{found}`",
+            f"inputs are {', '.join(f'`{name}`' for name in TYPES)}",
         )
     metadata = session.get_modelmeta().custom_metadata_map
     said = metadata.get(REPEAT, "1")
-    if not (said.isdecimal() and int(said) >= 1):
-        raise FormatError(f"`{path}` has the `{REPEAT}` {said!r}; expected a count of steps")
+    if not (said.isdecimal() and 1 <= int(said) <= REPEAT_MAX):
+        raise fault(path, f"its metadata says `{REPEAT}` is `{said}`; expected a number of steps")
     name = metadata.get(OBSERVATION)
     if name is not None and name not in OBSERVATIONS:
-        raise FormatError(
-            f"`{path}` has the `{OBSERVATION}` {name!r}; expected {', '.join(OBSERVATIONS)}"
+        raise fault(
+            path,
+            f"its metadata says `{OBSERVATION}` is `{name}`",
+            f"it can be {', '.join(f'`{known}`' for known in OBSERVATIONS)}",
         )
     if metadata.get(STACK, "1") != "1":
         name = None
-    return OnnxPolicy(
+    policy = OnnxPolicy(
         path,
         session,
         shown[0],
@@ -169,3 +238,10 @@ def _policy(path: str, model: str | bytes) -> OnnxPolicy:
         name,
         name is not None and metadata.get(SCALE) == "true",
     )
+    policy.try_out()
+    return policy
+
+
+def _has_graph(model: str | bytes) -> bool:
+    """Whether a model has any bytes."""
+    return len(model) > 0 if isinstance(model, bytes) else Path(model).stat().st_size > 0

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from setpiece._actions import integers
-from setpiece._errors import ActionError, OpponentError, ParameterError
+from setpiece._errors import ActionError, FormatError, OpponentError, ParameterError
 from setpiece._held import Held
-from setpiece._native import ACTION_SETS, AgentInfo
-from setpiece._onnx import OnnxPolicy, baseline_policy, onnx_policy
+from setpiece._native import ACTION_SETS, AgentInfo, Scenario
+from setpiece._onnx import REPEAT_MAX, OnnxPolicy, baseline_policy, onnx_policy
 from setpiece._options import check_count, check_flag
 from setpiece._rows import Picker, pick_info
 from setpiece._spaces import check_observation, check_scale
@@ -24,8 +24,6 @@ from setpiece._words import similar
 SIDES: tuple[Literal["left"], Literal["right"]] = ("left", "right")
 BOT = "bot"
 BASELINE = "baseline"
-REPEAT_MAX = 1_000
-"""The most steps that a decision lasts."""
 
 
 @dataclass(frozen=True)
@@ -117,12 +115,12 @@ class Table:
         agents: Sequence[AgentInfo],
         opponents: Mapping[str, Opponent],
         n_actions: int,
-        scenario: str,
+        scenario: Scenario,
         what: str = "opponent",
     ) -> None:
         """Seats opponents; `what` they are called in errors.
 
-        `scenario` is its name, which has the policy of `"baseline"`.
+        `scenario` is what they play, which may have the policy of `"baseline"`.
         """
         self.n_agents, self.n_actions = len(agents), n_actions
         owner = _owners(agents, read_opponents(opponents))
@@ -276,6 +274,12 @@ def _asked(seat: Seat, agents: tuple[str, ...], seen: Any, masks: NDArray[np.int
     """Calls an opponent for these of its agents."""
     try:
         return seat.play(seen) if masks is None else seat.play(seen, masks)
+    except FormatError as error:
+        # What is wrong with the file keeps its code and help.
+        message = f"the {seat.what} {_of(agents)} failed: {error.args[0]}"
+        raise OpponentError(
+            message, slots=seat.agents, side=seat.side, code=error.code, help=error.help
+        ) from error
     except Exception as error:
         why = f"failed: {type(error).__name__}: {error}"
         raise OpponentError(

@@ -121,7 +121,7 @@ def play(
         rewards=rewards,
         action_set="v2",
     )
-    table = Table(env.slots, options.opponents or {}, ACTION_SETS["v2"], chosen.name)
+    table = Table(env.slots, options.opponents or {}, ACTION_SETS["v2"], chosen)
     return _played(env, table, seed, clock, on_error)
 
 

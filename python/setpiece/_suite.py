@@ -51,7 +51,8 @@ class SuiteRow:
     """How a policy did in an entry of a suite.
 
     - `entry`: the scenario, and the parameters that differ from their defaults.
-    - `success_rate`: with Wilson's interval; the means have those of a bootstrap.
+    - `success_rate`: with Wilson's interval, as a `mean_score` of nothing but 0 and 1; the other
+      means have those of a bootstrap.
     - `mean_score`: goals of the left team less those of the right.
     - `mean_return`: of an agent. `mean_length_s`: seconds.
     - `digest`: the fingerprint of all episodes' final states.
@@ -237,6 +238,8 @@ class Suite:
         if isinstance(policy, str) and not is_onnx(policy) and not policy.endswith(".rhai"):
             name = check_word("agent", policy, AGENTS)
             n_threads = check_threads(threads, 1_024)
+            # Reported before anything is played.
+            self._native.check(name, options.reward_names)
             return name, lambda at: self._native.play(at, name, options.reward_names, n_threads)
         if is_word(policy):
             raise ParameterError(
@@ -264,7 +267,7 @@ class Suite:
         )
         agents = batch.agents
         sides: dict[str, Opponent] = {SIDES[agent.team]: policy for agent in agents}
-        table = Table(agents, sides, ACTION_SETS["v2"], scenario.name, "policy")
+        table = Table(agents, sides, ACTION_SETS["v2"], scenario, "policy")
         crowd = Crowd(table, n)
         for kind in table.observations:
             batch.look(*kind)

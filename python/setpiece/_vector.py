@@ -142,7 +142,7 @@ class FootballVectorEnv(VectorEnv[Any, Any, Any]):
         mine = [*range(len(agents))]
         self._crowd = None
         if options.opponents is not None:
-            table = Table(agents, options.opponents, self._n_actions, self.scenario.name)
+            table = Table(agents, options.opponents, self._n_actions, self.scenario)
             self._crowd, mine = Crowd(table, self.num_envs), table.mine
             for kind in table.observations:
                 self._batch.look(*kind)

@@ -82,7 +82,10 @@ fn facade_fields<'py>(py: Python<'py>, error: &Error) -> PyResult<ErrorParts<'py
         }
         Error::Snapshot(_) => "SnapshotError",
         Error::Replay(_) => "ReplayError",
-        Error::NoBaseline { .. } => "ParameterError",
+        Error::NoBaseline { .. } | Error::NoBaselines { .. } => {
+            fields.set_item("name", "policy")?;
+            "ParameterError"
+        }
         Error::Environment(why) => {
             if let EnvironmentError::Param(why) = why {
                 fields.set_item("name", param_name(why))?;

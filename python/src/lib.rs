@@ -87,10 +87,16 @@ mod _native {
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 
-    /// The ONNX file of the policy that a scenario comes with; none without one.
+    /// The policy that a scenario comes with: the library's scenario that it belongs to, and its
+    /// ONNX file.
     #[pyfunction]
-    fn baseline_file(scenario: &str) -> Option<&'static [u8]> {
-        setpiece::baseline::baseline_file(scenario)
+    fn baseline_file(
+        py: Python<'_>,
+        scenario: &Scenario,
+    ) -> PyResult<(&'static str, &'static [u8])> {
+        let file = setpiece::baseline::baseline_file(scenario.inner());
+        let file = file.map_err(|error| crate::errors::from_facade(py, &error))?;
+        Ok((file.scenario, file.bytes))
     }
 
     /// Runs the command `setpiece` with arguments and returns its exit code: 0, 1 (input) or 2

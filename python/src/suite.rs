@@ -111,6 +111,14 @@ impl Suite {
             .ok_or_else(|| errors::parameter(py, "levels", "the suite has no entry"))
     }
 
+    /// Makes sure that an agent of the command can play every entry.
+    fn check(&self, py: Python<'_>, agent: &str, rewards: Option<Vec<String>>) -> PyResult<()> {
+        let Some(agent) = ChosenAgent::from_name(agent) else { return Ok(()) };
+        let options = EnvironmentOptions { rewards, ..EnvironmentOptions::default() };
+        suite::refuse_unplayable(&self.plan.entries, &options, &[agent])
+            .map_err(|error| errors::from_facade(py, &error))
+    }
+
     /// Plays an entry with an agent of the command.
     fn play(
         &self,

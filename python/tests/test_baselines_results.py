@@ -1,5 +1,6 @@
 """The tables of docs/training.md show what the files in baselines/results say."""
 
+import json
 import sys
 from collections.abc import Iterator
 from importlib import import_module
@@ -19,6 +20,13 @@ def run(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     yield import_module("run")
     for name in ("run", "runs"):
         sys.modules.pop(name, None)
+
+
+@pytest.fixture
+def policies(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    monkeypatch.syspath_prepend(str(BASELINES))
+    yield import_module("policies")
+    sys.modules.pop("policies", None)
 
 
 def test_the_tables_are_computed_from_the_results(run: Any) -> None:
@@ -107,3 +115,45 @@ def test_the_list_says_what_is_done(run: Any, capsys: pytest.CaptureFixture[str]
     assert len(lines) == len(run.ledger())
     done = [line for line in lines if line.startswith("done")]
     assert len(done) == len([*(BASELINES / "results").glob("*.json")])
+
+
+def test_the_words_of_a_card_are_drawn_from_figures(policies: Any) -> None:
+    """What a policy does and its weaknesses, of four episodes that are known."""
+    figures = {
+        "episodes": 4,
+        "length_s": {"value": 5.25},
+        "actions": {"idle": 20, "shot": 60, "right": 80},
+        "ends": [
+            {"name": "possession", "verdict": None, "count": 1},
+            {"name": "scored", "verdict": "success", "count": 3},
+        ],
+        "touches": [[40.0, -20.0], [45.0, 0.0], [45.0, 1.0], [46.0, 20.0]],
+        "passes": [{"from": [40.0, 0.0], "to": [45.0, 0.0], "completed": False}],
+        "shots": [
+            {"at": [42.5, 0.0], "outcome": "successful"},
+            {"at": [32.5, 0.0], "outcome": "saved"},
+            {"at": [40.5, 0.0], "outcome": "successful"},
+        ],
+        "pitch": {"length": 105.0, "width": 68.0},
+    }
+    said = policies.words(figures, 4)
+    assert said["does"] == (
+        "It succeeds in 75.0% of 4 episodes, which last 5.2 s on average. It decides 10.0 times an "
+        "episode; the actions are mostly `right` 50%, `shot` 38%, `idle` 12%. Its players touch "
+        "the ball 1.0 times an episode, pass 0.25 times and shoot 0.75 times. Of its touches, "
+        "25% are on the left, 50% are in the middle, 25% are on the right. Half of its shots come "
+        "from within 12 m of the goal, the farthest from 20 m."
+    )
+    assert said["weaknesses"] == (
+        "Other episodes end with `possession` 25.0%. 1 of 3 shots are no goals (saved 1). "
+        "1 of 1 passes reach no teammate."
+    )
+
+
+def test_every_card_has_words(policies: Any) -> None:
+    cards = sorted((BASELINES / "policies").glob("*.json"))
+    assert [card.stem for card in cards] == sorted(one.scenario for one in policies.BOX)
+    for card in cards:
+        written = json.loads(card.read_text(encoding="utf-8"))["words"]
+        assert written["does"].startswith("It succeeds in ")
+        assert written["weaknesses"]

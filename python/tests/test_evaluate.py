@@ -140,3 +140,25 @@ def test_what_is_wrong_is_said() -> None:
         setpiece.evaluate("bot", "academy_corner", episodes=0)
     with pytest.raises(setpiece.FileError):
         setpiece.evaluate("bot", "none.pitch")
+
+
+def test_entries_without_a_baseline_are_reported_before_anything_is_played() -> None:
+    with pytest.raises(setpiece.ParameterError, match="6 of 11 entries have no baseline") as caught:
+        setpiece.evaluate("baseline", "academy")
+    assert caught.value.code == "SP0024"
+    assert "`academy_empty_goal_close`" in str(caught.value.help)
+    # The first entry would be played for hours.
+    suite = "suite s { academy_empty_goal_close for 1000000 episodes academy_corner for 1 episode }"
+    with pytest.raises(setpiece.ParameterError, match="1 of 2 entries has no baseline"):
+        setpiece.evaluate("baseline", suite)
+
+
+def test_the_baseline_is_that_of_the_players_and_the_start() -> None:
+    name = "academy_empty_goal_close"
+    (usual,) = setpiece.evaluate("baseline", name, episodes=5).rows
+    mine = f"scenario mine extends {name} {{ reward fast {{ give -0.01 }} }}"
+    (row,) = setpiece.evaluate("baseline", mine, episodes=5).rows
+    assert row.digest == usual.digest
+    other = f"scenario {name} extends academy {{ ball at (0.5, 0) team left {{ CM at (0.4, 0) }} }}"
+    with pytest.raises(setpiece.ParameterError, match="isn't the library's of this name"):
+        setpiece.evaluate("baseline", other, episodes=5)

@@ -86,7 +86,7 @@ impl ChosenAgent {
             ChosenAgent::ReadyMade(agent) => {
                 return Ok(FittedAgent::ReadyMade(ReadyMade::new(*agent)));
             }
-            ChosenAgent::Baseline => baseline(&environment.scenario().name)?,
+            ChosenAgent::Baseline => baseline(environment.scenario())?,
             ChosenAgent::File { path, .. } => Arc::new(NetworkPolicy::from_file(path)?),
         };
         let sight = PolicySight::of(&policy, environment)?;

@@ -1,5 +1,6 @@
 //! The documentation of a scenario, as Markdown.
 
+use crate::baseline::{CardScore, baseline_file};
 use crate::load::Loaded;
 use setpiece_engine::start::Drawn;
 use setpiece_scenario::pitch::to_normalised;
@@ -8,8 +9,8 @@ use setpiece_scenario::{Ai, Others, Param, Reward, Scenario, Team};
 use std::fmt::Write as _;
 
 /// Describes a scenario: title, description, parameters, players of one start, rewards, endings,
-/// records, rules, the pitch, the world. `picture` is the path of a picture of that start, relative
-/// to the page.
+/// records, the policy in the box, rules, the pitch, the world. `picture` is the path of a picture
+/// of that start, relative to the page.
 pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String {
     let scenario = &*loaded.scenario;
     let mut page = format!("# {}\n\n", scenario.name);
@@ -25,11 +26,28 @@ pub fn markdown(loaded: &Loaded, start: &Drawn, picture: Option<&str>) -> String
     rewards(&mut page, scenario);
     endings(&mut page, loaded, start);
     measured(&mut page, scenario);
+    baseline(&mut page, scenario);
     rules(&mut page, start);
     pitch(&mut page, scenario, start);
     world(&mut page, scenario, start);
     page.truncate(page.trim_end().len());
     page + "\n"
+}
+
+/// The card of the policy in the box, if the scenario has one.
+fn baseline(page: &mut String, scenario: &Scenario) {
+    let Some(card) = baseline_file(scenario).ok().and_then(|file| file.card()) else { return };
+    let CardScore { episodes, mean, low, high } = card.score;
+    let _ = writeln!(
+        page,
+        "## Baseline\n\n`--agent baseline` plays it: mean score {mean:.2} [{low:.2}, {high:.2}] of \
+         {episodes} episodes.\n"
+    );
+    for words in [card.words.does, card.words.weaknesses] {
+        if !words.is_empty() {
+            let _ = writeln!(page, "{words}\n");
+        }
+    }
 }
 
 /// A row of a table.

@@ -50,6 +50,17 @@ pub enum Error {
     NoBaseline {
         /// The scenario's name.
         scenario: String,
+        /// The reason.
+        why: BaselineFault,
+        /// The scenarios that have one.
+        known: Vec<String>,
+    },
+    /// Entries of a suite have no policy in the box.
+    NoBaselines {
+        /// Those that have none.
+        entries: Vec<String>,
+        /// How many entries there are.
+        of: usize,
         /// The scenarios that have one.
         known: Vec<String>,
     },
@@ -116,6 +127,18 @@ pub enum LevelFault {
     Unreadable(String),
 }
 
+/// Why a scenario has no policy in the box.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum BaselineFault {
+    /// No policy was trained on a scenario with these players and this start.
+    Unlike,
+    /// The library's scenario of this name has one, but is another.
+    Differs {
+        /// What differs first.
+        what: String,
+    },
+}
+
 /// What is wrong with a policy from a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PolicyFault {
@@ -147,6 +170,8 @@ pub enum PolicyFault {
         /// The shape of what it returns.
         found: Vec<usize>,
     },
+    /// It returns logits that are no numbers, whatever it sees.
+    NotNumbers,
 }
 
 impl From<NetworkFault> for PolicyFault {
@@ -180,6 +205,7 @@ impl std::fmt::Display for PolicyFault {
                     None => write!(f, "it sees {shape} numbers, which `{scenario}` doesn't show"),
                 }
             }
+            PolicyFault::NotNumbers => f.write_str("it returns logits that are no numbers (NaN)"),
             PolicyFault::Actions { found } => {
                 write!(f, "it returns {found:?}; expected the logits of 19 or 20 actions, [1, 19]")
             }
@@ -297,7 +323,7 @@ impl Error {
             Error::Snapshot(_) => Code::BadSnapshot,
             Error::Replay(_) => Code::BadReplay,
             Error::Policy { .. } => Code::BadPolicy,
-            Error::NoBaseline { .. } => Code::NoBaseline,
+            Error::NoBaseline { .. } | Error::NoBaselines { .. } => Code::NoBaseline,
             Error::Episode(why) => match **why {
                 EpisodeError::Draw(_) => Code::DrawFailed,
                 EpisodeError::Environment(_) => Code::BadParameter,
@@ -349,9 +375,19 @@ impl Error {
                 "give the scenario's name or the path of its `.pitch` file, or write `ai: …` in the text".to_owned(),
             ),
             Error::Policy { why, .. } => policy_help(why),
+            Error::NoBaseline { scenario, why: BaselineFault::Differs { .. }, .. } => {
+                Some(format!(
+                    "the library's is played by its name, `setpiece run {scenario}`; \
+                     `--agent FILE.onnx` plays any policy"
+                ))
+            }
             Error::NoBaseline { known, .. } => {
                 Some(format!("these have one: `{}`", known.join("`, `")))
             }
+            Error::NoBaselines { known, .. } => Some(format!(
+                "write a suite of those that have one: `{}`",
+                known.join("`, `")
+            )),
             Error::NoStep { length, .. } => Some(format!("its last moment is `--step {length}`")),
             Error::Snapshot(why)
             | Error::Environment(EnvironmentError::Snapshot(why)) => snapshot_help(why),
@@ -462,8 +498,20 @@ impl std::fmt::Display for Error {
             Error::Param { why, .. } => why.fmt(f),
             Error::Snapshot(why) => why.fmt(f),
             Error::Replay(why) => why.fmt(f),
-            Error::NoBaseline { scenario, .. } => {
+            Error::NoBaseline { scenario, why: BaselineFault::Unlike, .. } => {
                 write!(f, "the scenario `{scenario}` has no baseline")
+            }
+            Error::NoBaseline { scenario, why: BaselineFault::Differs { what }, .. } => {
+                write!(
+                    f,
+                    "the scenario `{scenario}` has no baseline: it isn't the library's of this \
+                     name, whose baseline learned another start; {what} differs"
+                )
+            }
+            Error::NoBaselines { entries, of, .. } => {
+                let n = entries.len();
+                let have = if n == 1 { "has" } else { "have" };
+                write!(f, "{n} of {of} entries {have} no baseline: `{}`", entries.join("`, `"))
             }
             Error::Policy { path, why } => {
                 write!(f, "the policy `{}` can't be played: {why}", path.display())

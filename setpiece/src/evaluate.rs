@@ -52,7 +52,7 @@ pub fn play(
 ) -> Result<Results, Error> {
     let fault = |why| Error::Episode(Box::new(why));
     refuse_endless(&what.played.scenario)?;
-    let environment = environment(&what.played, options, what.played.bindings.clone())?;
+    let environment = environment_of(&what.played, options, what.played.bindings.clone())?;
     let agent = agent.fit(&environment)?;
     let episodes = run_episodes(
         &environment,
@@ -118,7 +118,8 @@ pub fn record(
     index: u64,
 ) -> Result<Replay, Error> {
     let fault = |why| Error::Episode(Box::new(why));
-    let mut environment = environment(&what.played, options, bindings(what, over_params, index))?;
+    let mut environment =
+        environment_of(&what.played, options, bindings(what, over_params, index))?;
     environment
         .reset(Some(what.seed), Some(index))
         .map_err(|why| fault(EpisodeError::Draw(why)))?;
@@ -137,7 +138,11 @@ pub fn record(
     Replay::of(&environment, &recorder)
 }
 
-fn environment(
+/// An environment of what is played.
+///
+/// # Errors
+/// [`Error::Environment`] if the options don't fit.
+pub(crate) fn environment_of(
     played: &Played,
     options: &EnvironmentOptions,
     bindings: Bindings,

@@ -289,7 +289,8 @@ pub(crate) fn beside(from: &Path, path: &Path) -> PathBuf {
     full
 }
 
-/// Rejects an output that is one of its inputs, or has the name of a source.
+/// Rejects an output that is one of its inputs, has the name of a source, or can't be written.
+/// It is called before anything is played, and leaves no file behind.
 ///
 /// # Errors
 /// [`Error::File`] if it is.
@@ -309,7 +310,36 @@ pub fn refuse_overwriting(output: &Path, inputs: &[PathBuf]) -> Result<(), Error
         let why = FileFault::Write("it is what the scenario is made of".to_owned());
         return Err(Error::File { path: output.to_owned(), why });
     }
-    Ok(())
+    refuse_unwritable(output)
+}
+
+/// Rejects an output that can't be written, by writing a temporary neighbour.
+///
+/// # Errors
+/// [`Error::File`] if it can't.
+fn refuse_unwritable(output: &Path) -> Result<(), Error> {
+    check_target(output)?;
+    // What a device or pipe takes shows when it is written.
+    if output.exists() && !output.is_file() {
+        return Ok(());
+    }
+    Temporary::write(output, b"").map(drop).map_err(|error| write_fault(output, &error))
+}
+
+/// Rejects a folder of outputs that can't be one, or that can't be made.
+///
+/// # Errors
+/// [`Error::File`] if a file has its name, or nothing can be written in the nearest folder.
+pub fn refuse_folder(output: &Path) -> Result<(), Error> {
+    let mut folders =
+        output.ancestors().map(|at| if at == Path::new("") { Path::new(".") } else { at });
+    let Some(nearest) = folders.find(|at| at.exists()) else { return Ok(()) };
+    if !nearest.is_dir() {
+        let why = FileFault::Write(format!("`{}` is no folder", nearest.display()));
+        return Err(Error::File { path: output.to_owned(), why });
+    }
+    let probe = nearest.join("setpiece");
+    Temporary::write(&probe, b"").map(drop).map_err(|error| write_fault(output, &error))
 }
 
 /// Writes a file completely or not at all: a temporary neighbour is renamed over it. All files are

@@ -51,7 +51,7 @@ pub struct Leaderboard {
 /// An agent on a leaderboard.
 #[derive(Clone, Debug, Serialize)]
 pub struct RankedAgent {
-    /// Its name.
+    /// Its name; an agent that is given again is numbered: `bot (2)`.
     pub agent: String,
     /// Its rating.
     pub elo: Elo,
@@ -166,7 +166,8 @@ pub fn leaderboard(
     .map_err(|why| Error::Threads(why.to_string()))?;
     let broken = |why: EpisodeError| Error::Episode(Box::new(why));
     let episodes = episodes.into_iter().collect::<Result<Vec<_>, _>>().map_err(broken)?;
-    let name = |agent: usize| options.agents.get(agent).map_or("", ChosenAgent::name).to_owned();
+    let names = names(&options.agents);
+    let name = |agent: usize| names.get(agent).cloned().unwrap_or_default();
     let mut played: Vec<PlayedPair> = pairs
         .iter()
         .map(|&[first, second]| PlayedPair {
@@ -209,6 +210,16 @@ pub fn leaderboard(
         pairs: played,
         digest: format!("{digest:016x}"),
     })
+}
+
+/// The agents' names; of equal ones, those behind the first have a number.
+fn names(agents: &[ChosenAgent]) -> Vec<String> {
+    let name = |(at, agent): (usize, &ChosenAgent)| {
+        let before = agents.iter().take(at).filter(|other| other.name() == agent.name()).count();
+        let name = agent.name();
+        if before == 0 { name.to_owned() } else { format!("{name} ({})", before + 1) }
+    };
+    agents.iter().enumerate().map(name).collect()
 }
 
 /// What an agent did in all of its matches.

@@ -1,5 +1,6 @@
 //! Loads a scenario from a name, a path, a text or a compiled file.
 
+use crate::baseline::unplayable;
 use crate::error::{Error, Failure, FileFault, Packed};
 use crate::files::{
     FileLoader, SOURCE_MAX_BYTES, into_text, is_compiled, most_bytes, name_of, path_of, read_file,
@@ -33,6 +34,8 @@ pub struct Loaded {
     pub inputs: Vec<PathBuf>,
     /// The behaviours that its file sees and that need no argument; none for a compiled file.
     pub behaviors: Vec<String>,
+    /// The checks of its file that can't be played; a dry run reports them.
+    pub unplayable: Vec<Problem>,
 }
 
 /// A scenario of the standard library.
@@ -203,6 +206,7 @@ impl Loaded {
             origins: Origins::default(),
             inputs: Vec::new(),
             behaviors: Vec::new(),
+            unplayable: Vec::new(),
         }
     }
 }
@@ -281,8 +285,9 @@ pub fn check_with(
     if let Some(root) = root.clone().filter(|_| failure.lacks_scenario()) {
         let outcome = compiled(root, options, true);
         if !outcome.problems.iter().any(Problem::misses_scenario) {
+            let unplayable = unplayable(&outcome);
             return Ok(Checked {
-                problems: outcome.problems,
+                problems: [outcome.problems, unplayable].concat(),
                 sources: outcome.sources,
                 inputs: failure.inputs,
             });
@@ -361,7 +366,7 @@ pub(crate) fn source_of(path: &Path) -> Result<Source, Error> {
 
 fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, Error> {
     let outcome = compiled(source, options, false);
-    let inputs = on_disk(&outcome.inputs);
+    let (inputs, unplayable) = (on_disk(&outcome.inputs), unplayable(&outcome));
     let (problems, sources) = (outcome.problems, outcome.sources);
     match outcome.scenario {
         Some(scenario) => Ok(Loaded {
@@ -375,6 +380,7 @@ fn compile_source(source: Source, options: &LoadOptions<'_>) -> Result<Loaded, E
             origins: outcome.origins,
             inputs,
             behaviors: outcome.behaviors,
+            unplayable,
         }),
         None => Err(Error::Compile(Box::new(Failure { problems, sources, inputs }))),
     }

@@ -1,7 +1,8 @@
 //! Measures of some episodes, with 95 % intervals.
 //!
-//! A rate has Wilson's interval (Wilson 1927), everything else that of the bootstrap's percentiles
-//! (Efron 1979), resampled by a stream of its own: the same episodes give the same interval.
+//! A rate has Wilson's interval (Wilson 1927), as has a mean score of nothing but 0 and 1.
+//! Everything else has that of the bootstrap's percentiles (Efron 1979), resampled by a stream of
+//! its own: the same episodes give the same interval.
 
 mod shown;
 
@@ -56,6 +57,11 @@ pub fn measure(
         Measure::SuccessRate | Measure::Rate(_) => {
             let successes = samples.iter().filter(|sample| **sample > 0.0).count();
             Some(wilson(successes, samples.len()))
+        }
+        // A mean of goals is a rate if nobody scores more than once. Resampled, the same score of
+        // every episode would be known for certain.
+        Measure::Mean(Quantity::Score) if samples.iter().all(|it| *it == 0.0 || *it == 1.0) => {
+            Some(wilson(samples.iter().filter(|it| **it == 1.0).count(), samples.len()))
         }
         Measure::Steps | Measure::Episodes => Some(exactly(samples.iter().sum())),
         _ => resampled(&samples, |sorted| statistic(measure, sorted)),

@@ -26,7 +26,7 @@ const NUMBERS: &str = "every place, velocity and heading is a number";
 ///
 /// - `budget`: how long it may take. What it hasn't found by then is left out.
 pub fn probe(loaded: &Loaded, budget: Option<Duration>) -> Vec<Problem> {
-    let mut problems = loaded.warnings.clone();
+    let mut problems = [&loaded.warnings[..], &loaded.unplayable].concat();
     let end = budget.map(|budget| Instant::now() + budget);
     let in_time = || end.is_none_or(|end| Instant::now() < end);
     if loaded.origin.is_none() {

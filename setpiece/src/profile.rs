@@ -1,10 +1,12 @@
 //! What an agent does: touches, passes, shots, actions, ends and rewards of some episodes.
 
+mod figures;
 mod page;
 
-pub use page::page;
+pub use figures::figures;
+pub use page::{page, suite_page};
 
-use crate::agent::ChosenAgent;
+use crate::agent::{ChosenAgent, FittedAgent};
 use crate::error::Error;
 use crate::evaluate::refuse_endless;
 use crate::measure::{Estimate, measure};
@@ -13,28 +15,35 @@ use crate::scene::of_match;
 use crate::tracking::Tracking;
 use setpiece_engine::batch::{EpisodeError, EpisodeSummary, Policy, STEPS_MAX};
 use setpiece_engine::environment::{Environment, EnvironmentOptions, Scratch};
-use setpiece_engine::state::PlayerId;
+use setpiece_engine::state::{Match, PlayerId};
+use setpiece_engine::step::hand_over;
 use setpiece_render::Scene;
 use setpiece_render::scene::Pitch;
 use setpiece_scenario::Scenario;
 use setpiece_scenario::plan::{Measure, Quantity};
 use setpiece_scenario::vocabulary::{Action, EventKind, Team, Verdict};
+use std::ops::Range;
+use std::panic::resume_unwind;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::thread;
 
 /// What to look at.
 #[derive(Clone, Debug)]
 pub struct ProfileOptions {
     /// The agent that plays every slot.
     pub agent: ChosenAgent,
-    /// The first episodes of the seed.
-    pub episodes: u64,
+    /// The indices of the episodes under the seed.
+    pub episodes: Range<u64>,
     /// The seed.
     pub seed: u64,
-    /// Parameters, physics.
+    /// Threads; the results don't depend on them.
+    pub threads: usize,
+    /// Parameters, physics, the snapshot to begin from.
     pub environment: EnvironmentOptions,
 }
 
-/// What an agent did. Places are metres, and its team attacks towards +x.
+/// What an agent did. Places are metres, its team attacks towards +x, and +y is on its right.
 #[derive(Clone, Debug)]
 pub struct Profile {
     /// The scenario's name.
@@ -55,7 +64,7 @@ pub struct Profile {
     pub terms: Vec<(String, f64)>,
     /// How often each action was pressed, the most frequent first.
     pub actions: Vec<(Action, u64)>,
-    /// Where players of its teams touched the ball.
+    /// Where the players that it controlled at the time touched the ball.
     pub touches: Vec<[f32; 2]>,
     /// Their passes.
     pub passes: Vec<ProfilePass>,
@@ -63,6 +72,17 @@ pub struct Profile {
     pub shots: Vec<ProfileShot>,
     /// The measures of the pitch, of the first episode.
     pub pitch: Pitch,
+}
+
+/// What an agent did in one episode.
+#[derive(Debug)]
+struct WatchedEpisode {
+    summary: EpisodeSummary,
+    counts: [u64; Action::FULL_SET],
+    touches: Vec<[f32; 2]>,
+    passes: Vec<ProfilePass>,
+    shots: Vec<ProfileShot>,
+    pitch: Pitch,
 }
 
 /// A pass.
@@ -85,27 +105,29 @@ pub struct ProfileShot {
     pub outcome: &'static str,
 }
 
-/// Plays the episodes one after the other and looks at them. `after` is called after each.
+/// Plays the episodes and looks at them. `after` is called after each, from any thread.
 ///
 /// # Errors
 /// [`Error::Environment`] if the options don't fit the scenario, [`Error::Policy`] or
 /// [`Error::NoBaseline`] if the agent doesn't, [`Error::Episode`] if an episode has no start, a
-/// script fails or nothing ends it, [`Error::Replay`] if one is too long to be recorded.
+/// script fails or nothing ends it, [`Error::Replay`] if one is too long to be recorded,
+/// [`Error::Threads`] if threads can't be started.
 pub fn profile(
     scenario: &Arc<Scenario>,
     options: &ProfileOptions,
-    after: impl Fn(),
+    after: impl Fn() + Sync,
 ) -> Result<Profile, Error> {
     refuse_endless(scenario)?;
-    let mut environment = Environment::new(scenario.clone(), options.environment.clone())
+    let environment = Environment::new(scenario.clone(), options.environment.clone())
         .map_err(Error::Environment)?;
-    let mut policy = options.agent.fit(&environment)?.player();
+    let agent = options.agent.fit(&environment)?;
     let names = environment.term_names().to_vec();
-    let teams: Vec<Team> = environment.roster().agents.iter().map(|(team, _)| *team).collect();
+    let is_left = environment.roster().agents.iter().any(|(team, _)| *team == Team::Left);
+    let watched = watch_all(&environment, &agent, options, &after)?;
     let mut found = Profile {
         scenario: scenario.name.clone(),
         agent: options.agent.name().to_owned(),
-        episodes: options.episodes,
+        episodes: watched.len() as u64,
         seed: options.seed,
         score: None,
         length: None,
@@ -115,40 +137,108 @@ pub fn profile(
         touches: Vec::new(),
         passes: Vec::new(),
         shots: Vec::new(),
-        pitch: Pitch::default(),
+        pitch: watched.first().map_or_else(Pitch::default, |first| first.pitch),
     };
-    let (mut summaries, mut scratch) = (Vec::new(), Scratch::default());
-    let mut counts = [0; Action::FULL_SET];
-    for index in 0..options.episodes {
-        let replay =
-            play(&mut environment, &mut policy, (options.seed, index), &mut scratch, |it| {
-                look(it, &teams, &mut found, &mut counts);
-            })?;
-        if index == 0 {
-            let mut scene = Scene::default();
-            of_match(environment.state(), &mut scene);
-            found.pitch = scene.pitch;
+    let (mut summaries, mut counts) = (Vec::new(), [0; Action::FULL_SET]);
+    for episode in watched {
+        found.touches.extend(episode.touches);
+        found.passes.extend(episode.passes);
+        found.shots.extend(episode.shots);
+        for (sum, count) in counts.iter_mut().zip(episode.counts) {
+            *sum += count;
         }
-        let tracking = Tracking::of(&replay)?;
-        for event in &tracking.events {
-            let Some(by) = event.by.filter(|by| teams.contains(&by.team())) else { continue };
-            let at = ahead(by, event.at);
-            match (event.kind, event.end) {
-                ("pass", Some((to, _))) => found.passes.push(ProfilePass {
-                    from: at,
-                    to: ahead(by, to),
-                    completed: event.success,
-                }),
-                ("shot", _) => found.shots.push(ProfileShot { at, outcome: event.outcome }),
-                _ => {}
-            }
-        }
-        summaries.push(EpisodeSummary::of(&environment));
-        after();
+        summaries.push(episode.summary);
     }
-    let side = if teams.contains(&Team::Left) { 1.0 } else { -1.0 };
+    let side = if is_left { 1.0 } else { -1.0 };
     summarise(&mut found, &summaries, &names, &counts, side);
     Ok(found)
+}
+
+/// Plays the episodes on some threads; returns them in order, or the first that failed.
+fn watch_all(
+    environment: &Environment,
+    agent: &FittedAgent,
+    options: &ProfileOptions,
+    after: &(impl Fn() + Sync),
+) -> Result<Vec<WatchedEpisode>, Error> {
+    let Range { start, end } = options.episodes;
+    // Indices are taken in order, so that all before one that fails are played.
+    let (next, is_over) = (AtomicU64::new(start), AtomicBool::new(false));
+    let work = || {
+        let (mut environment, mut policy) = (environment.clone(), agent.player());
+        let (mut scratch, mut watched) = (Scratch::default(), Vec::new());
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            if index >= end || is_over.load(Ordering::Relaxed) {
+                return watched;
+            }
+            let key = (options.seed, index);
+            let episode = watch(&mut environment, &mut policy, key, &mut scratch);
+            if episode.is_err() {
+                is_over.store(true, Ordering::Relaxed);
+            }
+            watched.push((index, episode));
+            after();
+        }
+    };
+    let wanted = usize::try_from(end.saturating_sub(start)).unwrap_or(usize::MAX);
+    let threads = options.threads.clamp(1, wanted.max(1));
+    let mut watched = thread::scope(|scope| {
+        let spawn = |_| thread::Builder::new().spawn_scoped(scope, work);
+        let others = (1..threads).map(spawn).collect::<Result<Vec<_>, _>>();
+        let others = others.map_err(|why| {
+            is_over.store(true, Ordering::Relaxed);
+            Error::Threads(why.to_string())
+        })?;
+        let mut all = work();
+        for other in others {
+            all.extend(other.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        }
+        Ok(all)
+    })?;
+    watched.sort_by_key(|(index, _)| *index);
+    watched.into_iter().map(|(_, episode)| episode).collect()
+}
+
+/// Plays an episode and looks at it.
+fn watch(
+    environment: &mut Environment,
+    policy: &mut impl Policy,
+    key: (u64, u64),
+    scratch: &mut Scratch,
+) -> Result<WatchedEpisode, Error> {
+    let (mut touches, mut passes, mut shots) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut controlled, mut counts) = (Vec::new(), [0; Action::FULL_SET]);
+    let replay = play(environment, policy, key, scratch, |it, own| {
+        look(it, own, &mut touches, &mut counts);
+        controlled.push(own);
+    })?;
+    for event in &Tracking::of(&replay)?.events {
+        // Frame n is the end of step n.
+        let step = (event.frame as usize).checked_sub(1);
+        let own = step.and_then(|step| controlled.get(step)).copied().unwrap_or_default();
+        let Some(by) = event.by.filter(|by| own.contains(*by)) else { continue };
+        let at = ahead(by, downwards(event.at));
+        match (event.kind, event.end) {
+            ("pass", Some((to, _))) => {
+                let (to, completed) = (ahead(by, downwards(to)), event.success);
+                passes.push(ProfilePass { from: at, to, completed });
+            }
+            ("shot", _) => shots.push(ProfileShot { at, outcome: event.outcome }),
+            _ => {}
+        }
+    }
+    let mut scene = Scene::default();
+    of_match(environment.state(), &mut scene);
+    let summary = EpisodeSummary::of(environment);
+    Ok(WatchedEpisode { summary, counts, touches, passes, shots, pitch: scene.pitch })
+}
+
+/// A place of a tracked event, where +y is the top of the picture, as the match and a page have
+/// it: +y is the bottom.
+fn downwards([x, y]: [f32; 2]) -> [f32; 2] {
+    // Not `-y`, which turns 0 into -0.
+    [x, 0.0 - y]
 }
 
 /// The place of a player's deed, as their team sees it: attacking towards +x.
@@ -157,13 +247,39 @@ fn ahead(by: PlayerId, [x, y]: [f32; 2]) -> [f32; 2] {
     [side * x, side * y]
 }
 
-/// Plays an episode and records it; `look` is called after each step, before the next begins.
+/// The players that agents control in a step, one bit each.
+#[derive(Clone, Copy, Debug, Default)]
+struct ControlledPlayers(u32);
+
+impl ControlledPlayers {
+    /// Those of the step that comes next.
+    fn next(environment: &Environment) -> ControlledPlayers {
+        let of = |game: &Match| {
+            let players = game.agents.iter().filter_map(|slot| slot.player);
+            ControlledPlayers(players.fold(0, |bits, id| bits | 1 << id.0))
+        };
+        if environment.steps() > 0 {
+            return of(environment.state());
+        }
+        // An episode's first step hands the ball's player over to an agent.
+        let mut game = environment.state().clone();
+        hand_over(&mut game);
+        of(&game)
+    }
+
+    fn contains(self, id: PlayerId) -> bool {
+        self.0 & (1 << id.0) != 0
+    }
+}
+
+/// Plays an episode and records it; `look` is called after each step, before the next begins, with
+/// the players that agents controlled in it.
 fn play(
     environment: &mut Environment,
     policy: &mut impl Policy,
     (seed, index): (u64, u64),
     scratch: &mut Scratch,
-    mut look: impl FnMut((&Environment, &[Action])),
+    mut look: impl FnMut((&Environment, &[Action]), ControlledPlayers),
 ) -> Result<Replay, Error> {
     let fault = |why| Error::Episode(Box::new(why));
     environment.reset(Some(seed), Some(index)).map_err(|why| fault(EpisodeError::Draw(why)))?;
@@ -176,8 +292,9 @@ fn play(
             *action = policy.act(environment, agent);
             recorder.note(*action, None);
         }
+        let own = ControlledPlayers::next(environment);
         environment.step(&actions, scratch).map_err(|why| fault(EpisodeError::Step(why)))?;
-        look((environment, &actions));
+        look((environment, &actions), own);
         if environment.is_running() && environment.steps() >= STEPS_MAX {
             return Err(fault(EpisodeError::Endless(STEPS_MAX)));
         }
@@ -188,8 +305,8 @@ fn play(
 /// Counts the actions and touches of a step.
 fn look(
     (environment, actions): (&Environment, &[Action]),
-    teams: &[Team],
-    found: &mut Profile,
+    own: ControlledPlayers,
+    touches: &mut Vec<[f32; 2]>,
     counts: &mut [u64; Action::FULL_SET],
 ) {
     for action in actions {
@@ -198,8 +315,8 @@ fn look(
         }
     }
     for event in environment.events().iter().filter(|event| event.kind == EventKind::Touch) {
-        if let Some(by) = event.by.filter(|by| teams.contains(&by.team())) {
-            found.touches.push(ahead(by, [event.at.x, event.at.y]));
+        if let Some(by) = event.by.filter(|by| own.contains(*by)) {
+            touches.push(ahead(by, [event.at.x, event.at.y]));
         }
     }
 }

@@ -5,8 +5,9 @@ mod table;
 pub use table::SuiteTable;
 
 use crate::agent::ChosenAgent;
+use crate::baseline::baselines;
 use crate::error::Error;
-use crate::evaluate::{Results, play};
+use crate::evaluate::{Results, environment_of, play};
 use crate::measure::{Estimate, differences, measure};
 use serde::Serialize;
 use setpiece_engine::batch::EpisodeSummary;
@@ -82,6 +83,42 @@ pub fn row(
         _ => None,
     };
     Ok(SuiteRow { agents: rows, difference, ..blank(entry) })
+}
+
+/// Makes sure that agents can play every entry, before anything is played.
+///
+/// # Errors
+/// [`Error::NoBaseline`] if the only entry has none, [`Error::NoBaselines`] with all entries that
+/// have none, or what else [`play`] would report of an agent.
+pub fn refuse_unplayable(
+    entries: &[PlannedEpisodes],
+    environment: &EnvironmentOptions,
+    agents: &[ChosenAgent],
+) -> Result<(), Error> {
+    let mut without: Vec<String> = Vec::new();
+    for entry in entries {
+        let fitted = fit_all(entry, environment, agents);
+        match fitted {
+            Err(Error::NoBaseline { .. }) if entries.len() > 1 => {
+                without.push(entry.played.label());
+            }
+            fitted => fitted?,
+        }
+    }
+    if without.is_empty() {
+        return Ok(());
+    }
+    let (of, known) = (entries.len(), baselines().map(str::to_owned).collect());
+    Err(Error::NoBaselines { entries: without, of, known })
+}
+
+fn fit_all(
+    entry: &PlannedEpisodes,
+    environment: &EnvironmentOptions,
+    agents: &[ChosenAgent],
+) -> Result<(), Error> {
+    let environment = environment_of(&entry.played, environment, entry.played.bindings.clone())?;
+    agents.iter().try_for_each(|agent| agent.fit(&environment).map(|_| ()))
 }
 
 /// The row of an entry that one agent has played.

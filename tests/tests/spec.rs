@@ -191,6 +191,7 @@ fn run(case: &Case, probe: bool) -> CompileOutcome {
             origins: outcome.origins.clone(),
             inputs: Vec::new(),
             behaviors: outcome.behaviors.clone(),
+            unplayable: Vec::new(),
         };
         outcome.problems = setpiece::probe::probe(&loaded, None);
     }

@@ -40,6 +40,8 @@ pub(super) struct Planner<'c, 'w> {
     world: &'c World<'w>,
     compile: &'c mut CompileItem<'c, 'w>,
     entries: usize,
+    /// Where each check names its agent, if it does.
+    check_agents: Vec<Option<Span>>,
 }
 
 impl<'c, 'w> Planner<'c, 'w> {
@@ -47,11 +49,11 @@ impl<'c, 'w> Planner<'c, 'w> {
         world: &'c World<'w>,
         compile: &'c mut CompileItem<'c, 'w>,
     ) -> Planner<'c, 'w> {
-        Planner { world, compile, entries: 0 }
+        Planner { world, compile, entries: 0, check_agents: Vec::new() }
     }
 
-    /// The plans of some items.
-    pub(super) fn plans(&mut self, items: &'w [Item]) -> Plans {
+    /// The plans of some items, and where each check names its agent.
+    pub(super) fn plans(mut self, items: &'w [Item]) -> (Plans, Vec<Option<Span>>) {
         let mut plans = Plans::default();
         for item in items {
             match &item.kind {
@@ -63,7 +65,7 @@ impl<'c, 'w> Planner<'c, 'w> {
                 _ => {}
             }
         }
-        plans
+        (plans, self.check_agents)
     }
 
     fn suite(&mut self, item: &'w SuiteItem, doc: &str) -> plan::Suite {
@@ -194,6 +196,7 @@ impl<'c, 'w> Planner<'c, 'w> {
             }
             return None;
         };
+        let place = agent.map(|agent| agent.span);
         let ai = agent.filter(|agent| !AGENTS.contains(&agent.node.as_str()));
         let agent = match agent {
             Some(agent) => self.agent(agent),
@@ -215,10 +218,12 @@ impl<'c, 'w> Planner<'c, 'w> {
         if is_whole && !item.body.iter().any(|stmt| is_expectation(&stmt.kind)) {
             self.report(span, Facts::NothingExpected { name: item.name.node.clone() });
         }
+        let agent = agent?;
+        self.check_agents.push(place);
         Some(plan::Check {
             name: item.name.node.clone(),
             episodes,
-            agent: agent?,
+            agent,
             over_params,
             expectations,
         })

@@ -103,8 +103,8 @@ def test_a_model_says_how_long_a_decision_lasts(tmp_path: Path) -> None:
     policy = setpiece.onnx_policy(save(tmp_path / "policy.onnx", repeat="4"))
     assert policy.repeat == 4
     assert setpiece.onnx_policy(save(tmp_path / "policy.onnx")).repeat == 1
-    for wrong in ("0", "often", "-1", "1.5"):
-        with pytest.raises(setpiece.FormatError, match="expected a count of steps"):
+    for wrong in ("0", "often", "-1", "1.5", "1001"):
+        with pytest.raises(setpiece.FormatError, match="expected a number of steps"):
             setpiece.onnx_policy(save(tmp_path / "wrong.onnx", repeat=wrong))
 
 
@@ -120,7 +120,7 @@ def test_a_model_names_what_it_sees(tmp_path: Path) -> None:
     # A stack is the caller's.
     stacked = setpiece.onnx_policy(save(tmp_path / "4.onnx", observation="smm", stack="4"))
     assert stacked.observation is None
-    with pytest.raises(setpiece.FormatError, match="`observation` 'radar'"):
+    with pytest.raises(setpiece.FormatError, match="`observation` is `radar`"):
         setpiece.onnx_policy(save(tmp_path / "wrong.onnx", observation="radar"))
 
 
@@ -186,7 +186,7 @@ def test_the_command_plays_the_episodes_of_python(
 @pytest.mark.parametrize("name", BASELINES)
 def test_a_policy_in_the_box_plays_the_same_everywhere(tmp_path: Path, name: str) -> None:
     file = tmp_path / "policy.onnx"
-    file.write_bytes(baseline_file(name) or b"")
+    file.write_bytes(baseline_file(setpiece.load(name))[1])
     boxed, opened = (
         setpiece.evaluate(policy, name, episodes=50, observation="egocentric").rows[0].digest
         for policy in ("baseline", file)
@@ -263,18 +263,76 @@ def test_files_that_are_no_policies(tmp_path: Path) -> None:
     (tmp_path / "text.onnx").write_text("no model")
     with pytest.raises(setpiece.FormatError, match="no ONNX model"):
         setpiece.onnx_policy(tmp_path / "text.onnx")
-    seven = setpiece.make(
-        DUEL, right=1, opponents={"right": save(tmp_path / "seven.onnx", n_actions=7, favourite=1)}
-    )
-    seven.reset(seed=1)
-    with pytest.raises(setpiece.OpponentError, match=r"\(batch, 19\)") as caught:
-        seven.step(0)
-    assert isinstance(caught.value.__cause__, setpiece.FormatError)
+    seven = save(tmp_path / "seven.onnx", n_actions=7, favourite=1)
+    with pytest.raises(setpiece.FormatError, match=r"\[1, 19\]"):
+        setpiece.make(DUEL, right=1, opponents={"right": seven})
     with pytest.raises(setpiece.FormatError, match="expected one"):
         setpiece.onnx_policy(save(tmp_path / "int.onnx", kind=TensorProto.INT32))
     wide = setpiece.make(
         DUEL, right=1, opponents={"right": save(tmp_path / "wide.onnx", shape=(116,))}
     )
     wide.reset(seed=1)
-    with pytest.raises(setpiece.OpponentError, match="of `right_GK_1` failed"):
+    with pytest.raises(setpiece.OpponentError, match="of `right_GK_1` failed") as caught:
         wide.step(0)
+    assert caught.value.code == "SP0023"
+    assert "observation=" in str(caught.value.help)
+
+
+def two_inputs(path: Path) -> Path:
+    """Writes a model of two observations."""
+    shown = [
+        helper.make_tensor_value_info(name, TensorProto.FLOAT, ["batch", 19]) for name in ("a", "b")
+    ]
+    logits = helper.make_tensor_value_info("logits", TensorProto.FLOAT, ["batch", 19])
+    graph = helper.make_graph(
+        [helper.make_node("Add", ["a", "b"], ["logits"])], "two", shown, [logits]
+    )
+    model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=9)
+    onnx.save(model, path)
+    return path
+
+
+def undefined(path: Path) -> Path:
+    """Writes a model whose logits are no numbers, as those of a training that diverged."""
+    model = onnx.load(save(path))
+    for weights in model.graph.initializer:
+        numbers = np.full_like(numpy_helper.to_array(weights), np.nan)
+        weights.CopyFrom(numpy_helper.from_array(numbers, weights.name))
+    onnx.save(model, path)
+    return path
+
+
+def odd(kind: str, path: Path) -> Path:
+    """Writes a file that is no policy."""
+    whole = save(path).read_bytes()
+    if kind in ("text", "empty", "cut"):
+        path.write_bytes({"text": b"no model", "empty": b"", "cut": whole[: len(whole) // 2]}[kind])
+        return path
+    if kind == "several inputs":
+        return two_inputs(path)
+    if kind == "no numbers":
+        return undefined(path)
+    shapes = {"wide": (116,), "flat picture": (72, 96)}
+    if kind in shapes:
+        return save(path, shape=shapes[kind])
+    return save(path, n_actions=33)
+
+
+ODD = ("text", "empty", "cut", "several inputs", "no numbers", "many actions", "wide")
+
+
+@pytest.mark.parametrize("kind", [*ODD, "flat picture"])
+def test_an_odd_file_is_refused_as_by_the_command(tmp_path: Path, kind: str) -> None:
+    file = odd(kind, tmp_path / "odd.onnx")
+    line = [sys.executable, "-m", "setpiece", "run", DUEL, "--agent", str(file)]
+    said = subprocess.run(line, capture_output=True, check=False)
+    assert said.returncode == 1
+    assert b"SP0023" in said.stderr, said.stderr
+    with pytest.raises(setpiece.SetpieceError, match=r"the policy `.*` can't be played") as caught:
+        setpiece.evaluate(file, DUEL, episodes=1)
+    assert caught.value.code == "SP0023"
+    if b"help:" in said.stderr:
+        assert caught.value.help
+    with pytest.raises(setpiece.SetpieceError, match="can't be played") as caught:
+        play(setpiece.make(DUEL, right=1, opponents={"right": file}), 1)
+    assert caught.value.code == "SP0023"

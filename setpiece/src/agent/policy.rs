@@ -90,12 +90,21 @@ impl NetworkPolicy {
     /// [`Error::Policy`] if it can't be computed, or returns something else than logits.
     pub(super) fn try_out(&self, sight: &PolicySight) -> Result<(), Error> {
         let mask = [true; Action::FULL_SET];
-        let logits = self.logits(sight.blank(), &mask).map_err(|why| self.fault(why.into()))?;
-        let is_row = matches!(logits.shape[..], [1, actions] if ACTION_COUNTS.contains(&actions));
-        if is_row && matches!(logits.numbers, Numbers::Floats(_)) {
-            return Ok(());
+        // What is undefined for one observation may not be for another.
+        for number in [0.0, 0.5] {
+            let seen = sight.filled(number);
+            let logits = self.logits(seen, &mask).map_err(|why| self.fault(why.into()))?;
+            let is_row = matches!(logits.shape[..], [1, n] if ACTION_COUNTS.contains(&n));
+            match logits.numbers {
+                Numbers::Floats(numbers) if is_row => {
+                    if !numbers.iter().any(|number| number.is_nan()) {
+                        return Ok(());
+                    }
+                }
+                _ => return Err(self.fault(PolicyFault::Actions { found: logits.shape })),
+            }
         }
-        Err(self.fault(PolicyFault::Actions { found: logits.shape }))
+        Err(self.fault(PolicyFault::NotNumbers))
     }
 
     /// The action of the greatest logit, the first of equal ones.

@@ -81,8 +81,8 @@ impl PolicySight {
     }
 
     /// What a network is tried out with.
-    pub(super) fn blank(&self) -> Tensor {
-        self.tensor(&vec![0.0; self.shape.iter().product()])
+    pub(super) fn filled(&self, number: f32) -> Tensor {
+        self.tensor(&vec![number; self.shape.iter().product()])
     }
 
     /// What a network is given: numbers with a batch axis in front.

@@ -3,6 +3,7 @@
 use super::agent::AgentParser;
 use super::common::FINE;
 use super::out::{Out, StyledText};
+use super::playing::ThreadsArg;
 use crate::Error;
 use crate::agent::ChosenAgent;
 use crate::leaderboard::{Leaderboard, LeaderboardOptions, leaderboard};
@@ -26,9 +27,8 @@ pub(crate) struct LeaderboardArgs {
     /// The seed; the same seed gives the same matches
     #[arg(short, long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
-    /// Threads; the results don't depend on them [default: one per core]
-    #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: ThreadsArg,
     /// The output format
     #[arg(long, value_enum, default_value_t = LeaderboardFormat::Text)]
     format: LeaderboardFormat,
@@ -46,13 +46,12 @@ enum LeaderboardFormat {
 pub(crate) fn leaderboard_command(args: &LeaderboardArgs, out: &Out) -> Result<u8, Error> {
     let loaded = crate::load_with(&args.scenario, &out.loading())?;
     out.warnings(&loaded);
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let options = LeaderboardOptions {
         agents: args.agents.clone(),
         matches: args.matches,
         players: args.players,
         seed: args.seed,
-        threads: args.threads.map_or(cores, usize::from),
+        threads: args.threads.count(),
     };
     let agents = args.agents.len() as u64;
     let total = agents * (agents - 1) * u64::from(args.matches);

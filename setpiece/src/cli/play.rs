@@ -5,7 +5,10 @@ use super::common::{FAULT, FINE, TICK};
 use super::live::live;
 use super::out::{Out, StyledText};
 use super::suite::run_suite;
-use super::{playing::Playing, summary};
+use super::{
+    playing::{Playing, ThreadsArg},
+    summary,
+};
 use crate::agent::ChosenAgent;
 #[cfg(feature = "render")]
 use crate::curves::curves;
@@ -23,6 +26,7 @@ use crate::run::faults::faulty_terms;
 use crate::run::{RunOptions, Summary, first_error, run, summarise};
 use crate::scenario::plan::{PlannedEpisodes, Plans, Played, Suite};
 use crate::scenario::{Bindings, Scenario};
+use crate::suite::refuse_unplayable;
 use crate::{Error, Loaded};
 use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
 use std::ffi::OsStr;
@@ -47,9 +51,8 @@ pub(crate) struct RunArgs {
     /// Pay this reward instead of the scenario's own; may be repeated or separated by commas
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     reward: Vec<String>,
-    /// Threads; the results don't depend on them [default: one per core]
-    #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: ThreadsArg,
     /// The output format
     #[arg(long, value_enum, default_value_t = RunFormat::Text)]
     pub(crate) format: RunFormat,
@@ -88,8 +91,7 @@ impl RunArgs {
 
     /// How many threads play.
     pub(crate) fn threads(&self) -> usize {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        self.threads.map_or(cores, usize::from)
+        self.threads.count()
     }
 
     /// The rewards that are paid instead of the scenarios' own.
@@ -195,7 +197,12 @@ fn other_plans(args: &RunArgs, out: &Out) {
 
 /// The plans that a name stands for; the error is why it stands for no scenario. `wanted`: which
 /// plan of a file, if not all.
-fn plans_of(name: &OsStr, wanted: Option<&str>, error: Error, out: &Out) -> Result<Plans, Error> {
+pub(super) fn plans_of(
+    name: &OsStr,
+    wanted: Option<&str>,
+    error: Error,
+    out: &Out,
+) -> Result<Plans, Error> {
     let mut library = library_plans()?.suites;
     if let Some(at) = library.iter().position(|suite| name == suite.name.as_str()) {
         return Ok(Plans { suites: vec![library.swap_remove(at)], ..Plans::default() });
@@ -222,19 +229,28 @@ fn plans_of(name: &OsStr, wanted: Option<&str>, error: Error, out: &Out) -> Resu
     }
 }
 
-/// Plays all suites; a curriculum is played by a training alone.
-fn run_plans(plans: &Plans, args: &RunArgs, out: &Out) -> Result<u8, Error> {
+/// Whether suites can be played: false, with a report, for a curriculum alone, which a training
+/// plays, and with an option that suites have no use for.
+pub(super) fn has_suites(plans: &Plans, foreign: Option<&str>, out: &Out) -> bool {
     if let ([], Some(curriculum)) = (&plans.suites[..], plans.curricula.first()) {
         let name = &curriculum.name;
         let message = format!("`{name}` is a curriculum, which a training plays");
         let help = format!("in Python: `setpiece.make_vec(SCENARIO, 64, levels=\"{name}\")`");
         out.fault(&Code::NoPlans.to_string(), &message, Some(&help));
-        return Ok(FAULT);
+        return false;
     }
-    if let Some(option) = args.foreign_to_suites() {
+    if let Some(option) = foreign {
         let message =
             format!("`{option}` has no effect on a suite: its entries say what is played");
         out.fault(&Code::NoPlans.to_string(), &message, Some("leave it out, or run a scenario"));
+        return false;
+    }
+    true
+}
+
+/// Plays all suites.
+fn run_plans(plans: &Plans, args: &RunArgs, out: &Out) -> Result<u8, Error> {
+    if !has_suites(plans, args.foreign_to_suites(), out) {
         return Ok(FAULT);
     }
     let environment = EnvironmentOptions {
@@ -242,6 +258,8 @@ fn run_plans(plans: &Plans, args: &RunArgs, out: &Out) -> Result<u8, Error> {
         physics: args.playing.physics(),
         ..EnvironmentOptions::default()
     };
+    let entries: Vec<_> = plans.suites.iter().flat_map(|suite| suite.entries.clone()).collect();
+    refuse_unplayable(&entries, &environment, &args.agents())?;
     for suite in &plans.suites {
         run_suite(suite, &environment, args, out)?;
     }

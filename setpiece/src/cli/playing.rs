@@ -9,8 +9,9 @@ use crate::files::{SNAPSHOT_MAX_BYTES, read_file};
 use crate::level::Level;
 use crate::load::LoadOptions;
 use crate::{Error, Loaded};
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
 use std::ffi::{OsStr, OsString};
+use std::ops::Deref;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -38,17 +39,56 @@ impl OneEpisode {
     }
 }
 
+/// What is played, and who plays it.
 #[derive(Args, Debug)]
 pub(crate) struct Playing {
+    #[command(flatten)]
+    what: PlayedArgs,
+    /// Who controls the agents
+    #[arg(short, long, value_parser = AgentParser, default_value = "bot")]
+    agent: ChosenAgent,
+}
+
+impl Deref for Playing {
+    type Target = PlayedArgs;
+
+    fn deref(&self) -> &PlayedArgs {
+        &self.what
+    }
+}
+
+impl Playing {
+    /// The agent that plays every slot.
+    pub(crate) fn agent(&self) -> ChosenAgent {
+        self.agent.clone()
+    }
+}
+
+/// How many threads play.
+#[derive(Args, Debug)]
+pub(crate) struct ThreadsArg {
+    /// Threads; the results don't depend on them [default: one per core]
+    #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
+    threads: Option<u16>,
+}
+
+impl ThreadsArg {
+    /// The number of threads.
+    pub(crate) fn count(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        self.threads.map_or(cores, usize::from)
+    }
+}
+
+/// What is played.
+#[derive(Args, Debug)]
+pub(crate) struct PlayedArgs {
     /// A scenario of the library, a .pitch file or a compiled .pitchc file
     #[arg(value_name = "SCENARIO", required_unless_present = "level")]
     scenario: Option<OsString>,
     /// Which scenario of the file [default: its last that isn't abstract]
     #[arg(long = "scenario", value_name = "NAME", conflicts_with = "level")]
     wanted: Option<String>,
-    /// Who controls the agents
-    #[arg(short, long, value_parser = AgentParser, default_value = "bot")]
-    agent: ChosenAgent,
     /// The seed; the same seed gives the same episodes
     #[arg(short, long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
@@ -94,7 +134,7 @@ fn level(text: &str) -> Result<Level, Error> {
     Ok(level)
 }
 
-impl Playing {
+impl PlayedArgs {
     /// What to load: the scenario that is named, else the level's.
     pub(crate) fn source(&self) -> &OsStr {
         let named = self.scenario.as_deref();
@@ -136,11 +176,6 @@ impl Playing {
     /// The index of the level's episode, else the one that is asked for.
     pub(crate) fn episode(&self, otherwise: u64) -> u64 {
         self.level.as_ref().map_or(otherwise, |level| level.episode)
-    }
-
-    /// The agent that plays every slot.
-    pub(crate) fn agent(&self) -> ChosenAgent {
-        self.agent.clone()
     }
 
     /// How the ball's contacts are found, if it is said.

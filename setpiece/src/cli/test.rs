@@ -3,6 +3,7 @@
 use super::agent::AgentParser;
 use super::common::{FAULT, FINE};
 use super::out::{Out, StyledText};
+use super::playing::ThreadsArg;
 use crate::Error;
 use crate::agent::ChosenAgent;
 use crate::drawing::Paint;
@@ -10,15 +11,18 @@ use crate::dsl::problem::Code;
 use crate::engine::control::agents::Agent;
 use crate::engine::environment::EnvironmentOptions;
 use crate::evaluate::{JudgedExpectation, bindings, judge, play, record};
-use crate::files::pitch_files;
+use crate::files::{pitch_files, refuse_folder};
 use crate::level::Level;
 use crate::measure::shown;
 use crate::plans::load_plans;
 use crate::scenario::plan::Check;
-use clap::{Args, ValueEnum, builder::RangedU64ValueParser};
+use clap::{Args, ValueEnum};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Where the worst episodes are written, unless another folder is named.
+const FAILED: &str = "failed-checks";
 
 #[derive(Args, Debug)]
 pub(crate) struct TestArgs {
@@ -31,15 +35,14 @@ pub(crate) struct TestArgs {
     /// Who plays, instead of the agent that a check names
     #[arg(short, long, value_parser = AgentParser)]
     agent: Option<ChosenAgent>,
-    /// Threads; the results don't depend on them [default: one per core]
-    #[arg(short, long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: ThreadsArg,
     /// The output format
     #[arg(long, value_enum, default_value_t = TestFormat::Text)]
     format: TestFormat,
-    /// Where the worst episodes of failed checks are written
-    #[arg(short, long, value_name = "DIR", default_value = "failed-checks")]
-    output: PathBuf,
+    /// Where the worst episodes of failed checks are written [default: failed-checks]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -93,6 +96,10 @@ struct Worst {
 pub(crate) fn test(args: &TestArgs, out: &Out) -> Result<u8, Error> {
     if let Some(agent) = &args.agent {
         agent.check()?;
+    }
+    // Checks that hold write nothing: the usual folder needn't be writable.
+    if let Some(folder) = &args.output {
+        refuse_folder(folder)?;
     }
     let (mut played, mut broken) = (Vec::new(), false);
     let mut taken = BTreeSet::new();
@@ -161,7 +168,6 @@ fn free_name(path: &Path, check: &Check, taken: &mut BTreeSet<String>) -> String
 ///
 /// - `name`: what its replays are called.
 fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<PlayedCheck, Error> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let named = ChosenAgent::from_name(&check.agent).unwrap_or(Agent::Bot.into());
     let agent = args.agent.clone().unwrap_or(named);
     let begin = Instant::now();
@@ -173,7 +179,7 @@ fn one(args: &TestArgs, path: &Path, check: &Check, name: &str) -> Result<Played
         &EnvironmentOptions::default(),
         &agent,
         check.over_params,
-        args.threads.map_or(cores, usize::from),
+        args.threads.count(),
         || bar.inc(1),
     );
     bar.finish_and_clear();
@@ -240,9 +246,10 @@ fn keep(
 ) -> Result<Worst, Error> {
     let episodes = &check.episodes;
     let replay = record(episodes, &EnvironmentOptions::default(), agent, check.over_params, index)?;
-    let path = args.output.join(format!("{name}-{index}.pitchr"));
-    std::fs::create_dir_all(&args.output).map_err(|why| Error::File {
-        path: args.output.clone(),
+    let folder = args.output.as_deref().unwrap_or(Path::new(FAILED));
+    let path = folder.join(format!("{name}-{index}.pitchr"));
+    std::fs::create_dir_all(folder).map_err(|why| Error::File {
+        path: folder.to_owned(),
         why: crate::error::FileFault::Write(why.to_string()),
     })?;
     crate::files::write(&path, replay.to_bytes()?)?;

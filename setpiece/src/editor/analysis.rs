@@ -5,6 +5,7 @@ use super::place::FilePlace;
 use super::report::TextReport;
 use super::text::{Lines, closed};
 use crate::Loaded;
+use crate::baseline::unplayable;
 use crate::dsl::ast::{File, Span};
 use crate::dsl::index::Index;
 use crate::dsl::problem::Problem;
@@ -77,6 +78,7 @@ impl Analysis {
             reports.retain(|report| !report.place.path.starts_with("<check>"));
             inputs.extend(user.inputs.iter().map(|it| path_of(it)));
         }
+        let unplayable = unplayable(&outcome);
         let loaded = outcome.scenario.take().map(|scenario| Loaded {
             scenario: scenario.into(),
             warnings: Vec::new(),
@@ -85,6 +87,7 @@ impl Analysis {
             origins: outcome.origins,
             inputs: Vec::new(),
             behaviors: outcome.behaviors,
+            unplayable,
         });
         Analysis {
             lines: Lines::of(&text),
@@ -125,6 +128,7 @@ pub(super) fn scenario_of(
 ) -> Option<Loaded> {
     let source = Source { name: name_of(path), text: text.clone() };
     let outcome = compile(source, loader, &options(Some(name.to_owned())));
+    let unplayable = unplayable(&outcome);
     Some(Loaded {
         scenario: outcome.scenario?.into(),
         warnings: Vec::new(),
@@ -133,6 +137,7 @@ pub(super) fn scenario_of(
         origins: outcome.origins,
         inputs: Vec::new(),
         behaviors: outcome.behaviors,
+        unplayable,
     })
 }
 

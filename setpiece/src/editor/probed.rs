@@ -70,7 +70,11 @@ impl Workspace {
             if problems.is_empty() {
                 findings.notes.extend(refusal(&analysis, &loaded, item.span));
             }
-            findings.reports.extend(reports.into_iter().filter(is_new));
+            let fresh: Vec<TextReport> = reports.into_iter().filter(is_new).collect();
+            // A check stands in the file of several scenarios.
+            let is_known = |report: &TextReport| findings.reports.contains(report);
+            let fresh: Vec<_> = fresh.into_iter().filter(|report| !is_known(report)).collect();
+            findings.reports.extend(fresh);
         }
         Some(findings)
     }

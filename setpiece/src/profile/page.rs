@@ -17,6 +17,9 @@ const GOOD: &str = "#ffd166";
 const BAD: &str = "#ef476f";
 /// The radius of a goal and of another shot, metres.
 const SHOT_M: [f64; 2] = [1.5, 0.9];
+/// Whose touches, passes and shots are shown.
+const WHOSE: &str = "Touches, passes and shots are those of the players that the agent controls at \
+    the time. Teammates that it doesn't control are left out.";
 const STYLE: &str = "
 :root { color-scheme: light dark; }
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }
@@ -33,16 +36,33 @@ td.bar { width: 50%; }
 td.bar div { background: #2f6df6; height: 0.7rem; border-radius: 0.2rem; }
 ";
 
-/// Writes the page.
+/// Writes the page of a scenario.
 pub fn page(profile: &Profile) -> String {
-    let title = format!("{} in {}", profile.agent, profile.scenario);
-    let mut html = format!(
+    document(&format!("{} in {}", profile.agent, profile.scenario), &part(profile))
+}
+
+/// Writes the page of a suite: a part for each entry.
+pub fn suite_page(suite: &str, profiles: &[Profile]) -> String {
+    let agent = profiles.first().map_or("", |profile| &profile.agent);
+    let parts = profiles.iter().map(|profile| {
+        format!("<section>\n<h2>{}</h2>\n{}</section>\n", escaped(&profile.scenario), part(profile))
+    });
+    document(&format!("{agent} in {suite}"), &parts.collect::<String>())
+}
+
+fn document(title: &str, body: &str) -> String {
+    format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n\
-         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p class=\"dim\">{1}</p>\n",
-        escaped(&title),
-        escaped(&about(profile))
-    );
+         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p>{WHOSE}</p>\n{body}\
+         </body>\n</html>\n",
+        escaped(title),
+    )
+}
+
+/// The figures, pitches and tables of a scenario.
+fn part(profile: &Profile) -> String {
+    let mut html = format!("<p class=\"dim\">{}</p>\n", escaped(&about(profile)));
     html += "<div class=\"pitches\">\n";
     let n = profile.episodes.max(1) as f64;
     let per = |count: usize| format!("{:.1} an episode", count as f64 / n);
@@ -79,7 +99,7 @@ pub fn page(profile: &Profile) -> String {
         let name = escaped(name);
         let _ = writeln!(html, "<tr><td>{name}</td><td class=\"number\">{paid:+.3}</td></tr>");
     }
-    html + "</table>\n</section>\n</div>\n</body>\n</html>\n"
+    html + "</table>\n</section>\n</div>\n"
 }
 
 /// The figures under the title.

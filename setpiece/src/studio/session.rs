@@ -353,7 +353,7 @@ impl Session {
     /// The ready-made agents, and those that the studio was opened with.
     fn agents(&self) -> impl Iterator<Item = ChosenAgent> {
         let ready_made = Agent::NAMED.iter().map(|(_, agent)| ChosenAgent::from(*agent));
-        let baseline = baseline_file(&self.loaded.scenario.name).map(|_| ChosenAgent::Baseline);
+        let baseline = baseline_file(&self.loaded.scenario).ok().map(|_| ChosenAgent::Baseline);
         let given = self.options.agents.iter();
         let given = given.filter(|agent| ChosenAgent::from_name(agent.name()).is_none());
         ready_made.chain(baseline).chain(given.cloned())

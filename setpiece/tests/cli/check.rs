@@ -44,6 +44,32 @@ fn three_mistakes_get_three_located_reports() {
     );
 }
 
+/// A check is reported where it names its agent, with a scenario in the file and without one.
+#[test]
+fn a_check_with_a_baseline_that_is_missing_is_located() {
+    let folder = folder();
+    let check = |scenario: &str| {
+        format!(
+            "check \"it works\" {{
+    play {scenario} with baseline for 5 episodes
+    expect success_rate > 1%
+}}
+"
+        )
+    };
+    let place = |text: &str, words: &[&str]| {
+        let path = write(folder.path(), "checks.pitch", text);
+        let words = [&["SP0024", "checks.pitch:2:"][..], words].concat();
+        fails(&["check", &path], 1, &words);
+    };
+    place(&check("academy_corner"), &["`academy_corner` has no baseline", "these have one"]);
+    let mine = CLOSE.replace("scenario close", "scenario academy_empty_goal_close");
+    let both = format!("{}{mine}", check("academy_empty_goal_close"));
+    place(&both, &["isn't the library's of this name", "player 1 (the left GK) differs"]);
+    let path = write(folder.path(), "fine.pitch", check("academy_empty_goal_close"));
+    assert!(setpiece(&["check", &path]).status.success());
+}
+
 #[test]
 fn short_reports_are_lines_that_begin_with_a_place() {
     let folder = folder();

@@ -2,6 +2,38 @@
 
 use super::{CLOSE, fails, folder, setpiece, text, text_of, write};
 
+/// Before an agent is read that isn't there, and so before anything is played.
+#[test]
+fn an_output_that_cannot_be_written_is_reported_first() {
+    let folder = folder();
+    let out = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (html, png, state) = (out("no/a.html"), out("no/a.png"), out("no/a.pitchs"));
+    let drill = "academy_3_vs_1_with_keeper";
+    let commands: [&[&str]; 5] = [
+        &["profile", "gone.onnx", drill, "-o", &html],
+        &["profile", "gone.onnx", "academy", "-o", &html],
+        &["render", drill, "--agent", "gone.onnx", "-o", &png],
+        &["run", drill, "--agent", "gone.onnx", "--plot", &png],
+        &["snapshot", drill, "--agent", "gone.onnx", "-o", &state],
+    ];
+    for command in commands {
+        let said = fails(command, 1, &["SP0001", "can't be written"]);
+        assert!(!said.contains("gone.onnx"), "{said}");
+    }
+    let file = write(folder.path(), "file", "");
+    let check = "check \"it works\" { play academy_corner for 1 episode expect success_rate > 1% }";
+    let check = write(folder.path(), "checks.pitch", check);
+    fails(
+        &["test", &check, "-o", &format!("{file}/failed")],
+        1,
+        &["can't be written", "is no folder"],
+    );
+    // Nothing is left behind.
+    let html = out("a.html");
+    fails(&["profile", "gone.onnx", drill, "-o", &html], 1, &["gone.onnx"]);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+}
+
 #[test]
 fn a_name_or_file_that_is_not_there_is_one_clear_error() {
     for name in ["3_vs_1", "3_vs_1_with_keper", "3_vs1", "3_v_1"] {

@@ -52,8 +52,27 @@ fn equals_share_the_wins() {
         let [low, high] = ["low", "high"].map(|end| agent["elo"][end].as_f64().unwrap());
         assert!(low <= 1_000.0 && 1_000.0 <= high, "{board}");
     }
+    // Each has a name of its own.
+    assert_eq!(board["pairs"][0]["agents"].to_string(), r#"["bot","bot (2)"]"#);
     let shown = text_of(&args);
     assert!(shown.contains("20 matches of each pair, 4 players each, seed 0"), "{shown}");
+    assert!(shown.contains("  bot (2)  "), "{shown}");
+}
+
+/// Who wins both of two matches isn't known to win all.
+#[test]
+fn an_interval_of_few_matches_is_wide() {
+    let board = json(
+        &[
+            &["leaderboard", "bot", "idle", "--scenario", "academy_empty_goal", "-n", "1"][..],
+            &["--format", "json"],
+        ]
+        .concat(),
+    );
+    for agent in board["agents"].as_array().unwrap() {
+        let [low, high] = ["low", "high"].map(|end| agent["elo"][end].as_f64().unwrap());
+        assert!(high - low > 200.0, "{board}");
+    }
 }
 
 #[test]

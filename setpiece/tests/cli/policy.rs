@@ -15,10 +15,11 @@ struct Linear {
     favourite: usize,
     operator: &'static str,
     metadata: &'static [(&'static str, &'static str)],
+    weight: f32,
 }
 
 const LINEAR: Linear =
-    Linear { inputs: 115, actions: 19, favourite: 0, operator: "Gemm", metadata: &[] };
+    Linear { inputs: 115, actions: 19, favourite: 0, operator: "Gemm", metadata: &[], weight: 0.0 };
 
 /// A field of the format: its number and its bytes.
 fn field(number: u64, bytes: impl AsRef<[u8]>) -> Vec<u8> {
@@ -58,7 +59,7 @@ impl Linear {
         let n = self.actions as u64;
         let mut bias = vec![0.0; self.actions];
         bias[self.favourite] = 1.0;
-        let weights = vec![0.0; self.inputs as usize * self.actions];
+        let weights = vec![self.weight; self.inputs as usize * self.actions];
         let inputs = ["observation", "weights", "bias"].map(|name| field(1, name)).concat();
         let node = [inputs, field(2, "logits"), field(3, "last"), field(4, self.operator)].concat();
         let graph = [
@@ -78,6 +79,11 @@ impl Linear {
     fn write(self, folder: &Path) -> String {
         write(folder, "policy.onnx", self.bytes())
     }
+}
+
+/// A policy that always shoots.
+pub(crate) fn shooting(folder: &Path) -> String {
+    Linear { favourite: 12, ..LINEAR }.write(folder)
 }
 
 fn digest(agent: &str, others: &[&str]) -> serde_json::Value {
@@ -174,6 +180,8 @@ fn files_that_are_no_policies_are_reported() {
         &of(Linear { operator: "Conv", ..LINEAR }),
         &["`last` (Conv) can't be computed", "expected pictures"],
     );
+    let diverged = Linear { weight: f32::NAN, ..LINEAR };
+    refused("nan.onnx", &of(diverged), &["it returns logits that are no numbers (NaN)"]);
     for said in ["0", "often", "-1", "1.5", "4000000000"] {
         let metadata = Box::leak(Box::new([("repeat", said)]));
         let bytes = of(Linear { metadata, ..LINEAR });
@@ -207,6 +215,12 @@ fn every_policy_in_the_box_is_small_and_plays_as_its_card_says() {
         };
         let (boxed, file) = (run("baseline"), run(&path.to_string_lossy()));
         assert_eq!(boxed["digest"], file["digest"], "{name}");
+        // `doc` shows what the card says.
+        let page = text(&setpiece(&["doc", name]).stdout);
+        for words in ["does", "weaknesses"] {
+            let words = card["words"][words].as_str().unwrap();
+            assert!(!words.is_empty() && page.contains(words), "{name}: {page}");
+        }
         // Half of it, so that not every change of the game needs new policies.
         let score =
             boxed["score"]["left"].as_f64().unwrap() - boxed["score"]["right"].as_f64().unwrap();
@@ -220,6 +234,80 @@ fn a_scenario_without_a_baseline_says_which_have_one() {
     let words =
         ["SP0024", "`11_vs_11_easy_stochastic` has no baseline", "`academy_empty_goal_close`"];
     fails(&["run", "11_vs_11_easy_stochastic", "--agent", "baseline"], 1, &words);
+}
+
+/// A policy belongs to players and a start, not to a name.
+#[test]
+fn the_baseline_is_that_of_the_players_and_the_start() {
+    let folder = folder();
+    let digest = |name: &str, text: &str| {
+        let path = write(folder.path(), "mine.pitch", text);
+        let args = ["run", &path, "--scenario", name, "-n", "5", "-a", "baseline"];
+        json(&[&args[..], &["--format", "json"]].concat())["digest"].clone()
+    };
+    let extends = |change: &str| format!("scenario mine extends {DRILL} {{ {change} }}");
+    let usual = digest_of_baseline();
+    let library = concat!(env!("CARGO_MANIFEST_DIR"), "/../stdlib-scenarios/academy");
+    let library = std::fs::read_to_string(format!("{library}/{DRILL}.pitch")).unwrap();
+    assert_eq!(digest(DRILL, &library), usual);
+    assert_eq!(digest("mine", &extends("reward fast { give -0.01 }")), usual);
+    // The limit is a number of the start program.
+    for change in [
+        "end success near when ball.x > 0.8",
+        "end limit 30s",
+        "end limit 1s",
+        "param difficulty = 0.9",
+        "team right { difficulty: 0.3 }",
+        "let far = uniform(1m, 2m)",
+    ] {
+        digest("mine", &extends(change));
+    }
+}
+
+fn digest_of_baseline() -> serde_json::Value {
+    json(&["run", DRILL, "-n", "5", "-a", "baseline", "--format", "json"])["digest"].clone()
+}
+
+#[test]
+fn another_scenario_of_the_same_name_has_no_baseline() {
+    let folder = folder();
+    let refused = |change: &str, what: &str| {
+        let text = format!("scenario {DRILL} extends academy {{ {change} }}");
+        let path = write(folder.path(), "mine.pitch", text);
+        let words = ["SP0024", "isn't the library's of this name", what, "--agent FILE.onnx"];
+        fails(&["run", &path, "--agent", "baseline"], 1, &words);
+    };
+    let players = "team left { GK at (-1.011, 0) CM at (0.6066, 0) CM at (0.7077, 0.2033) \
+        CM at (0.7077, -0.2033) }";
+    let (right, ball) = ("team right { GK at (1.011, 0) CB at (0.7583, 0) }", "ball at (0.62, 0)");
+    refused(&format!("{ball} {right} team left {{ CM at (0.6, 0) }}"), "the number of players");
+    let moved = players.replace("0.6066", "0.5");
+    refused(&format!("{ball} {right} {moved}"), "player 2 (the left CM)");
+    refused(&format!("ball at (0.6, 0) {players} {right}"), "the ball's start");
+    refused(&format!("{ball} {players} {right} rules {{ offside: on }}"), "the rules");
+}
+
+#[test]
+fn every_entry_of_a_suite_without_a_baseline_is_reported_at_once() {
+    let folder = folder();
+    let suite = "suite some {
+        academy_empty_goal_close for 2 episodes
+        academy_corner for 1000000 episodes
+        academy_empty_goal for 2 episodes
+        5_vs_5 for 2 episodes
+    }";
+    let suite = write(folder.path(), "some.pitch", suite);
+    let words = [
+        "SP0024",
+        "2 of 4 entries have no baseline: `academy_corner`, `5_vs_5`",
+        "`academy_empty_goal_close`",
+    ];
+    let played = setpiece(&["run", &suite, "-a", "baseline"]);
+    assert!(played.stdout.is_empty());
+    fails(&["run", &suite, "-a", "baseline"], 1, &words);
+    fails(&["run", &suite, "-a", "idle", "--beside", "baseline"], 1, &words);
+    let all = setpiece(&["run", "academy", "-a", "baseline"]);
+    assert!(text(&all.stderr).contains("6 of 11 entries have no baseline"), "{all:?}");
 }
 
 #[test]

@@ -255,3 +255,15 @@ fn a_level_that_cant_be_read_has_a_code() {
     }
     fails(&["run", "--level", &format!("academy_corner#1:{}", u64::MAX)], 1, &["SP0022"]);
 }
+
+/// Five goals in five episodes aren't a goal in every episode.
+#[test]
+fn a_score_of_few_episodes_has_a_wide_interval() {
+    let args = ["run", "academy_empty_goal_close", "-a", "baseline", "--beside", "idle", "-n", "5"];
+    let table = json(&[&args[..], &["--format", "json"]].concat());
+    let agents = &table["entries"][0]["agents"];
+    let score = |agent: usize, end: &str| agents[agent]["score"][end].as_f64().unwrap();
+    assert_eq!([score(0, "value"), score(0, "high")], [1.0, 1.0], "{table}");
+    assert!((score(0, "low") - 0.5655).abs() < 1e-3, "{table}");
+    assert!((score(1, "high") - 0.4345).abs() < 1e-3, "{table}");
+}

@@ -46,6 +46,23 @@ facts! {
             part(format!("`{scenario}` {message}"), label, elsewhere.as_ref())
                 .help(format!("`{hardest}` fails most often: {}", cure.words()))
         },
+        /// A check is played with the policy of a scenario that has none.
+        NoBaseline {
+            /// The scenario's name.
+            scenario: String,
+            /// What differs from the library's scenario of that name, if that one has a policy.
+            differs: Option<String>,
+            /// The scenarios that have one.
+            known: Vec<String>,
+        } = Code::NoBaseline => match differs {
+            Some(what) => say(
+                format!("`{scenario}` has no baseline: it isn't the library's of this name"),
+                format!("{what} differs"),
+            )
+            .help("name another agent: `with bot`; `setpiece test --agent FILE.onnx` plays any policy"),
+            None => say(format!("`{scenario}` has no baseline"), "plays every slot")
+                .help(format!("these have one: `{}`", known.join("`, `"))),
+        },
     }
 }
 

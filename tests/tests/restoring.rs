@@ -504,6 +504,17 @@ fn whatever_a_sealed_snapshot_says_does_no_harm() {
     });
 }
 
+#[test]
+fn no_byte_of_a_sealed_snapshot_does_harm_as_the_largest() {
+    let scenarios = scenarios();
+    let (mut environment, snapshot) = underway(scenarios.last().unwrap(), 6, 72);
+    for at in HEAD_BYTES..snapshot.len() {
+        let mut bytes = snapshot.clone();
+        bytes[at] = u8::MAX;
+        harmless(&mut environment, &snapshot, &sealed(bytes));
+    }
+}
+
 /// A reset that finds no start leaves the last episode visible, under its own key.
 #[test]
 fn what_is_left_by_a_reset_without_a_start_is_restored() {

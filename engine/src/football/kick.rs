@@ -117,7 +117,7 @@ pub fn kick_ball(game: &mut Match, events: &mut Events, kicks: Squad) {
         let i = id.index();
         let Some(mut plan) = game.players[i].body.kick else { continue };
         if plan.held {
-            plan.gauge_ticks = (plan.gauge_ticks + 1).min(GAUGE_TICKS);
+            plan.gauge_ticks = plan.gauge_ticks.saturating_add(1).min(GAUGE_TICKS);
             plan.until = now + PATIENCE_TICKS;
         }
         let meet_s = game.players[i].body.meet_s;

@@ -126,7 +126,7 @@ pub fn load_with(
     Err(Error::Unknown { name: name_or_path.to_owned(), similar })
 }
 
-/// The name whose beginning was given, with or without underscores. A slip is allowed if more than
+/// The name whose beginning was given, with or without underscores. A typo is allowed if more than
 /// one word was given, for many names begin with the same one.
 fn begun<'a>(given: &str, names: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
     let joined = |name: &str| name.replace('_', "");

@@ -7,7 +7,6 @@ use crate::check::types::Ty;
 use crate::lower::param_info::ParamInfo;
 use crate::problem::facts::{Bounds, Chance, Kind, Names, Types};
 use crate::problem::{Guess, Problem};
-use crate::habit;
 use crate::resolve::FlatParam;
 use setpiece_scenario::Param;
 use setpiece_scenario::vocabulary::Type;
@@ -19,10 +18,7 @@ pub(crate) fn declared_type(world: &World<'_>, ty: &Ident) -> Ty {
         Some(Type::Behavior) | None => {
             let known: Vec<&str> =
                 Type::ALL.iter().filter(|ty| **ty != Type::Behavior).map(|ty| ty.name()).collect();
-            let guess = match habit::of_type(&ty.node) {
-                Some(ours) => Guess::sure(ours.to_owned()),
-                None => Guess::similar_or_all(&ty.node, &known),
-            };
+            let guess = Guess::of_type(&ty.node, &known);
             world.report(Problem::new(
                 ty.span,
                 Names::Unknown { kind: Kind::Type, name: ty.node.clone(), guess },

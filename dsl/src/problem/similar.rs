@@ -100,6 +100,14 @@ impl Guess {
         }
     }
 
+    /// Knows the types of other languages.
+    pub(crate) fn of_type(found: &str, known: &[&str]) -> Guess {
+        match habit::of_type(found) {
+            Some(ours) => Guess::sure(ours.to_owned()),
+            None => Guess::similar_or_all(found, known),
+        }
+    }
+
     /// The same, but where nothing is similar it lists all that there is even for a word of another
     /// language.
     pub(crate) fn similar_or_all(found: &str, known: &[&str]) -> Guess {

@@ -208,6 +208,8 @@ pub(in crate::judge::script) fn elsewhere(of: Subject, name: &str, me: bool) -> 
     let players = members().find(|part| part.of == of && part.gives == Subject::Players);
     holder.map(|part| format!("write `{}.{name}`", part.name)).or_else(|| {
         let players = players.filter(|_| holds(Subject::Player))?.name;
-        Some(format!("a player has it: write `{players}[0].{name}`, or `{players}.filter(|it| it.{name} …)`"))
+        Some(format!(
+            "a player has it: write `{players}[0].{name}`, or `{players}.filter(|it| it.{name} …)`"
+        ))
     })
 }

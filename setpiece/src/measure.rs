@@ -98,7 +98,8 @@ pub fn statistic(measure: &Measure, sorted: &[f64]) -> f64 {
 pub fn number(quantity: &Quantity, episode: &EpisodeSummary, terms: &[String]) -> Option<f64> {
     let by_agent = |of: &dyn Fn(usize) -> f64| {
         let agents = episode.returns.len();
-        (0..agents).map(of).sum::<f64>() / agents.max(1) as f64
+        // The sum of nothing is -0.
+        (0..agents).map(of).sum::<f64>() / agents.max(1) as f64 + 0.0
     };
     match quantity {
         Quantity::Length => Some(f64::from(episode.length) / STEPS_PER_S),

@@ -184,6 +184,19 @@ fn a_suite_is_a_table_with_a_row_for_each_entry() {
 }
 
 #[test]
+fn a_suite_without_rewards_returns_zero_without_a_sign() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = "scenario plain { ball at (0, 0) agents { left: 1 } end limit 2 steps\n\
+        team left { GK at (-1, 0) CM at (-0.1, 0) } team right { GK at (1, 0) } }\n\
+        suite all { plain for 2 episodes }\n";
+    std::fs::write(dir.path().join("plain.pitch"), text).unwrap();
+    let args = ["run", "plain.pitch", "--scenario", "all", "--format", "csv"];
+    let (code, out, err) = setpiece(dir.path(), &args);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(out.contains(",0,") && !out.contains("-0,"), "{out}");
+}
+
+#[test]
 fn a_run_plays_what_is_named_and_says_what_else_stands_there() {
     let dir = tempfile::tempdir().unwrap();
     let text = "scenario drill extends academy_empty_goal_close {}\n\

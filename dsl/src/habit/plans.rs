@@ -32,6 +32,12 @@ pub(super) const PLANS: &[Habit] = &[
     row(Check, "^ | assert¦require¦ensure¦expects¦should :?", "write `expect …`"),
     row(Check, "^ | success_rate¦rate¦mean¦min¦max¦quantile¦never", "write `expect {1} …`"),
     row(
+        Check,
+        "expect _ | =",
+        "what is expected is at least or at most: `expect {1} >= …`, `expect {1} <= …`",
+    ),
+    row(Suite, "^ | for _ in", "write `each {1} in …`"),
+    row(
         Suite,
         "^ | play¦run¦scenario¦SCENARIO¦Scenario¦level¦task :? _",
         "write `{2} for 100 episodes`",
@@ -42,5 +48,11 @@ pub(super) const PLANS: &[Habit] = &[
         "write `stage first = {2}`",
     ),
     row(Curriculum, "stage _ | :¦{¦of¦is _", "write `stage {1} = {3}`"),
+    row(Curriculum, "stage _ = … | when¦if¦while", "what ends a stage stands behind `until`"),
+    row(
+        Curriculum,
+        "until … | for 9 episodes",
+        "how many episodes are measured stands behind `last`: `success_rate(last: {1})`",
+    ),
     row(Curriculum, "until … | and", "a stage ends when one of its goals holds: write `or`"),
 ];

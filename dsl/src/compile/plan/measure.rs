@@ -18,6 +18,17 @@ const QUANTITIES: &[&str] = QuantityWord::NAMES;
 /// The most episodes that a curriculum looks back on.
 const LAST_MAX: u64 = 1_000_000;
 
+/// Whether every share of episodes compares so with a bound, or none does.
+fn decided(comparison: Comparison, bound: f64) -> Option<bool> {
+    match comparison {
+        Comparison::Greater if bound >= 1.0 => Some(false),
+        Comparison::Less if bound <= 0.0 => Some(false),
+        Comparison::GreaterEqual if bound <= 0.0 => Some(true),
+        Comparison::LessEqual if bound >= 1.0 => Some(true),
+        _ => None,
+    }
+}
+
 impl<'w> Planner<'_, 'w> {
     /// A measure and its bound.
     pub(super) fn goal(
@@ -28,12 +39,24 @@ impl<'w> Planner<'_, 'w> {
     ) -> Option<plan::MeasureGoal> {
         let (measure, last, unit) = self.measure(&written.measure, scenario, in_curriculum)?;
         let comparison = Comparison::from_sign(&written.comparison.node)?;
-        Some(plan::MeasureGoal {
-            measure,
-            last,
-            comparison,
-            bound: self.bound(&written.bound, unit)?,
-        })
+        let bound = self.bound(&written.bound, unit)?;
+        let span = written.measure.span.to(written.bound.span);
+        let text = self.world.text(span);
+        match measure {
+            Measure::SuccessRate | Measure::Rate(_) => {
+                if let Some(always) = decided(comparison, bound) {
+                    self.report(span, Facts::ShareBound { text, always });
+                    return None;
+                }
+            }
+            Measure::Steps | Measure::Episodes if comparison == Comparison::Equal => {
+                let counted = written.measure.name.node.clone();
+                self.report(span, Facts::CountBound { text, counted });
+                return None;
+            }
+            _ => {}
+        }
+        Some(plan::MeasureGoal { measure, last, comparison, bound })
     }
 
     /// `never OUTCOME`
@@ -116,6 +139,11 @@ impl<'w> Planner<'_, 'w> {
                 let fact = if is_record(other, scenario) {
                     let form = format!("mean(record {other})");
                     Facts::IsRecord { name: named, form }
+                } else if scenario.endings.list.iter().any(|ending| ending.label == other) {
+                    Facts::IsOutcome { name: named, form: format!("rate(outcome {other})") }
+                } else if other == "median" {
+                    let guess = Guess::written("write `quantile(…, 50%)`");
+                    Facts::NoMeasure { name: named, guess }
                 } else {
                     let records = scenario.records.iter().map(|record| record.name.as_str());
                     let known: Vec<&str> = MEASURES.iter().copied().chain(records).collect();

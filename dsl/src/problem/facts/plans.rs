@@ -67,6 +67,18 @@ facts! {
         IsRecord { name: String, form: String } = Code::UnknownName =>
             say(format!("no number of an episode is called `{name}`"), "a record")
                 .help(format!("write `{form}`")),
+        /// A share of episodes that is never beyond a bound, or always within it.
+        ShareBound { text: String, always: bool } = Code::OutOfRange =>
+            say(format!("`{text}` {} holds", if *always { "always" } else { "never" }), "")
+                .help("a share lies in 0%..100%"),
+        /// A number that is counted meets a bound by chance.
+        CountBound { text: String, counted: String } = Code::OutOfRange =>
+            say(format!("`{text}` may never hold"), "")
+                .help(format!("more than one is counted at once: write `{counted} >= …`")),
+        /// An outcome stands where something is measured; `form`: how often it is met.
+        IsOutcome { name: String, form: String } = Code::UnknownName =>
+            say(format!("nothing that is measured is called `{name}`"), "an outcome")
+                .help(format!("write `{form}`")),
         /// A scenario has no such record, term or outcome; `what`: which of these.
         NoSuch {
             scenario: String,

@@ -138,7 +138,8 @@ def tables(runs: list[Run]) -> dict[str, str]:
     shown = {name: markdown(rows) for name, rows in lines.items()}
     team = [found[name] for name in {run.name: 0 for run in runs if run.table == "team"}]
     shown["team_course"] = course([one for one in team if one])
-    return {**shown, **{name: tried(name) for name in ("tried", "tried_team")}}
+    chosen_by = ("tried", "tried_team", "tried_curriculum")
+    return {**shown, **{name: tried(name) for name in chosen_by}}
 
 
 def course(entries: list[list[dict[str, Any]]]) -> str:

@@ -100,11 +100,6 @@ impl Guess {
         }
     }
 
-    /// Knows what to write instead.
-    pub(crate) fn written(help: &str) -> Guess {
-        Guess { meant: Some(Meant::Habit(help.to_owned())), known: Vec::new() }
-    }
-
     /// Knows the types of other languages.
     pub(crate) fn of_type(found: &str, known: &[&str]) -> Guess {
         match habit::of_type(found) {

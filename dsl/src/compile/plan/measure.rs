@@ -142,8 +142,7 @@ impl<'w> Planner<'_, 'w> {
                 } else if scenario.endings.list.iter().any(|ending| ending.label == other) {
                     Facts::IsOutcome { name: named, form: format!("rate(outcome {other})") }
                 } else if other == "median" {
-                    let guess = Guess::written("write `quantile(…, 50%)`");
-                    Facts::NoMeasure { name: named, guess }
+                    Facts::Median
                 } else {
                     let records = scenario.records.iter().map(|record| record.name.as_str());
                     let known: Vec<&str> = MEASURES.iter().copied().chain(records).collect();

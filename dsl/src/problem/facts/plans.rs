@@ -60,6 +60,10 @@ facts! {
         /// Nothing that is measured has this name.
         NoMeasure { name: String, guess: Guess } = Code::UnknownName =>
             say(format!("nothing that is measured is called `{name}`"), "not known").guess(guess, "it can be"),
+        /// The median is a quantile.
+        Median = Code::UnknownName =>
+            say("nothing that is measured is called `median`", "not known")
+                .help("write `quantile(…, 50%)`"),
         /// No number of an episode has this name.
         NoQuantity { text: String, guess: Guess } = Code::UnknownName =>
             say(format!("no number of an episode is called `{text}`"), "not known").guess(guess, "it can be"),

@@ -17,6 +17,8 @@ words! {
         Ball = "ball", "the ball, and where it is";
         Centre = "centre", "the centre spot";
         Score = "score", "the goals: `score.left`, `score.us`";
+        Round = "round", "the round of the episode, from 1 on; 1 without `rounds`";
+        RoundElapsed = "round_elapsed", "the time since the round began";
         Event = "event", "the event of an `on`: `event.by`, `event.at`";
     }
 }

@@ -4,7 +4,7 @@ use setpiece::scenario::vocabulary::{
     Action, AgentsOption, BallOption, EventField, EventKind, Function, GameMode, Landmark,
     MeasureWord, Owner, PROPERTIES, PitchFigure, PitchRegion, PlayerOption, Primitive, Qualifier,
     QuantityWord, RegionName, Role, Rule, StartKind, StartOption, Stat, SubstituteOption,
-    TeamOption, Type, Unit, WorldFigure,
+    TeamOption, Type, Unit, ValueWord, WorldFigure,
 };
 
 /// A page of words.
@@ -271,6 +271,14 @@ fn values() -> Vec<Group> {
             "property of the match",
             "They stand alone: `elapsed`.",
         ),
+        Group {
+            title: "Values with a name",
+            kind: "value",
+            about: "They are no properties of the match.",
+            pages: &[("names", "language/expression.md")],
+            head: PLAIN,
+            rows: rows!(ValueWord),
+        },
         Group {
             title: "Functions",
             kind: "function",
